@@ -1,0 +1,30 @@
+# cca_layer(NAME SOURCES file... [DEPENDS target...])
+#
+# One folder of src/ as a library cca_NAME, known as cca_mrpt::NAME here and to projects that
+# find_package(cca_mrpt). A layer may use only the layers named in DEPENDS.
+function(cca_layer name)
+  cmake_parse_arguments(ARG "" "" "SOURCES;DEPENDS;PRIVATE_DEPENDS" ${ARGN})
+  set(target cca_${name})
+  add_library(${target} ${ARG_SOURCES})
+  add_library(cca_mrpt::${name} ALIAS ${target})
+  set_target_properties(${target} PROPERTIES EXPORT_NAME ${name} POSITION_INDEPENDENT_CODE ON)
+  target_include_directories(${target} PUBLIC
+    $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/include> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
+  target_compile_features(${target} PUBLIC cxx_std_17)
+  target_link_libraries(${target} PUBLIC Eigen3::Eigen ${ARG_DEPENDS} PRIVATE ${ARG_PRIVATE_DEPENDS})
+  cca_options(${target})
+  set_property(GLOBAL APPEND PROPERTY CCA_LAYERS ${target})
+endfunction()
+
+# Warnings and sanitizers, for libraries, programs and tests alike.
+function(cca_options target)
+  target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Wshadow)
+  if(CCA_WARNINGS_AS_ERRORS)
+    target_compile_options(${target} PRIVATE -Werror)
+  endif()
+  if(CCA_SANITIZE)
+    target_compile_options(${target} PRIVATE -fsanitize=address,undefined -fno-sanitize-recover=undefined
+                           -fno-omit-frame-pointer)
+    target_link_options(${target} PUBLIC -fsanitize=address,undefined)
+  endif()
+endfunction()

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Core>
+
+namespace cca {
+
+/// A rigid motion of the plane, named after the frames that it joins: p_map = T_map_robot * p_robot.
+struct Pose2 {
+  double x = 0.0;      ///< m
+  double y = 0.0;      ///< m
+  double theta = 0.0;  ///< rad, counter-clockwise
+
+  Eigen::Vector2d position() const { return {x, y}; }
+  /// Unit vector of the pose's x axis.
+  Eigen::Vector2d heading() const;
+  Pose2 inverse() const;
+};
+
+/// Composition, T_a_c = T_a_b * T_b_c; theta wrapped to (-pi, pi].
+Pose2 operator*(const Pose2& T_a_b, const Pose2& T_b_c);
+
+/// A point of frame b in frame a.
+Eigen::Vector2d operator*(const Pose2& T_a_b, const Eigen::Vector2d& p_b);
+
+/// @param angle  rad, finite.
+/// @return       the same angle in (-pi, pi].
+double wrapAngle(double angle);
+
+}  // namespace cca

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+namespace cca {
+
+/// Velocity of a differential drive in its own frame.
+struct Velocity {
+  double linear = 0.0;   ///< m/s, forwards
+  double angular = 0.0;  ///< rad/s, counter-clockwise
+};
+
+/// What the planner must know of a round differential-drive robot.
+struct RobotParameters {
+  double radius = 0.25;
+  double safety_margin = 0.05;
+  double max_linear_velocity = 0.7;
+  double max_angular_velocity = 1.5;
+  double max_linear_acceleration = 1.0;
+  double max_angular_acceleration = 4.0;
+};
+
+/// See describe(CcaParameters&, ...).
+template <class Field>
+void describe(RobotParameters& p, Field&& field) {
+  field("radius", p.radius, 0.01, 5.0, "m", "radius of the smallest circle around the robot");
+  field("safety_margin", p.safety_margin, 0.0, 2.0, "m", "clearance kept beyond the radius");
+  field("max_linear_velocity", p.max_linear_velocity, 0.01, 10.0, "m/s", "forward speed limit");
+  field("max_angular_velocity", p.max_angular_velocity, 0.01, 20.0, "rad/s", "turning speed limit");
+  field("max_linear_acceleration", p.max_linear_acceleration, 0.01, 50.0, "m/s^2",
+        "limit of speeding up and braking");
+  field("max_angular_acceleration", p.max_angular_acceleration, 0.01, 100.0, "rad/s^2",
+        "limit of the turning rate's change");
+}
+
+}  // namespace cca

@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+/// Each adds one sub-command to the program, in a file of its own; the work is done in the
+/// sub-command's callback, which throws std::runtime_error where the run fails.
+namespace cca::apps {
+
+void addExtractCommand(CLI::App& program);
+
+}  // namespace cca::apps

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <cstdio>
+#include <exception>
+
+#include "commands.hpp"
+
+namespace {
+constexpr int kDone = 0, kRunFailed = 1, kUsage = 2;
+}
+
+int main(int argc, char** argv) {
+  CLI::App program{"Line maps from 2-D lasers, and exploration that brings them back", "cca-mrpt"};
+  program.require_subcommand(1);
+  cca::apps::addExtractCommand(program);
+  try {
+    program.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return program.exit(error) == 0 ? kDone : kUsage;
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "cca-mrpt: %s\n", error.what());
+    return kRunFailed;
+  }
+  return kDone;
+}

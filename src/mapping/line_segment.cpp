@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "cca_mrpt/mapping/line_segment.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace cca {
+
+void PointMoments::add(const Eigen::Vector2d& point, double point_weight) {
+  add(PointMoments{point_weight, point, Eigen::Matrix2d::Zero()});
+}
+
+void PointMoments::add(const PointMoments& other) {
+  const double sum = weight + other.weight;
+  if (sum <= 0.0) return;
+  const Eigen::Vector2d offset = other.mean - mean;
+  scatter += other.scatter + (weight * other.weight / sum) * offset * offset.transpose();
+  mean += (other.weight / sum) * offset;
+  weight = sum;
+}
+
+Eigen::Vector2d LineSegment::direction() const {
+  const Eigen::Vector2d along = end - start;
+  const double norm = along.norm();
+  if (norm <= 0.0) return {1.0, 0.0};
+  return along / norm;
+}
+
+FittedLine fitLine(const PointMoments& moments) {
+  const double sxx = moments.scatter(0, 0), syy = moments.scatter(1, 1), sxy = moments.scatter(0, 1);
+  const double theta = 0.5 * std::atan2(2.0 * sxy, sxx - syy);
+  const double mid = 0.5 * (sxx + syy), swing = std::hypot(0.5 * (sxx - syy), sxy);
+  FittedLine line;
+  line.centroid = moments.mean;
+  line.direction = {std::cos(theta), std::sin(theta)};
+  line.residual_sum_sq = std::max(0.0, mid - swing);
+  line.spread_sum_sq = mid + swing;
+  return line;
+}
+
+}  // namespace cca

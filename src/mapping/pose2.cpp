@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "cca_mrpt/mapping/pose2.hpp"
+
+#include <cmath>
+
+namespace cca {
+
+double wrapAngle(double angle) {
+  const double wrapped = std::remainder(angle, 2.0 * M_PI);
+  return wrapped <= -M_PI ? M_PI : wrapped;
+}
+
+Eigen::Vector2d Pose2::heading() const { return {std::cos(theta), std::sin(theta)}; }
+
+Pose2 Pose2::inverse() const {
+  const double c = std::cos(theta), s = std::sin(theta);
+  return {-c * x - s * y, s * x - c * y, wrapAngle(-theta)};
+}
+
+Pose2 operator*(const Pose2& T_a_b, const Pose2& T_b_c) {
+  const Eigen::Vector2d p = T_a_b * T_b_c.position();
+  return {p.x(), p.y(), wrapAngle(T_a_b.theta + T_b_c.theta)};
+}
+
+Eigen::Vector2d operator*(const Pose2& T_a_b, const Eigen::Vector2d& p_b) {
+  const double c = std::cos(T_a_b.theta), s = std::sin(T_a_b.theta);
+  return {T_a_b.x + c * p_b.x() - s * p_b.y(), T_a_b.y + s * p_b.x() + c * p_b.y()};
+}
+
+}  // namespace cca
