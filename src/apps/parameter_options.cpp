@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "parameter_options.hpp"
+
+#include <algorithm>
+#include <cstdio>
+#include <stdexcept>
+
+namespace cca::apps {
+
+ParameterOptions::ParameterOptions(CLI::App& command, const std::vector<std::string>& sections)
+    : command_(command) {
+  config_ = command.add_option("--config", "parameters from an MRPT .ini file")
+                ->type_name("FILE.ini")
+                ->expected(1);
+  command.add_flag_callback(
+      "--dump-config",
+      [this] {
+        std::fputs(dumpParameters(resolve()).c_str(), stdout);
+        throw CLI::Success();
+      },
+      "print every parameter with its value, range, unit and meaning, and stop");
+  Parameters defaults;
+  for (const auto& field : listParameters(defaults)) {
+    if (std::find(sections.begin(), sections.end(), field.section) == sections.end()) continue;
+    addOption("--" + field.key(), field)->group("Parameters");
+  }
+}
+
+CLI::Option* ParameterOptions::addOption(const std::string& option, const ParameterField& field) {
+  const std::string help = field.meaning + "; " + field.allowed;
+  options_.emplace_back(field.key(), command_.add_option(option, help));
+  return options_.back().second->type_name("[" + field.get() + "]")->expected(1);
+}
+
+void ParameterOptions::addAlias(const std::string& option, const std::string& key) {
+  Parameters defaults;
+  for (const auto& field : listParameters(defaults)) {
+    if (field.key() != key) continue;
+    addOption(option, field);
+    return;
+  }
+  throw std::logic_error("no parameter " + key);
+}
+
+Parameters ParameterOptions::resolve() const {
+  Parameters p;
+  try {
+    if (config_->count()) loadParameters(config_->results().front(), p);
+  } catch (const std::runtime_error& error) {
+    throw CLI::ValidationError("--config", error.what());
+  }
+  const auto fields = listParameters(p);
+  for (const auto& [key, option] : options_) {
+    if (!option->count()) continue;
+    for (const auto& field : fields) {
+      if (field.key() != key) continue;
+      try {
+        field.set(option->results().front());
+      } catch (const std::runtime_error& error) {
+        throw CLI::ValidationError(option->get_name(), error.what());
+      }
+    }
+  }
+  return p;
+}
+
+}  // namespace cca::apps

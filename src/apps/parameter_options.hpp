@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "cca_mrpt/io/parameters.hpp"
+
+namespace cca::apps {
+
+/// The options that every sub-command has in common: --config FILE.ini, --dump-config, and one
+/// --SECTION.KEY for each parameter of the named sections. Must outlive the parsing.
+class ParameterOptions {
+ public:
+  /// @param sections  those that the command uses; others are neither shown nor accepted on the
+  ///                  command line, but may stand in the .ini.
+  ParameterOptions(CLI::App& command, const std::vector<std::string>& sections);
+
+  /// Also sets a parameter under a name of its own, e.g. addAlias("--laser-range", "laser.range").
+  void addAlias(const std::string& option, const std::string& key);
+
+  /// Defaults, then the .ini, then the command line.
+  /// @throws CLI::ValidationError (exit status 2) naming file or option, key, value and range.
+  Parameters resolve() const;
+
+ private:
+  CLI::Option* addOption(const std::string& option, const ParameterField& field);
+
+  CLI::App& command_;
+  CLI::Option* config_ = nullptr;
+  std::vector<std::pair<std::string, CLI::Option*>> options_;  // key, option
+};
+
+}  // namespace cca::apps

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "cca_mrpt/io/parameters.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cstdio>
+#include <fstream>
+#include <set>
+#include <stdexcept>
+
+namespace cca {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+
+class ParametersFile : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    path_ = ::testing::TempDir() + "parameters_test_" +
+            ::testing::UnitTest::GetInstance()->current_test_info()->name() + ".ini";
+  }
+  void TearDown() override { std::remove(path_.c_str()); }
+
+  std::string errorOf(const std::string& text) {
+    std::ofstream(path_) << text;
+    try {
+      loadParameters(path_, parameters_);
+    } catch (const std::runtime_error& error) {
+      return error.what();
+    }
+    return "";
+  }
+
+  std::string path_;
+  Parameters parameters_;
+};
+
+TEST_F(ParametersFile, SetsWhatItNamesAndLeavesTheRest) {
+  EXPECT_EQ(errorOf("[mapping]\npoints_per_cluster = 7\n[robot]\nradius = 0.3 // wide\n"), "");
+  EXPECT_EQ(parameters_.mapping.points_per_cluster, 7);
+  EXPECT_DOUBLE_EQ(parameters_.robot.radius, 0.3);
+  EXPECT_DOUBLE_EQ(parameters_.mapping.similarity_cut, Parameters().mapping.similarity_cut);
+}
+
+TEST_F(ParametersFile, NamesFileKeyValueAndRangeOfABadValue) {
+  for (const char* value : {"0", "-3", "1000", "5.5", "nan", "five", "", "5 5"}) {
+    EXPECT_THAT(errorOf(std::string("[mapping]\npoints_per_cluster = ") + value + "\n"),
+                AllOf(HasSubstr(path_), HasSubstr("[mapping] points_per_cluster"),
+                      HasSubstr("in [2, 50] points")))
+        << value;
+  }
+  EXPECT_THAT(errorOf("[laser]\nrange = inf\n"), HasSubstr("[laser] range"));
+  EXPECT_THAT(errorOf("[exploration]\nstrategy = fastest\n"), HasSubstr("one of"));
+}
+
+TEST_F(ParametersFile, RefusesUnknownKeysAndSections) {
+  EXPECT_THAT(errorOf("[mapping]\npoint_per_cluster = 7\n"), HasSubstr("unknown key"));
+  EXPECT_THAT(errorOf("[maping]\npoints_per_cluster = 7\n"), HasSubstr("unknown key"));
+  EXPECT_THAT(errorOf("points_per_cluster = 7\n"), HasSubstr("points_per_cluster"));
+}
+
+TEST_F(ParametersFile, StaysUnchangedAfterAnError) {
+  EXPECT_NE(errorOf("[mapping]\npoints_per_cluster = 7\nsimilarity_cut = 2\n"), "");
+  EXPECT_EQ(parameters_.mapping.points_per_cluster, Parameters().mapping.points_per_cluster);
+}
+
+TEST_F(ParametersFile, RefusesAFileThatDoesNotExist) {
+  EXPECT_THROW(loadParameters("/no/such/file.ini", parameters_), std::runtime_error);
+  EXPECT_THROW(loadParameters(::testing::TempDir(), parameters_), std::runtime_error);
+}
+
+TEST_F(ParametersFile, ReadsBackWhatIsDumped) {
+  Parameters written;
+  written.mapping.similarity_cut = 0.123456789012345;
+  written.laser.beams = 181;
+  EXPECT_EQ(errorOf(dumpParameters(written)), "");
+  EXPECT_EQ(parameters_.mapping.similarity_cut, written.mapping.similarity_cut);
+  EXPECT_EQ(parameters_.laser.beams, 181);
+  EXPECT_EQ(dumpParameters(parameters_), dumpParameters(written));
+}
+
+TEST(Parameters, DefaultsLieWithinTheirOwnRangesAndKeysAreUnique) {
+  Parameters p;
+  std::set<std::string> keys;
+  for (const auto& field : listParameters(p)) {
+    EXPECT_NO_THROW(field.set(field.get())) << field.key();
+    EXPECT_TRUE(keys.insert(field.key()).second) << field.key();
+    EXPECT_FALSE(field.meaning.empty()) << field.key();
+  }
+}
+
+}  // namespace
+}  // namespace cca
