@@ -1,6 +1,31 @@
+# Install rules and the CMake export. A build with ROS has one package configuration, catkin's, which
+# includes cca_mrpt-extras.cmake; without ROS that same file is the package configuration.
 include(CMakePackageConfigHelpers)
-get_property(layers GLOBAL PROPERTY CCA_LAYERS)
-install(TARGETS ${layers} EXPORT cca_mrptTargets
-        ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR})
+if(CCA_ROS)
+  set(config_dir share/cca_mrpt/cmake)
+  set(export_dir ${CATKIN_DEVEL_PREFIX}/share/cca_mrpt/cmake)
+else()
+  set(config_dir ${CMAKE_INSTALL_LIBDIR}/cmake/cca_mrpt)
+  set(export_dir ${CMAKE_CURRENT_BINARY_DIR})
+  install(FILES cmake/cca_mrpt-extras.cmake DESTINATION ${config_dir} RENAME cca_mrptConfig.cmake)
+  write_basic_package_version_file(cca_mrptConfigVersion.cmake COMPATIBILITY SameMinorVersion)
+  install(FILES ${CMAKE_CURRENT_BINARY_DIR}/cca_mrptConfigVersion.cmake DESTINATION ${config_dir})
+endif()
+
+# The Eigen-only layers stand in an export of their own, so that using them needs no MRPT.
+set(eigen_layers cca_mapping cca_navigation cca_baselines)
+set(mrpt_layers cca_simulation cca_io)
+if(NOT CCA_WITH_MRPT)
+  set(mrpt_layers "")
+endif()
+foreach(kind eigen mrpt)
+  if(${kind}_layers)
+    install(TARGETS ${${kind}_layers} EXPORT cca_mrpt_${kind}
+            ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR})
+    install(EXPORT cca_mrpt_${kind} NAMESPACE cca_mrpt:: DESTINATION ${config_dir})
+    export(EXPORT cca_mrpt_${kind} NAMESPACE cca_mrpt:: FILE ${export_dir}/cca_mrpt_${kind}.cmake)
+  endif()
+endforeach()
+
 install(DIRECTORY include/cca_mrpt DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
 install(DIRECTORY maps DESTINATION ${CMAKE_INSTALL_DATADIR}/cca_mrpt)

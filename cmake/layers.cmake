@@ -13,7 +13,6 @@ function(cca_layer name)
   target_compile_features(${target} PUBLIC cxx_std_17)
   target_link_libraries(${target} PUBLIC Eigen3::Eigen ${ARG_DEPENDS} PRIVATE ${ARG_PRIVATE_DEPENDS})
   cca_options(${target})
-  set_property(GLOBAL APPEND PROPERTY CCA_LAYERS ${target})
 endfunction()
 
 # Warnings and sanitizers, for libraries, programs and tests alike.
