@@ -20,9 +20,7 @@ std::string numberText(double value) {
   return {text, end};
 }
 
-std::string numberText(int value) {
-  return std::to_string(value);
-}
+std::string numberText(int value) { return std::to_string(value); }
 
 [[noreturn]] void refuse(const std::string& text, const std::string& allowed) {
   throw std::runtime_error("'" + text + "' must be " + allowed);

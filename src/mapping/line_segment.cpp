@@ -27,7 +27,8 @@ Eigen::Vector2d LineSegment::direction() const {
 }
 
 FittedLine fitLine(const PointMoments& moments) {
-  const double sxx = moments.scatter(0, 0), syy = moments.scatter(1, 1), sxy = moments.scatter(0, 1);
+  const double sxx = moments.scatter(0, 0), syy = moments.scatter(1, 1),
+               sxy = moments.scatter(0, 1);
   const double theta = 0.5 * std::atan2(2.0 * sxy, sxx - syy);
   const double mid = 0.5 * (sxx + syy), swing = std::hypot(0.5 * (sxx - syy), sxy);
   FittedLine line;

@@ -19,8 +19,8 @@ struct MapLine {
 
 /// Vertices of a chain of map lines that meet at their ends; closed where first equals last.
 struct PolyLine {
-  std::vector<Eigen::Vector2d> vertices;      ///< m, map frame
-  std::vector<std::uint64_t> line_ids;  ///< the lines between neighbouring vertices
+  std::vector<Eigen::Vector2d> vertices;  ///< m, map frame
+  std::vector<std::uint64_t> line_ids;    ///< the lines between neighbouring vertices
 };
 
 /// The incremental line map (the paper's steps 6-7).

@@ -33,10 +33,10 @@ struct LineSegment {
 
 /// The line through the mean along the largest principal axis of the scatter (total least squares).
 struct FittedLine {
-  Eigen::Vector2d centroid;       ///< m
-  Eigen::Vector2d direction;      ///< unit
-  double residual_sum_sq = 0.0;   ///< m^2, weighted sum of squared distances from the line
-  double spread_sum_sq = 0.0;     ///< m^2, the same along the line
+  Eigen::Vector2d centroid;      ///< m
+  Eigen::Vector2d direction;     ///< unit
+  double residual_sum_sq = 0.0;  ///< m^2, weighted sum of squared distances from the line
+  double spread_sum_sq = 0.0;    ///< m^2, the same along the line
 };
 
 /// Total least squares in closed form.

@@ -5,7 +5,8 @@
 
 namespace cca {
 
-/// A rigid motion of the plane, named after the frames that it joins: p_map = T_map_robot * p_robot.
+/// A rigid motion of the plane, named after the frames that it joins: p_map = T_map_robot *
+/// p_robot.
 struct Pose2 {
   double x = 0.0;      ///< m
   double y = 0.0;      ///< m

@@ -15,7 +15,8 @@ enum class TangentBugState {
   kUnreachable,  ///< proven: the boundary has been circled
 };
 
-/// The local planner [Kamon, Rimon & Rivlin 1998], for a finite-range laser, in configuration space.
+/// The local planner [Kamon, Rimon & Rivlin 1998], for a finite-range laser, in configuration
+/// space.
 class TangentBug {
  public:
   explicit TangentBug(const RobotParameters& robot) : robot_(robot) {}

@@ -1,0 +1,37 @@
+#!/usr/bin/env bash
+# Installs by apt what is missing on a Debian 12: install_dependencies.sh [--tests]
+# Without --tests: what building and running the application needs. With it: also ROS 1, rviz, an
+# off-screen display and the tools of the tests.
+set -eu
+
+packages="build-essential ca-certificates cmake libcli11-dev libeigen3-dev libmrpt-dev mrpt-common"
+if [ "${1:-}" = --tests ]; then
+  packages="$packages catkin clang clang-format ffmpeg gdal-bin git imagemagick libbenchmark-dev
+    libboost-dev libdiagnostic-updater-dev libgeometry-msgs-dev libgl1-mesa-dri libgmock-dev
+    libgtest-dev libnav-msgs-dev librosbag-dev libroscpp-dev librostest-dev
+    libsensor-msgs-dev libstd-msgs-dev libstd-srvs-dev libtf2-dev libtf2-geometry-msgs-dev
+    libtf2-ros-dev libvisualization-msgs-dev mrpt-apps python3-matplotlib python3-nav-msgs
+    python3-numpy python3-rosbag python3-roslaunch python3-rospy python3-rostest
+    python3-sensor-msgs python3-tf2-ros python3-visualization-msgs ros-core-dev rosbash rosout
+    rviz x11-utils xauth xvfb"
+fi
+
+missing=""
+for package in $packages; do
+  dpkg-query -W -f '${db:Status-Status}' "$package" 2>/dev/null | grep -qx installed ||
+    missing="$missing $package"
+done
+[ -n "$missing" ] || exit 0
+
+as_root=""
+if [ "$(id -u)" -ne 0 ]; then
+  command -v sudo >/dev/null || {
+    echo "These packages are missing, and neither root nor sudo is at hand to install them:$missing" >&2
+    exit 1
+  }
+  as_root=sudo
+fi
+echo "Installing:$missing"
+$as_root apt-get update -qq
+$as_root env DEBIAN_FRONTEND=noninteractive \
+  apt-get install -y -qq --no-install-recommends $missing >/dev/null
