@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "carmen_line.hpp"
+
+#include <charconv>
+#include <cmath>
+
+namespace cca {
+namespace {
+
+constexpr double kRadiansPerDegree = M_PI / 180.0;
+constexpr double kMostBeams = 1e6;
+
+/// The words of a line, one by one. Once a number is missing or malformed, ok() stays false.
+class Words {
+ public:
+  explicit Words(std::string_view line) : rest_(line) {}
+
+  std::string_view word() {
+    const std::size_t begin = rest_.find_first_not_of(" \t\r");
+    if (begin == std::string_view::npos) return rest_ = {};
+    const std::size_t end = std::min(rest_.find_first_of(" \t\r", begin), rest_.size());
+    const std::string_view found = rest_.substr(begin, end - begin);
+    rest_.remove_prefix(end);
+    return found;
+  }
+
+  double number() {
+    const std::string_view text = word();
+    double value = 0.0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    // Written by C programs: values too small or too large for a double stand for 0.
+    if (error == std::errc::result_out_of_range) return 0.0;
+    ok_ = ok_ && error == std::errc() && end == text.data() + text.size();
+    return value;
+  }
+
+  /// A number of values that follow, within [lowest, kMostBeams]; 0 where it is not.
+  std::size_t count(double lowest) {
+    const double value = number();
+    ok_ = ok_ && value >= lowest && value <= kMostBeams && value == std::floor(value);
+    return ok_ ? static_cast<std::size_t>(value) : 0;
+  }
+
+  Pose2 pose() {
+    Pose2 pose;
+    pose.x = number();
+    pose.y = number();
+    pose.theta = number();
+    ok_ = ok_ && std::isfinite(pose.x) && std::isfinite(pose.y) && std::isfinite(pose.theta);
+    if (ok_) pose.theta = wrapAngle(pose.theta);
+    return pose;
+  }
+
+  bool ok() const { return ok_; }
+
+ private:
+  std::string_view rest_;
+  bool ok_ = true;
+};
+
+double sickStepDegrees(std::size_t beams) {
+  switch (beams) {
+    case 90:
+    case 91:
+      return 2.0;
+    case 180:
+    case 181:
+      return 1.0;
+    case 360:
+    case 361:
+      return 0.5;
+    case 720:
+    case 721:
+      return 0.25;
+    default:
+      return 180.0 / static_cast<double>(beams - 1);
+  }
+}
+
+void readRanges(Words& words, CarmenScan& scan) {
+  const std::size_t beams = words.count(2);
+  scan.ranges.reserve(std::min<std::size_t>(beams, 4096));
+  while (scan.ranges.size() < beams && words.ok()) scan.ranges.push_back(words.number());
+}
+
+/// `time host logger_time` at a line's end; 0 where it is missing: a scan without time is a scan.
+double readTime(Words words) {
+  const double time = words.number();
+  return words.ok() && std::isfinite(time) ? time : 0.0;
+}
+
+std::optional<CarmenScan> parseSickLaser(Words words, CarmenMessage message) {
+  CarmenScan scan;
+  scan.message = message;
+  readRanges(words, scan);
+  if (!words.ok()) return std::nullopt;
+  scan.angle_min = -0.5 * M_PI;
+  scan.angle_increment = kRadiansPerDegree * sickStepDegrees(scan.ranges.size());
+  scan.robot = scan.laser = words.pose();
+  if (!words.ok()) return std::nullopt;
+  Words after_laser = words;
+  const Pose2 robot = after_laser.pose();
+  if (after_laser.ok()) {
+    scan.robot = robot;
+    scan.time = readTime(after_laser);
+  }
+  if (message == CarmenMessage::kRearLaser &&
+      std::abs(wrapAngle(scan.laser.theta - scan.robot.theta)) < 0.5 * M_PI) {
+    scan.laser.theta = wrapAngle(scan.laser.theta + M_PI);
+  }
+  return scan;
+}
+
+std::optional<CarmenScan> parseRobotLaser(Words words) {
+  CarmenScan scan;
+  scan.message = CarmenMessage::kRobotLaser;
+  words.number();  // laser type
+  scan.angle_min = words.number();
+  const double field_of_view = words.number();
+  scan.angle_increment = words.number();
+  scan.max_range = words.number();
+  words.number();  // accuracy
+  words.number();  // remission mode
+  readRanges(words, scan);
+  for (std::size_t left = words.count(0); left > 0 && words.ok(); --left) words.number();
+  if (!words.ok()) return std::nullopt;
+  scan.robot = scan.laser = words.pose();
+  if (!words.ok()) return std::nullopt;
+  if (!(scan.angle_increment > 0.0)) {
+    scan.angle_increment = field_of_view / static_cast<double>(scan.ranges.size() - 1);
+  }
+  if (!std::isfinite(scan.angle_min) || !(scan.angle_increment > 0.0) ||
+      !std::isfinite(scan.angle_increment)) {
+    return std::nullopt;
+  }
+  if (!(scan.max_range > 0.0) || !std::isfinite(scan.max_range)) scan.max_range = 0.0;
+  Words after_laser = words;
+  const Pose2 robot = after_laser.pose();
+  if (after_laser.ok()) {
+    scan.robot = robot;
+    for (int skipped = 0; skipped < 5; ++skipped) after_laser.number();  // speeds, safety, axis
+    scan.time = after_laser.ok() ? readTime(after_laser) : 0.0;
+  }
+  return scan;
+}
+
+}  // namespace
+
+std::optional<CarmenScan> parseCarmenScan(std::string_view line) {
+  Words words(line);
+  const std::string_view name = words.word();
+  if (name == "FLASER") return parseSickLaser(words, CarmenMessage::kFrontLaser);
+  if (name == "RLASER") return parseSickLaser(words, CarmenMessage::kRearLaser);
+  if (name == "ROBOTLASER1" || name == "ROBOTLASER2") return parseRobotLaser(words);
+  return std::nullopt;
+}
+
+std::optional<Pose2> parseCarmenOdometry(std::string_view line) {
+  Words words(line);
+  if (words.word() != "ODOM") return std::nullopt;
+  const Pose2 pose = words.pose();
+  if (!words.ok()) return std::nullopt;
+  return pose;
+}
+
+bool isCarmenScan(std::string_view line) {
+  const std::string_view name = Words(line).word();
+  return name == "FLASER" || name == "RLASER" || name == "ROBOTLASER1" || name == "ROBOTLASER2";
+}
+
+bool isCarmenLine(std::string_view line) {
+  const std::string_view name = Words(line).word();
+  return isCarmenScan(line) || name == "ODOM" || name == "PARAM" || name == "SYNC" ||
+         name == "TRUEPOS" || name == "NEFF" || name == "#" || name.substr(0, 8) == "RAWLASER";
+}
+
+}  // namespace cca

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <optional>
+#include <string_view>
+#include <vector>
+
+#include "cca_mrpt/mapping/pose2.hpp"
+
+namespace cca {
+
+enum class CarmenMessage { kFrontLaser, kRearLaser, kRobotLaser };
+
+/// One laser line of a CARMEN log (FLASER, RLASER, ROBOTLASER1, ROBOTLASER2) as it is written;
+/// readings are not judged here.
+struct CarmenScan {
+  CarmenMessage message = CarmenMessage::kFrontLaser;
+  std::vector<double> ranges;    ///< m
+  double angle_min = 0.0;        ///< rad
+  double angle_increment = 0.0;  ///< rad
+  double max_range = 0.0;        ///< m; 0 where the line does not tell
+  Pose2 laser;                   ///< as written
+  Pose2 robot;                   ///< as written: odometry, unless a SLAM program rewrote the log
+  double time = 0.0;             ///< s
+};
+
+/// Reads a laser line.
+///
+/// FLASER and RLASER tell no angles: the SICK's conventions hold, first beam at -90 degrees, 180 or
+/// 181 beams 1 degree apart, 360 or 361 beams 0.5 degrees (90/91: 2, 720/721: 0.25, any other
+/// number n: 180 / (n - 1)). So 180 beams end at +89 degrees. ROBOTLASER lines tell theirs.
+/// An RLASER whose pose looks ahead carries the robot's pose; it is turned to look back.
+///
+/// @return nothing where the line is none, is incomplete, or a pose is not finite.
+std::optional<CarmenScan> parseCarmenScan(std::string_view line);
+
+/// The pose of an ODOM line; nothing where the line is none or is incomplete.
+std::optional<Pose2> parseCarmenOdometry(std::string_view line);
+
+/// Whether the line starts as a laser line does, complete or not.
+bool isCarmenScan(std::string_view line);
+
+/// Whether the line starts with one of the words that CARMEN's logger writes.
+bool isCarmenLine(std::string_view line);
+
+}  // namespace cca

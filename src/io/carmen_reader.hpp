@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "cca_mrpt/io/log_reader.hpp"
+
+namespace cca {
+
+/// Reads a CARMEN log, plain or gzipped: FLASER and RLASER, or ROBOTLASER1/2 where those are the
+/// more frequent (a log may carry the same laser twice).
+///
+/// No return: see Saturation; for ROBOTLASER also 0.999 of the line's own maximum range. Such beams
+/// say nothing about free space (glass and black cloth give them too). PARAM lines are not trusted.
+/// Logs that GMapping rewrote carry corrected poses in place of the odometry; where ODOM lines lead
+/// from scan to scan, the raw odometry is put together again from them.
+/// @throws std::runtime_error where the file cannot be read or holds no laser scan.
+std::unique_ptr<LogReader> openCarmenLog(const std::string& path);
+
+}  // namespace cca

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "gzip_lines.hpp"
+
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <stdexcept>
+
+namespace cca {
+namespace {
+
+constexpr std::size_t kBlock = 1 << 18;
+
+gzFile open(const std::string& path) {
+  std::error_code error;
+  const auto status = std::filesystem::status(path, error);
+  if (!std::filesystem::exists(status)) throw std::runtime_error(path + ": no such file");
+  // Readers pass over the file twice, which a pipe would not survive.
+  if (!std::filesystem::is_regular_file(status)) {
+    throw std::runtime_error(path + ": not a regular file");
+  }
+  gzFile file = gzopen(path.c_str(), "rb");
+  if (!file) throw std::runtime_error(path + ": cannot be opened: " + std::strerror(errno));
+  gzbuffer(file, kBlock);
+  return file;
+}
+
+}  // namespace
+
+GzipLines::GzipLines(const std::string& path) : file_(open(path), gzclose), block_(kBlock) {}
+
+bool GzipLines::fill() {
+  const int got = gzread(file_.get(), block_.data(), static_cast<unsigned>(block_.size()));
+  begin_ = 0;
+  end_ = got > 0 ? static_cast<std::size_t>(got) : 0;
+  int error = Z_OK;
+  gzerror(file_.get(), &error);
+  if (error != Z_OK) damaged_ = true;
+  return end_ > 0;
+}
+
+std::optional<std::string_view> GzipLines::next() {
+  pieces_.clear();
+  while (begin_ < end_ || fill()) {
+    const std::string_view rest(block_.data() + begin_, end_ - begin_);
+    const std::size_t length = rest.find('\n');
+    if (length != std::string_view::npos) {
+      begin_ += length + 1;
+      if (pieces_.empty()) return rest.substr(0, length);
+      pieces_.append(rest.substr(0, length));
+      return pieces_;
+    }
+    begin_ = end_;
+    if (pieces_.size() < kLongestLine) pieces_.append(rest);
+  }
+  if (pieces_.empty()) return std::nullopt;
+  return pieces_;
+}
+
+std::string fileHead(const std::string& path, std::size_t bytes) {
+  const std::unique_ptr<gzFile_s, int (*)(gzFile)> file(open(path), gzclose);
+  std::string head(bytes, '\0');
+  const int got = gzread(file.get(), head.data(), static_cast<unsigned>(bytes));
+  head.resize(got > 0 ? static_cast<std::size_t>(got) : 0);
+  return head;
+}
+
+}  // namespace cca
