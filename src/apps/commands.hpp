@@ -8,5 +8,6 @@
 namespace cca::apps {
 
 void addExtractCommand(CLI::App& program);
+void addMapCommand(CLI::App& program);
 
 }  // namespace cca::apps

@@ -12,6 +12,7 @@ int main(int argc, char** argv) {
   CLI::App program{"Line maps from 2-D lasers, and exploration that brings them back", "cca-mrpt"};
   program.require_subcommand(1);
   cca::apps::addExtractCommand(program);
+  cca::apps::addMapCommand(program);
   try {
     program.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -11,9 +11,7 @@ constexpr double kTopBand = 0.96, kNextBand = 0.86;
 constexpr std::size_t kFewValues = 5;
 }  // namespace
 
-double Saturation::lowestKept() const {
-  return kNextBand * largest_;
-}
+double Saturation::lowestKept() const { return kNextBand * largest_; }
 
 void Saturation::add(double range) {
   if (!(range > 0.0 && range <= kImpossible) || range < lowestKept()) return;

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace cca {
+
+/// A file that appears whole or not at all: it is written under a temporary name in the same folder
+/// and renamed at the end. A file of that name that was there before survives a failed write.
+class AtomicFile {
+ public:
+  /// @throws std::runtime_error where the folder does not exist or cannot be written to.
+  explicit AtomicFile(std::string path);
+  /// Removes what was not committed.
+  ~AtomicFile();
+  AtomicFile(const AtomicFile&) = delete;
+  AtomicFile& operator=(const AtomicFile&) = delete;
+
+  /// Where to write to; it has the extension of the file's own name (writers choose by it).
+  const std::string& temporary() const { return temporary_; }
+
+  /// Gives the file its name. @throws std::runtime_error naming the file and the reason.
+  void commit();
+
+ private:
+  std::string path_, temporary_;
+};
+
+/// Writes a whole file at once. @throws std::runtime_error naming the file and the reason.
+void writeFile(const std::string& path, std::string_view content);
+
+}  // namespace cca
