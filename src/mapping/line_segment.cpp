@@ -39,4 +39,34 @@ FittedLine fitLine(const PointMoments& moments) {
   return line;
 }
 
+PrefixMoments::PrefixMoments(const std::vector<Eigen::Vector2d>& points) {
+  for (const Eigen::Vector2d& p : points) origin_ += p;
+  if (!points.empty()) origin_ /= static_cast<double>(points.size());
+  sums_.reserve(points.size() + 1);
+  Sums sums;
+  sums_.push_back(sums);
+  for (const Eigen::Vector2d& p : points) {
+    const double x = p.x() - origin_.x(), y = p.y() - origin_.y();
+    sums.x += x;
+    sums.y += y;
+    sums.xx += x * x;
+    sums.xy += x * y;
+    sums.yy += y * y;
+    sums_.push_back(sums);
+  }
+}
+
+PointMoments PrefixMoments::run(int first, int last) const {
+  PointMoments moments;
+  if (last <= first) return moments;
+  const Sums &a = sums_[first], &b = sums_[last];
+  const double n = last - first;
+  const double x = (b.x - a.x) / n, y = (b.y - a.y) / n;
+  const double xy = b.xy - a.xy - n * x * y;
+  moments.weight = n;
+  moments.mean = {origin_.x() + x, origin_.y() + y};
+  moments.scatter << b.xx - a.xx - n * x * x, xy, xy, b.yy - a.yy - n * y * y;
+  return moments;
+}
+
 }  // namespace cca

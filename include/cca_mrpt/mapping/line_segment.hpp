@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <vector>
 
 namespace cca {
 
@@ -42,5 +43,21 @@ struct FittedLine {
 /// Total least squares in closed form.
 /// @param moments  any; where the scatter has no preferred axis the direction is (1, 0).
 FittedLine fitLine(const PointMoments& moments);
+
+/// Moments of any run of a sequence of points in O(1), by running sums about the common mean.
+class PrefixMoments {
+ public:
+  explicit PrefixMoments(const std::vector<Eigen::Vector2d>& points);
+
+  /// Moments of points first <= i < last; empty where last <= first.
+  PointMoments run(int first, int last) const;
+
+ private:
+  struct Sums {
+    double x = 0.0, y = 0.0, xx = 0.0, xy = 0.0, yy = 0.0;
+  };
+  Eigen::Vector2d origin_ = Eigen::Vector2d::Zero();
+  std::vector<Sums> sums_;
+};
 
 }  // namespace cca

@@ -28,7 +28,30 @@ struct Scan {
   }
 };
 
-inline bool isReturn(double range) { return std::isfinite(range) && range > 0.0; }
-inline bool isNoReturn(double range) { return std::isinf(range) && range > 0.0; }
+inline bool isReturn(double range) {
+  return std::isfinite(range) && range > 0.0;
+}
+inline bool isNoReturn(double range) {
+  return std::isinf(range) && range > 0.0;
+}
+
+/// The returns of a scan as points, in order of rising bearing.
+struct ScanPoints {
+  std::vector<Eigen::Vector2d> positions;  ///< m, sensor frame
+  std::vector<int> beams;                  ///< beam of each point, counted counter-clockwise
+  std::vector<double> beam_ranges;         ///< m, every beam, counter-clockwise, from the cut on
+  double beam_spacing = 0.0;               ///< rad, > 0
+
+  std::size_t size() const { return positions.size(); }
+};
+
+/// Takes the returns of a scan in counter-clockwise order.
+///
+/// A scan of a full turn has no first beam: the circle is cut beside its largest step in range, so
+/// that the seam falls on the edge of an object, never inside a wall that could have been avoided.
+/// Of more beams than a turn holds, the surplus closes the circle and stays in place.
+/// @return  no points for a scan without returns, or with a spacing that is zero or not finite.
+/// Cost: O(N).
+ScanPoints scanPoints(const Scan& scan);
 
 }  // namespace cca

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <vector>
+
+#include "cca_mrpt/mapping/line_segment.hpp"
+#include "cca_mrpt/mapping/range_noise.hpp"
+#include "cca_mrpt/mapping/scan.hpp"
+
+namespace cca {
+
+/// Neighbouring points of a scan, first <= i < last in the order of ScanPoints.
+struct PointCluster {
+  int first = 0;
+  int last = 0;
+
+  int size() const { return last - first; }
+};
+
+/// K-means [Lloyd 1982] of points that are seen in order of bearing.
+///
+/// Seeds are the middle points of K equal shares of the sequence. The distance between a point and
+/// a centroid is at least r sin(difference of bearing): the search for the nearest centroid walks
+/// from the point's own bearing both ways and stops where this bound passes the best distance, so
+/// the assignment is that of the full Lloyd sweep over all K, at a cost that does not grow with K.
+///
+/// @param clusters  K, > 0.
+/// @param sweeps    largest number of assignments; fewer where nothing moves any more.
+/// @return          the cluster of each point, in 0..K-1; clusters may run empty.
+/// Cost: O(N + K log K) a sweep, for scenes whose depth does not alternate from beam to beam.
+std::vector<int> kMeansInOrder(const ScanPoints& points, int clusters, int sweeps);
+
+/// Point clusters of a scan: K-means with K = round(N / points_per_cluster), then pruning.
+///
+/// Pruning: a cluster falls into runs of neighbouring points without an inner gap; a run whose
+/// points do not lie on one line within the noise is split by 2-means until all do.
+/// @return  runs in scan order, of at least two points.
+std::vector<PointCluster> pointClusters(const ScanPoints& points, const PrefixMoments& prefix,
+                                        const PointNoise& noise, int points_per_cluster);
+
+}  // namespace cca

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <vector>
+
+#include "cca_mrpt/mapping/similarity.hpp"
+
+namespace cca {
+
+/// Groups the segments that describe one wall: Rank Order Clustering [King 1980].
+///
+/// B_ij = [S_ij >= cut]; rows and columns are sorted as binary words until nothing moves; a group
+/// is a diagonal block whose members are all alike. Deviation: words are compared bit by bit
+/// (King's weights 2^(n-j) overflow for n > 63). S being symmetric, rows and columns move together.
+/// King stops at the reordered matrix and leaves the blocks to the eye; here a block grows while
+/// its next row is similar to every member (complete linkage), for a curved wall is one long chain
+/// in which only neighbours are alike.
+///
+/// @param cut  alpha-cut in (0, 1].
+/// @return     a partition of 0..n-1 in ROC order; members in ROC order; empty for n = 0.
+/// Cost: O(n^2) a sweep, at most n sweeps.
+std::vector<std::vector<int>> rankOrderGroups(const SimilarityMatrix& similarity, double cut);
+
+}  // namespace cca

@@ -1,0 +1,186 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "cca_mrpt/mapping/point_clusters.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+namespace cca {
+namespace {
+
+/// K-means serves as a first cut that later steps refine: it need not have converged.
+constexpr int kLloydSweeps = 5;
+/// Two-sided 99.9 % quantile of the normal distribution: gate of a single residual.
+constexpr double kResidualGate = 3.29;
+/// A wall seen at less than this angle cannot be told from a step in depth [Borges & Aldon 2004].
+constexpr double kGrazing = 10.0 * M_PI / 180.0;
+
+/// Centroids in cyclic order of bearing.
+class CentroidRing {
+ public:
+  CentroidRing(const std::vector<Eigen::Vector2d>& centroids) : centroids_(centroids) {
+    const std::size_t n = centroids.size();
+    std::vector<double> bearing(n);
+    for (std::size_t k = 0; k < n; ++k) bearing[k] = std::atan2(centroids[k].y(), centroids[k].x());
+    order_.resize(n);
+    std::iota(order_.begin(), order_.end(), 0);
+    std::stable_sort(order_.begin(), order_.end(),
+                     [&](int a, int b) { return bearing[a] < bearing[b]; });
+    place_.resize(n);
+    ray_.resize(n);
+    for (std::size_t k = 0; k < n; ++k) place_[order_[k]] = static_cast<int>(k);
+    for (std::size_t k = 0; k < n; ++k) {
+      const double norm = centroids[k].norm();
+      ray_[k] = norm > 0.0 ? Eigen::Vector2d(centroids[k] / norm) : Eigen::Vector2d::Zero();
+    }
+  }
+
+  /// Index of the centroid nearest to p, the lowest where several are; starts beside `guess`.
+  int nearest(const Eigen::Vector2d& p, int guess) const {
+    const int n = static_cast<int>(order_.size());
+    int best = guess;
+    double best_sq = (p - centroids_[guess]).squaredNorm();
+    for (const int step : {1, n - 1}) {
+      int place = place_[guess];
+      for (int walked = 1; walked < n; ++walked) {
+        place += step;
+        if (place >= n) place -= n;
+        const int k = order_[place];
+        if (lowerBoundSq(p, k) > best_sq) break;
+        const double sq = (p - centroids_[k]).squaredNorm();
+        if (sq < best_sq || (sq == best_sq && k < best)) {
+          best_sq = sq;
+          best = k;
+        }
+      }
+    }
+    return best;
+  }
+
+ private:
+  /// Squared distance of p from the ray on which centroid k lies.
+  double lowerBoundSq(const Eigen::Vector2d& p, int k) const {
+    const Eigen::Vector2d& ray = ray_[k];
+    if (p.dot(ray) <= 0.0) return ray.isZero() ? 0.0 : p.squaredNorm();
+    const double cross = p.x() * ray.y() - p.y() * ray.x();
+    return cross * cross * (1.0 - 1e-12);
+  }
+
+  const std::vector<Eigen::Vector2d>& centroids_;
+  std::vector<int> order_, place_;
+  std::vector<Eigen::Vector2d> ray_;
+};
+
+std::vector<Eigen::Vector2d> centroidsOf(const std::vector<Eigen::Vector2d>& positions,
+                                         const std::vector<int>& cluster,
+                                         const std::vector<Eigen::Vector2d>& previous) {
+  std::vector<Eigen::Vector2d> sum(previous.size(), Eigen::Vector2d::Zero());
+  std::vector<int> count(previous.size(), 0);
+  for (std::size_t i = 0; i < positions.size(); ++i) {
+    sum[cluster[i]] += positions[i];
+    ++count[cluster[i]];
+  }
+  for (std::size_t k = 0; k < sum.size(); ++k) {
+    sum[k] = count[k] > 0 ? Eigen::Vector2d(sum[k] / count[k]) : previous[k];
+  }
+  return sum;
+}
+
+bool hasGap(const ScanPoints& points, const PointNoise& noise, int i) {
+  const Eigen::Vector2d &p = points.positions[i], &q = points.positions[i + 1];
+  const int missing = points.beams[i + 1] - points.beams[i];
+  if (missing > 1) return true;
+  const double turn = points.beam_spacing * missing;
+  const double range = std::min(p.norm(), q.norm());
+  const double widest =
+      range * std::sin(turn) / std::sin(std::max(kGrazing - turn, 0.5 * kGrazing));
+  return (q - p).norm() > widest + kResidualGate * noise.range_sigma * std::sqrt(2.0);
+}
+
+bool isLinear(const ScanPoints& points, const PrefixMoments& prefix, const PointNoise& noise,
+              const PointCluster& run) {
+  if (run.size() <= 2) return true;
+  const FittedLine line = fitLine(prefix.run(run.first, run.last));
+  const Eigen::Vector2d normal(-line.direction.y(), line.direction.x());
+  const double variance = noise.lateralVariance(line.centroid, line.direction);
+  const double gate_sq = kResidualGate * kResidualGate * variance;
+  if (line.residual_sum_sq <= gate_sq) return true;
+  for (int i = run.first; i < run.last; ++i) {
+    const double distance = normal.dot(points.positions[i] - line.centroid);
+    if (distance * distance > gate_sq) return false;
+  }
+  return true;
+}
+
+/// The best two means of a run, exactly: where the sum of squares about two centroids is least.
+int splitByTwoMeans(const PrefixMoments& prefix, const PointCluster& run) {
+  int split = run.first + 1;
+  double least = std::numeric_limits<double>::infinity();
+  for (int i = run.first + 1; i < run.last; ++i) {
+    const double within =
+        prefix.run(run.first, i).scatter.trace() + prefix.run(i, run.last).scatter.trace();
+    if (within < least) {
+      least = within;
+      split = i;
+    }
+  }
+  return split;
+}
+
+void prune(const ScanPoints& points, const PrefixMoments& prefix, const PointNoise& noise,
+           const PointCluster& run, std::vector<PointCluster>* kept) {
+  if (run.size() < 2) return;
+  if (isLinear(points, prefix, noise, run)) {
+    kept->push_back(run);
+    return;
+  }
+  const int split = splitByTwoMeans(prefix, run);
+  prune(points, prefix, noise, {run.first, split}, kept);
+  prune(points, prefix, noise, {split, run.last}, kept);
+}
+
+}  // namespace
+
+std::vector<int> kMeansInOrder(const ScanPoints& points, int clusters, int sweeps) {
+  const int n = static_cast<int>(points.size());
+  std::vector<int> cluster(n, 0);
+  if (n == 0) return cluster;
+  std::vector<Eigen::Vector2d> centroids(clusters);
+  for (int k = 0; k < clusters; ++k) {
+    const double middle = (k + 0.5) * n / clusters;
+    centroids[k] = points.positions[std::min(n - 1, static_cast<int>(middle))];
+  }
+  for (int i = 0; i < n; ++i) {
+    cluster[i] = std::min(clusters - 1, static_cast<int>((i + 0.5) * clusters / n));
+  }
+  for (int sweep = 0; sweep < sweeps; ++sweep) {
+    const CentroidRing ring(centroids);
+    bool moved = sweep == 0;
+    for (int i = 0; i < n; ++i) {
+      const int nearest = ring.nearest(points.positions[i], cluster[i]);
+      moved = moved || nearest != cluster[i];
+      cluster[i] = nearest;
+    }
+    if (!moved) break;
+    centroids = centroidsOf(points.positions, cluster, centroids);
+  }
+  return cluster;
+}
+
+std::vector<PointCluster> pointClusters(const ScanPoints& points, const PrefixMoments& prefix,
+                                        const PointNoise& noise, int points_per_cluster) {
+  const int n = static_cast<int>(points.size());
+  const int clusters = std::max(1, (n + points_per_cluster / 2) / points_per_cluster);
+  const std::vector<int> cluster = kMeansInOrder(points, clusters, kLloydSweeps);
+  std::vector<PointCluster> runs;
+  for (int first = 0; first < n;) {
+    int last = first + 1;
+    while (last < n && cluster[last] == cluster[first] && !hasGap(points, noise, last - 1)) ++last;
+    prune(points, prefix, noise, {first, last}, &runs);
+    first = last;
+  }
+  return runs;
+}
+
+}  // namespace cca
