@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cca_mrpt/LineMap.h>
+#include <visualization_msgs/MarkerArray.h>
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "cca_mrpt/mapping/line_map.hpp"
+
+namespace cca {
+
+/// The map's lines, in the order given. The header's frame is that of the lines.
+cca_mrpt::LineMap lineMapMessage(const std::vector<MapLine>& lines, const std_msgs::Header& header);
+
+/// The same lines to look at: one LINE_LIST marker, two points a line, in the same order. Without
+/// lines: a marker that deletes the earlier ones.
+visualization_msgs::MarkerArray lineMarkers(const std::vector<MapLine>& lines,
+                                            const std_msgs::Header& header);
+
+/// Cells at the edge of the known, as small squares (one CUBE_LIST marker).
+/// @param cell_size  m.
+visualization_msgs::MarkerArray frontierMarkers(const std::vector<Eigen::Vector2d>& cells_map,
+                                                double cell_size, const std_msgs::Header& header);
+
+}  // namespace cca

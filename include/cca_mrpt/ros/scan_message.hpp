@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <sensor_msgs/LaserScan.h>
+
+#include <string>
+
+#include "cca_mrpt/mapping/scan.hpp"
+
+namespace cca {
+
+/// A scan from a message, as REP-117 reads ranges: +inf is no return, -inf (too close) and NaN
+/// (error) are invalid, and so is a finite value outside [range_min, range_max]; invalid becomes
+/// NaN. Bearings are the message's own, whatever field of view or direction. Beams without return
+/// are free up to range_max.
+///
+/// MRPT's own bridge is not used: it shifts every ray by one for several common lasers and ignores
+/// REP-117.
+///
+/// @return  T_map_sensor is the identity: a message does not tell it.
+/// @throws std::runtime_error naming the field, for a message that no laser can have meant:
+/// bearings
+///         not finite, no increment between several beams, more than one turn of them, or range
+///         limits that allow no range. A message without beams is a scan without beams.
+Scan scanFromMessage(const sensor_msgs::LaserScan& message);
+
+/// What a laser tells of itself besides its scan.
+struct LaserLimits {
+  double range_min = 0.0;       ///< m
+  double range_max = 0.0;       ///< m
+  double scan_time = 0.0;       ///< s from one scan to the next
+  double time_increment = 0.0;  ///< s from one beam to the next; 0: all at once
+};
+
+/// The inverse of scanFromMessage() up to the rounding to 32 bits; stamp and frame are the
+/// caller's. A finite range beyond the limits stays as it is: the reader's to discard. Invalid
+/// ranges leave as NaN.
+sensor_msgs::LaserScan scanToMessage(const Scan& scan, const LaserLimits& limits,
+                                     const std_msgs::Header& header);
+
+/// When the middle beam was taken. A message is stamped with its first beam; one pose for a whole
+/// sweep of a turning laser errs least at its middle.
+ros::Time sweepMiddle(const sensor_msgs::LaserScan& message);
+
+/// Fraction of the beams that say something: a return, or that there is none. 0 without beams.
+double seeingFraction(const Scan& scan);
+
+}  // namespace cca

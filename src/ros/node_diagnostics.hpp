@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <diagnostic_updater/diagnostic_updater.h>
+#include <ros/ros.h>
+
+#include <functional>
+#include <map>
+#include <string>
+
+namespace cca {
+
+/// What /diagnostics tells once a second: rate of the scans in use, scans dropped by reason, time
+/// spent on a scan, and the node's state.
+class NodeDiagnostics {
+ public:
+  using Dropped = std::function<const std::map<std::string, long>&()>;
+
+  NodeDiagnostics(ros::NodeHandle& node, ros::NodeHandle& private_node, Dropped dropped);
+
+  void scanUsed(double seconds_spent);
+  void setState(const std::string& state) { state_ = state; }
+
+ private:
+  void report(diagnostic_updater::DiagnosticStatusWrapper& status);
+
+  Dropped dropped_;
+  diagnostic_updater::Updater updater_;
+  ros::WallTimer timer_;
+  ros::WallTime last_report_;
+  long scans_ = 0, scans_reported_ = 0, dropped_reported_ = 0;
+  double mean_ = 0.0, longest_ = 0.0;  // s a scan, since the last report
+  std::string state_;
+};
+
+}  // namespace cca

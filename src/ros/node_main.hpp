@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <functional>
+#include <string>
+
+namespace cca {
+
+/// The main() of every node: init, body, and one place for errors.
+///
+/// Ctrl-C, SIGTERM and `rosnode kill` do not tear the node down where it stands: keepRunning()
+/// turns false, and the body may still save its map and stop the robot over live connections.
+/// @return  0; 2 after a fatal message where the body threw.
+int runNode(int argc, char** argv, const std::string& name, const std::function<void()>& body);
+
+/// Serves callbacks as they come, for at most this long in wall time.
+/// @return  false as soon as the node has been asked to end.
+bool keepRunning(double seconds);
+
+}  // namespace cca

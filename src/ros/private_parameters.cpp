@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "private_parameters.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <sstream>
+#include <stdexcept>
+
+namespace cca {
+namespace {
+
+/// As one would write it in an .ini file.
+std::string textOf(XmlRpc::XmlRpcValue value) {
+  using XmlRpc::XmlRpcValue;
+  switch (value.getType()) {
+    case XmlRpcValue::TypeBoolean:
+      return static_cast<bool>(value) ? "true" : "false";
+    case XmlRpcValue::TypeInt:
+      return std::to_string(static_cast<int>(value));
+    case XmlRpcValue::TypeString:
+      return static_cast<std::string>(value);
+    case XmlRpcValue::TypeDouble: {
+      char text[32];
+      return {text, std::to_chars(text, text + sizeof text, static_cast<double>(value)).ptr};
+    }
+    default:
+      return value.toXml();
+  }
+}
+
+}  // namespace
+
+void PrivateParameters::refuse(const std::string& name, const std::string& value,
+                               const std::string& allowed) const {
+  throw std::runtime_error("parameter " + node_.resolveName(name) + " = '" + value + "' must be " +
+                           allowed);
+}
+
+bool PrivateParameters::given(const std::string& name, XmlRpc::XmlRpcValue& value) {
+  known_.push_back(name);
+  return node_.getParam(name, value);
+}
+
+void PrivateParameters::text(const std::string& name, std::string& value) {
+  XmlRpc::XmlRpcValue parameter;
+  if (given(name, parameter)) value = textOf(parameter);
+}
+
+void PrivateParameters::flag(const std::string& name, bool& value) {
+  XmlRpc::XmlRpcValue parameter;
+  if (!given(name, parameter)) return;
+  const std::string text = textOf(parameter);
+  if (text != "true" && text != "false") refuse(name, text, "true or false");
+  value = text == "true";
+}
+
+void PrivateParameters::number(const std::string& name, double& value, double lowest,
+                               double highest, const std::string& unit) {
+  XmlRpc::XmlRpcValue parameter;
+  if (!given(name, parameter)) return;
+  const std::string text = textOf(parameter);
+  const char* last = text.data() + text.size();
+  double number = 0.0;
+  const auto [end, error] = std::from_chars(text.data(), last, number);
+  if (error != std::errc() || end != last || !(number >= lowest && number <= highest)) {
+    std::ostringstream allowed;
+    allowed << "a number in [" << lowest << ", " << highest << "] " << unit;
+    refuse(name, text, allowed.str());
+  }
+  value = number;
+}
+
+void PrivateParameters::choice(const std::string& name, std::string& value,
+                               const std::vector<std::string>& allowed) {
+  std::string chosen = value, list = "one of";
+  text(name, chosen);
+  for (const auto& word : allowed) list += " " + word;
+  if (std::find(allowed.begin(), allowed.end(), chosen) == allowed.end()) {
+    refuse(name, chosen, list);
+  }
+  value = chosen;
+}
+
+void PrivateParameters::program(Parameters& p) {
+  std::string config;
+  text("config", config);
+  if (!config.empty()) loadParameters(config, p);
+  const auto fields = listParameters(p);
+  const auto set = [this](const ParameterField& field, const std::string& name) {
+    XmlRpc::XmlRpcValue parameter;
+    if (!given(name, parameter)) return;
+    try {
+      field.set(textOf(parameter));
+    } catch (const std::runtime_error& error) {
+      throw std::runtime_error("parameter " + node_.resolveName(name) + " = " + error.what());
+    }
+  };
+  for (const auto& field : fields) {
+    const auto namesakes = std::count_if(fields.begin(), fields.end(), [&field](const auto& other) {
+      return other.name == field.name;
+    });
+    if (namesakes == 1) set(field, field.name);
+    set(field, field.section + "/" + field.name);
+  }
+}
+
+void PrivateParameters::refuseUnknown() const {
+  std::vector<std::string> names;
+  if (!node_.getParamNames(names)) return;
+  const std::string prefix = node_.getNamespace() + "/";
+  for (const auto& name : names) {
+    if (name.compare(0, prefix.size(), prefix) != 0) continue;
+    const std::string own = name.substr(prefix.size());
+    if (own == "diagnostic_period") continue;  // diagnostic_updater's
+    if (std::find(known_.begin(), known_.end(), own) != known_.end()) continue;
+    std::string list;
+    for (const auto& known : known_) list += (list.empty() ? "" : " ") + known;
+    throw std::runtime_error("parameter " + name + " is unknown; known are: " + list);
+  }
+}
+
+}  // namespace cca

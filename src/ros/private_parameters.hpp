@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <ros/ros.h>
+
+#include <string>
+#include <vector>
+
+#include "cca_mrpt/io/parameters.hpp"
+
+namespace cca {
+
+/// A node's private parameters: those of the node itself, and every one of the program's
+/// (`section/name`, or `name` alone where one section only has it: `_strategy:=greedy`). Values are
+/// checked as those of the .ini file and the command line are.
+class PrivateParameters {
+ public:
+  explicit PrivateParameters(const ros::NodeHandle& private_node) : node_(private_node) {}
+
+  // Each sets the value where the parameter is given.
+  // @throws std::runtime_error naming the parameter, its value and what is allowed.
+  void text(const std::string& name, std::string& value);
+  void flag(const std::string& name, bool& value);
+  void number(const std::string& name, double& value, double lowest, double highest,
+              const std::string& unit);
+  void choice(const std::string& name, std::string& value, const std::vector<std::string>& allowed);
+  /// The program's parameters; those of the .ini file that `~config` names come first.
+  void program(Parameters& p);
+
+  /// @throws std::runtime_error naming what nobody asked for, and all that there is.
+  void refuseUnknown() const;
+
+ private:
+  bool given(const std::string& name, XmlRpc::XmlRpcValue& value);
+  [[noreturn]] void refuse(const std::string& name, const std::string& value,
+                           const std::string& allowed) const;
+
+  ros::NodeHandle node_;
+  std::vector<std::string> known_;
+};
+
+}  // namespace cca

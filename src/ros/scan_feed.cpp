@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "scan_feed.hpp"
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "cca_mrpt/ros/scan_message.hpp"
+
+namespace cca {
+namespace {
+
+constexpr double kSmallestSeeingFraction = 0.1;  // below it a laser is covered or broken
+constexpr double kFurthestFuture = 1.0;          // s; clocks of two computers differ by less
+constexpr std::size_t kLongestQueue = 50;        // scans that wait for tf
+
+}  // namespace
+
+ScanFeed::ScanFeed(ros::NodeHandle& node, Frames frames, double oldest, Sink sink)
+    : frames_(std::move(frames)),
+      oldest_(oldest),
+      sink_(std::move(sink)),
+      transforms_(node, [this] { serve(); }) {
+  scans_ = node.subscribe<sensor_msgs::LaserScan>(
+      "scan", 100, [this](const sensor_msgs::LaserScan::ConstPtr& m) { receive(*m); },
+      ros::VoidConstPtr(), ros::TransportHints().tcpNoDelay());
+}
+
+void ScanFeed::drop(const std::string& reason, const std::string& detail) {
+  ++dropped_[reason];
+  ROS_WARN_STREAM_THROTTLE(5.0,
+                           "scan dropped: " << reason << (detail.empty() ? "" : ": ") << detail);
+}
+
+void ScanFeed::startAnewIfClockWasSetBack() {
+  const ros::Time now = ros::Time::now();
+  if (now < last_now_) {
+    ROS_WARN("the clock was set back: waiting for new transforms and scans");
+    transforms_.clear();
+    waiting_.clear();
+    last_stamp_ = ros::Time();
+    gate_ = PoseGate();
+  }
+  last_now_ = now;
+}
+
+void ScanFeed::receive(const sensor_msgs::LaserScan& message) {
+  ++received_;
+  startAnewIfClockWasSetBack();
+  try {
+    Waiting waiting{scanFromMessage(message), message.header.stamp, sweepMiddle(message),
+                    message.header.frame_id};
+    if (seeingFraction(waiting.scan) < kSmallestSeeingFraction) return drop("blind");
+    if (waiting.stamp <= last_stamp_) return drop("not newer than the last");
+    if ((waiting.stamp - ros::Time::now()).toSec() > kFurthestFuture)
+      return drop("from the future");
+    last_stamp_ = waiting.stamp;
+    waiting_.push_back(std::move(waiting));
+  } catch (const std::runtime_error& error) {
+    return drop("malformed", error.what());
+  }
+  serve();
+}
+
+bool ScanFeed::placed(const Waiting& w, std::string* why_not) const {
+  return transforms_.knows(frames_.map, w.frame, w.middle, why_not) &&
+         (frames_.robot.empty() ||
+          transforms_.knows(frames_.map, frames_.robot, w.middle, why_not));
+}
+
+void ScanFeed::serve() {
+  std::string why_not;
+  const auto has_pose = [&](const Waiting& w) { return placed(w, &why_not); };
+  for (;;) {
+    const auto next = std::find_if(waiting_.begin(), waiting_.end(), has_pose);
+    if (next == waiting_.end()) break;
+    // tf comes in the order of time: what stands before a scan with a pose will never have one.
+    for (auto n = next - waiting_.begin(); n > 0; --n) dropFirst(why_not);
+    const Waiting scan = std::move(waiting_.front());
+    waiting_.pop_front();
+    use(scan);
+  }
+  while (waiting_.size() > kLongestQueue) dropFirst(why_not);
+}
+
+void ScanFeed::dropFirst(const std::string& why_not) {
+  waiting_.pop_front();
+  drop("no transform", why_not);
+}
+
+void ScanFeed::use(const Waiting& waiting) {
+  if (oldest_ > 0.0 && (ros::Time::now() - waiting.stamp).toSec() > oldest_) return drop("too old");
+  PlacedScan placed{waiting.scan, {}, waiting.stamp};
+  try {
+    placeScan(placed.scan, transforms_.lookup(frames_.map, waiting.frame, waiting.middle));
+    placed.T_map_robot = frames_.robot.empty()
+                             ? placed.scan.T_map_sensor
+                             : transforms_.lookup(frames_.map, frames_.robot, waiting.middle).pose;
+  } catch (const std::runtime_error& error) {
+    return drop("no usable transform", error.what());
+  }
+  const auto verdict = gate_.check(placed.T_map_robot, waiting.stamp.toSec());
+  if (verdict == PoseGate::Verdict::kHeld) return drop("the pose leapt");
+  if (verdict == PoseGate::Verdict::kMoved) ROS_WARN("the pose leapt, and stays: going on there");
+  sensor_frame_ = waiting.frame;
+  sink_(placed);
+}
+
+}  // namespace cca

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "cca_mrpt/ros/scan_message.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+namespace cca {
+namespace {
+
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+/// Drivers round 2 pi / n up and repeat the first beam at the end.
+constexpr double kFullTurn = 2.0 * M_PI + 0.05;
+
+void refuseUnless(bool sound, const char* what) {
+  if (!sound) throw std::runtime_error(std::string("LaserScan: ") + what);
+}
+
+void check(const sensor_msgs::LaserScan& m) {
+  refuseUnless(std::isfinite(m.angle_min), "angle_min must be finite");
+  refuseUnless(std::isfinite(m.angle_increment), "angle_increment must be finite");
+  refuseUnless(std::isfinite(m.time_increment), "time_increment must be finite");
+  refuseUnless(m.range_max > 0.0f && m.range_max > m.range_min,
+               "range_max must be positive and above range_min");
+  if (m.ranges.size() < 2) return;
+  refuseUnless(m.angle_increment != 0.0f, "angle_increment must not be 0");
+  const double field_of_view =
+      std::abs(m.angle_increment) * static_cast<double>(m.ranges.size() - 1);
+  refuseUnless(field_of_view <= kFullTurn, "the beams must not cover more than one turn");
+}
+
+}  // namespace
+
+Scan scanFromMessage(const sensor_msgs::LaserScan& message) {
+  check(message);
+  Scan scan;
+  scan.angle_min = message.angle_min;
+  scan.angle_increment = message.angle_increment;
+  scan.free_range_without_return = std::isfinite(message.range_max) ? message.range_max : 0.0;
+  scan.ranges.reserve(message.ranges.size());
+  for (const float range : message.ranges) {
+    const bool valid = range > 0.0f && range >= message.range_min && range <= message.range_max;
+    scan.ranges.push_back(valid || isNoReturn(range) ? range : kNaN);
+  }
+  return scan;
+}
+
+sensor_msgs::LaserScan scanToMessage(const Scan& scan, const LaserLimits& limits,
+                                     const std_msgs::Header& header) {
+  sensor_msgs::LaserScan message;
+  message.header = header;
+  message.angle_min = static_cast<float>(scan.angle_min);
+  message.angle_increment = static_cast<float>(scan.angle_increment);
+  message.angle_max =
+      static_cast<float>(scan.size() ? scan.bearing(scan.size() - 1) : scan.angle_min);
+  message.range_min = static_cast<float>(limits.range_min);
+  message.range_max = static_cast<float>(limits.range_max);
+  message.scan_time = static_cast<float>(limits.scan_time);
+  message.time_increment = static_cast<float>(limits.time_increment);
+  message.ranges.reserve(scan.size());
+  for (const double range : scan.ranges) {
+    const bool meant = isReturn(range) || isNoReturn(range);
+    message.ranges.push_back(static_cast<float>(meant ? range : kNaN));
+  }
+  return message;
+}
+
+ros::Time sweepMiddle(const sensor_msgs::LaserScan& message) {
+  const auto beams = static_cast<double>(message.ranges.size());
+  if (beams < 2.0 || !std::isfinite(message.time_increment)) return message.header.stamp;
+  return message.header.stamp + ros::Duration(0.5 * (beams - 1.0) * message.time_increment);
+}
+
+double seeingFraction(const Scan& scan) {
+  if (scan.ranges.empty()) return 0.0;
+  const auto seeing = std::count_if(scan.ranges.begin(), scan.ranges.end(),
+                                    [](double r) { return isReturn(r) || isNoReturn(r); });
+  return static_cast<double>(seeing) / static_cast<double>(scan.size());
+}
+
+}  // namespace cca
