@@ -1,0 +1,193 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "cca_mrpt/mapping/support_profile.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace cca {
+namespace {
+
+constexpr double kMostHits = 200.0;  // per bin; more only makes the past heavier
+constexpr int kWindow = 2;           // bins on either side that speak for a place
+constexpr double kHitsOfHalfWeight = 8.0;
+
+double binWeight(const SupportBin& bin) {
+  return bin.hits / (bin.hits + kHitsOfHalfWeight);
+}
+
+}  // namespace
+
+void SupportBin::hit(double t_hit, double d_hit) {
+  t_min = hits > 0.0 ? std::min(t_min, t_hit) : t_hit;
+  t_max = hits > 0.0 ? std::max(t_max, t_hit) : t_hit;
+  hits += 1.0;
+  t += t_hit;
+  d += d_hit;
+  tt += t_hit * t_hit;
+  td += t_hit * d_hit;
+  dd += d_hit * d_hit;
+  if (hits > kMostHits) scale(kMostHits / hits);
+}
+
+void SupportBin::add(const SupportBin& other) {
+  if (other.hits > 0.0) {
+    t_min = hits > 0.0 ? std::min(t_min, other.t_min) : other.t_min;
+    t_max = hits > 0.0 ? std::max(t_max, other.t_max) : other.t_max;
+  }
+  hits += other.hits;
+  passed += other.passed;
+  t += other.t;
+  d += other.d;
+  tt += other.tt;
+  td += other.td;
+  dd += other.dd;
+  if (hits > kMostHits) scale(kMostHits / hits);
+}
+
+void SupportBin::scale(double factor) {
+  for (double* sum : {&hits, &passed, &t, &d, &tt, &td, &dd}) *sum *= factor;
+}
+
+void BinSums::add(const BinSums& o, double sign) {
+  w += sign * o.w;
+  t += sign * o.t;
+  d += sign * o.d;
+  tt += sign * o.tt;
+  td += sign * o.td;
+  dd += sign * o.dd;
+}
+
+void BinSums::addPoint(double weight, double t_mean, double d_mean) {
+  add({weight, weight * t_mean, weight * d_mean, weight * t_mean * t_mean, weight * t_mean * d_mean,
+       weight * d_mean * d_mean});
+}
+
+double BinSums::residual() const {
+  if (w <= 0.0) return 0.0;
+  const double var_t = tt - t * t / w, cov = td - t * d / w, var_d = dd - d * d / w;
+  if (var_t <= 1e-9) return std::max(0.0, var_d);
+  return std::max(0.0, var_d - cov * cov / var_t);
+}
+
+int SupportProfile::binOf(double t) {
+  return static_cast<int>(std::floor(t / kBinLength));
+}
+
+void SupportProfile::grow(int i) {
+  if (bins_.empty()) first_ = i;
+  if (i < first_) {
+    bins_.insert(bins_.begin(), static_cast<std::size_t>(first_ - i), SupportBin{});
+    first_ = i;
+  }
+  if (i >= last()) bins_.resize(static_cast<std::size_t>(i - first_ + 1));
+}
+
+void SupportProfile::hit(double t, double d) {
+  const int i = binOf(t);
+  grow(i);
+  bin(i).hit(t, d);
+}
+
+void SupportProfile::pass(double t) {
+  const int i = binOf(t);
+  if (contains(i)) bin(i).passed += 1.0;
+}
+
+void SupportProfile::add(const SupportBin& other) {
+  if (other.hits <= 0.0) return;
+  const int i = binOf(other.t / other.hits);
+  grow(i);
+  bin(i).add(other);
+}
+
+SupportProfile SupportProfile::cutFrom(int from) {
+  SupportProfile tail;
+  const auto begin = bins_.begin() + (from - first_);
+  tail.first_ = from;
+  tail.bins_.assign(begin, bins_.end());
+  bins_.erase(begin, bins_.end());
+  return tail;
+}
+
+bool SupportProfile::prune() {
+  for (SupportBin& bin : bins_) {
+    if (bin.passed > 4.0 && bin.passed > 2.0 * bin.hits) bin = SupportBin{};
+  }
+  const auto stands = [](const SupportBin& bin) { return bin.hits > 0.0; };
+  const auto begin = std::find_if(bins_.begin(), bins_.end(), stands);
+  const auto end = std::find_if(bins_.rbegin(), bins_.rend(), stands).base();
+  const bool changed = begin != bins_.begin() || end != bins_.end();
+  if (begin == bins_.end()) {
+    bins_.clear();
+    return changed;
+  }
+  first_ += static_cast<int>(begin - bins_.begin());
+  bins_.erase(end, bins_.end());
+  bins_.erase(bins_.begin(), begin);
+  return changed;
+}
+
+bool SupportProfile::occupied(int i) const {
+  if (bin(i).hits <= 0.0) return false;
+  double hits = 0.0, passed = 0.0;
+  const int from = std::max(first(), i - kWindow), to = std::min(last(), i + kWindow + 1);
+  for (int j = from; j < to; ++j) {
+    hits += bin(j).hits;
+    passed += bin(j).passed;
+  }
+  return passed < 2.0 || passed < 0.7 * hits;
+}
+
+void SupportProfile::supportedRanges(int max_gap, std::vector<BinRange>& ranges) const {
+  ranges.clear();
+  double passed_since = 0.0;
+  for (int i = first(); i < last(); ++i) {
+    if (!occupied(i)) {
+      passed_since += bin(i).passed;
+      continue;
+    }
+    const bool joins = !ranges.empty() && i - ranges.back().last <= max_gap && passed_since < 2.0;
+    if (joins) {
+      ranges.back().last = i + 1;
+    } else {
+      ranges.push_back({i, i + 1});
+    }
+    passed_since = 0.0;
+  }
+}
+
+BinSums SupportProfile::sums(int from, int to) const {
+  BinSums sum;
+  for (int i = from; i < to; ++i) {
+    const SupportBin& b = bin(i);
+    if (b.hits > 0.0) sum.addPoint(binWeight(b), b.t / b.hits, b.d / b.hits);
+  }
+  return sum;
+}
+
+LateralFit SupportProfile::fit() const {
+  const BinSums s = sums();
+  if (s.w <= 0.0) return {};
+  const double var_t = s.tt - s.t * s.t / s.w, cov = s.td - s.t * s.d / s.w;
+  const double slope = var_t > 1e-9 ? cov / var_t : 0.0;
+  return {(s.d - slope * s.t) / s.w, slope};
+}
+
+SupportProfile::Cut SupportProfile::bestCut() const {
+  BinSums left, right = sums();
+  const double whole = right.residual();
+  Cut best{first(), 0.0};
+  for (int i = first(); i + 1 < last(); ++i) {
+    const SupportBin& b = bin(i);
+    if (b.hits <= 0.0) continue;
+    BinSums one;
+    one.addPoint(binWeight(b), b.t / b.hits, b.d / b.hits);
+    left.add(one);
+    right.add(one, -1.0);
+    const double gain = whole - left.residual() - right.residual();
+    if (gain > best.gain) best = {i + 1, gain};
+  }
+  return best;
+}
+
+}  // namespace cca

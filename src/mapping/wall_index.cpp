@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "cca_mrpt/mapping/wall_index.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace cca {
+namespace {
+
+std::size_t inBlock(const WallIndex::Cell& cell, int bits) {
+  const int mask = (1 << bits) - 1;
+  return static_cast<std::size_t>(((cell.y() & mask) << bits) | (cell.x() & mask));
+}
+
+}  // namespace
+
+WallIndex::Cell WallIndex::cellOf(const Eigen::Vector2d& point) {
+  return {static_cast<int>(std::floor(point.x() / kCellSize)),
+          static_cast<int>(std::floor(point.y() / kCellSize))};
+}
+
+std::int64_t WallIndex::keyOf(const Cell& cell) {
+  const std::int64_t x = cell.x() >> kBlockBits, y = cell.y() >> kBlockBits;
+  return (x << 32) ^ (y & 0xffffffffLL);
+}
+
+const std::vector<WallIndex::Slot>& WallIndex::at(const Cell& cell) const {
+  static const std::vector<Slot> none;
+  const std::int64_t key = keyOf(cell);
+  if (last_block_ == nullptr || key != last_key_) {
+    const auto found = blocks_.find(key);
+    if (found == blocks_.end()) return none;
+    last_key_ = key;
+    last_block_ = found->second.get();
+  }
+  return last_block_->cells[inBlock(cell, kBlockBits)];
+}
+
+std::vector<WallIndex::Slot>& WallIndex::touch(const Cell& cell) {
+  std::unique_ptr<Block>& block = blocks_[keyOf(cell)];
+  if (!block) block = std::make_unique<Block>();
+  return block->cells[inBlock(cell, kBlockBits)];
+}
+
+void WallIndex::insert(Slot slot, const Eigen::Vector2d& from, const Eigen::Vector2d& to,
+                       double margin, std::vector<Cell>& cells) {
+  const int steps = 1 + static_cast<int>(std::ceil((to - from).norm() / (0.5 * kCellSize)));
+  for (int i = 0; i <= steps; ++i) {
+    const Eigen::Vector2d p = from + (to - from) * (static_cast<double>(i) / steps);
+    const Cell low = cellOf(p - Eigen::Vector2d::Constant(margin));
+    const Cell high = cellOf(p + Eigen::Vector2d::Constant(margin));
+    for (int y = low.y(); y <= high.y(); ++y) {
+      for (int x = low.x(); x <= high.x(); ++x) {
+        std::vector<Slot>& slots = touch({x, y});
+        if (std::find(slots.begin(), slots.end(), slot) != slots.end()) continue;
+        slots.push_back(slot);
+        cells.push_back({x, y});
+      }
+    }
+  }
+}
+
+void WallIndex::remove(Slot slot, const std::vector<Cell>& cells) {
+  for (const Cell& cell : cells) {
+    std::vector<Slot>& slots = touch(cell);
+    slots.erase(std::remove(slots.begin(), slots.end(), slot), slots.end());
+  }
+}
+
+}  // namespace cca
