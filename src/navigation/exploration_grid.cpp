@@ -1,8 +1,122 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "cca_mrpt/navigation/exploration_grid.hpp"
 
-namespace cca {
+#include <algorithm>
+#include <cmath>
 
-void ExplorationGrid::insert(const Scan&) {}
+#include "cca_mrpt/navigation/beam.hpp"
+
+namespace cca {
+namespace {
+
+constexpr int kReturn = 2, kPass = -1;       // weight of a return, of a beam that passes
+constexpr int kSurest = 8, kFreest = -4;     // bounds of the evidence: 8 scans forget an obstacle
+constexpr double kBehindSurface = 0.3;       // cells: a return lies in the cell behind the surface
+constexpr double kSteepest = 4.0;            // widest gap in one surface, in spacings of the beams
+constexpr double kLongestRangeCells = 4000;  // 200 m at 5 cm
+
+struct Beam {
+  Eigen::Vector2d direction;
+  double range = 0.0;  // m
+};
+
+Eigen::Vector2d directionOf(const Scan& scan, std::size_t beam) {
+  const double angle = scan.T_map_sensor.theta + scan.bearing(beam);
+  return {std::cos(angle), std::sin(angle)};
+}
+
+bool isUsable(const Scan& scan, double resolution) {
+  const Pose2& T = scan.T_map_sensor;
+  const double farthest = resolution * (kFarthestCell - kLongestRangeCells - 1.0);
+  return std::isfinite(T.theta) && std::abs(T.x) < farthest && std::abs(T.y) < farthest &&
+         std::isfinite(scan.angle_min) && std::isfinite(scan.angle_increment);
+}
+
+}  // namespace
+
+void ExplorationGrid::insert(const Scan& scan) {
+  changed_.clear();
+  if (!isUsable(scan, resolution_)) return;
+  ++scans_;
+  const Eigen::Vector2d origin = scan.T_map_sensor.position() / resolution_;
+  // Returns first: a cell that holds one is not cleared by a beam that passes beside the surface.
+  for (std::size_t i = 0; i < scan.size(); ++i) {
+    const double range = scan.ranges[i] / resolution_;
+    if (!isReturn(range) || range > kLongestRangeCells) continue;
+    const Eigen::Vector2d hit = origin + (range + kBehindSurface) * directionOf(scan, i);
+    add(cellOf(hit * resolution_), kReturn);
+  }
+  for (std::size_t i = 0; i < scan.size(); ++i) {
+    const bool returned = isReturn(scan.ranges[i]);
+    if (!returned && !isNoReturn(scan.ranges[i])) continue;
+    const double free_range = returned ? scan.ranges[i] : scan.free_range_without_return;
+    if (!(free_range > 0.0)) continue;
+    walkBeam(origin, directionOf(scan, i), std::min(free_range / resolution_, kLongestRangeCells),
+             [this](Cell c, double) {
+               add(c, kPass);
+               return true;
+             });
+  }
+  presumeWalls(scan);
+}
+
+// Far from the sensor the beams are wider apart than the cells. What lies between two returns of
+// one surface is most likely more of it, not a gap into the unknown.
+void ExplorationGrid::presumeWalls(const Scan& scan) {
+  const std::size_t n = scan.size();
+  for (std::size_t i = 0; i + 1 < n; ++i) {
+    const double a = scan.ranges[i], b = scan.ranges[i + 1];
+    if (!isReturn(a) || !isReturn(b) || std::max(a, b) > kLongestRangeCells * resolution_) continue;
+    const Eigen::Vector2d from = scan.T_map_sensor.position() + a * directionOf(scan, i);
+    const Eigen::Vector2d to = scan.T_map_sensor.position() + b * directionOf(scan, i + 1);
+    const double gap = (to - from).norm();
+    const double spacing = std::min(a, b) * std::abs(scan.angle_increment);
+    if (gap < resolution_ || gap > kSteepest * spacing) continue;
+    const Eigen::Vector2d behind =
+        kBehindSurface * resolution_ * (from - scan.T_map_sensor.position()).normalized();
+    walkBeam((from + behind) / resolution_, (to - from) / gap, gap / resolution_,
+             [this](Cell c, double) {
+               if (evidence_.at(c) == kNever) write(c, kPresumed);
+               return true;
+             });
+  }
+}
+
+void ExplorationGrid::add(Cell cell, int weight) {
+  std::uint32_t& counted = counted_[cell];
+  if (counted == scans_) return;
+  counted = scans_;
+  const int before = evidence_.at(cell);
+  const int base = before <= kPresumed ? 0 : before;
+  write(cell, static_cast<Evidence>(std::clamp(base + weight, kFreest, kSurest)));
+}
+
+void ExplorationGrid::set(Cell cell, CellState state) {
+  if (!isStorable(cell)) return;
+  constexpr Evidence kValue[] = {kNever, kPresumed, kFreest, kSurest};
+  write(cell, kValue[static_cast<int>(state)]);
+}
+
+void ExplorationGrid::write(Cell cell, Evidence value) {
+  Evidence& evidence = evidence_[cell];
+  if (stateOf(evidence) != stateOf(value)) {
+    changed_.push_back(cell);
+    if (evidence == kNever) {
+      const bool first = highest_.x < lowest_.x;
+      lowest_ = first ? cell : Cell{std::min(lowest_.x, cell.x), std::min(lowest_.y, cell.y)};
+      highest_ = first ? cell : Cell{std::max(highest_.x, cell.x), std::max(highest_.y, cell.y)};
+    }
+  }
+  evidence = value;
+}
+
+Cell ExplorationGrid::cellOf(const Eigen::Vector2d& p_map) const {
+  return {static_cast<int>(std::floor(p_map.x() / resolution_)),
+          static_cast<int>(std::floor(p_map.y() / resolution_))};
+}
+
+Eigen::Vector2d ExplorationGrid::centreOf(Cell cell) const {
+  return resolution_ * Eigen::Vector2d(cell.x + 0.5, cell.y + 0.5);
+}
 
 }  // namespace cca

@@ -1,15 +1,73 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <Eigen/Core>
+#include <cstdint>
+#include <vector>
+
 #include "cca_mrpt/mapping/scan.hpp"
+#include "cca_mrpt/navigation/cell.hpp"
 
 namespace cca {
 
-/// What is known of each place: unknown, free or occupied. Grows as the robot moves.
+enum class CellState : std::uint8_t {
+  kUnknown,
+  kPresumedWall,  ///< not seen, but between two neighbouring returns of one surface
+  kFree,
+  kOccupied,
+};
+
+/// What is known of each place. It grows as the robot moves.
+///
+/// A scan counts once in each cell: a return for it, otherwise a beam that passes against it. The
+/// evidence is bounded, so what has moved away is forgotten after a few scans.
 class ExplorationGrid {
  public:
-  /// Traces the scan's beams from T_map_sensor. Cost: cells crossed, whatever the grid's size.
+  /// @param resolution  m, side of a cell.
+  explicit ExplorationGrid(double resolution = 0.05) : resolution_(resolution) {}
+
+  /// Traces the scan's beams from T_map_sensor; beams without return are free up to
+  /// free_range_without_return; invalid ranges and poses leave the grid as it is.
+  /// Cost: cells crossed, whatever the grid's size.
   void insert(const Scan& scan);
+
+  /// Declares a cell's state as known from elsewhere (a saved map): as sure as evidence gets.
+  void set(Cell cell, CellState state);
+
+  CellState at(Cell cell) const { return stateOf(evidence_.at(cell)); }
+
+  /// Cells whose state the last insert (or the sets since then) has changed; a cell may be listed
+  /// more than once.
+  const std::vector<Cell>& changed() const { return changed_; }
+
+  double resolution() const { return resolution_; }
+  /// The cell that holds a point. @param p_map  m, finite.
+  Cell cellOf(const Eigen::Vector2d& p_map) const;
+  /// m, map frame.
+  Eigen::Vector2d centreOf(Cell cell) const;
+
+  /// All known cells lie in lowest() .. highest(), both included; highest() < lowest(): none.
+  Cell lowest() const { return lowest_; }
+  Cell highest() const { return highest_; }
+
+ private:
+  using Evidence = std::int8_t;
+  static constexpr Evidence kNever = -128, kPresumed = -127;
+  static CellState stateOf(Evidence e) {
+    if (e > 0) return CellState::kOccupied;
+    if (e > kPresumed) return CellState::kFree;
+    return e == kNever ? CellState::kUnknown : CellState::kPresumedWall;
+  }
+  void add(Cell cell, int weight);
+  void write(Cell cell, Evidence value);
+  void presumeWalls(const Scan& scan);
+
+  double resolution_;
+  TiledGrid<Evidence> evidence_{kNever};
+  TiledGrid<std::uint32_t> counted_{0};  ///< number of the last scan that counted here
+  std::uint32_t scans_ = 0;
+  std::vector<Cell> changed_;
+  Cell lowest_{1, 1}, highest_{0, 0};
 };
 
 }  // namespace cca

@@ -8,6 +8,7 @@
 #include "cca_mrpt/mapping/line_map.hpp"
 #include "cca_mrpt/mapping/scan.hpp"
 #include "cca_mrpt/navigation/exploration_grid.hpp"
+#include "cca_mrpt/navigation/global_planner.hpp"
 #include "cca_mrpt/navigation/robot.hpp"
 #include "cca_mrpt/navigation/tangent_bug.hpp"
 
@@ -32,13 +33,14 @@ struct Action {
 };
 
 struct ExplorerParameters {
-  std::string strategy = "greedy";
+  std::string strategy = "gain_distance";
 };
 
 /// See describe(CcaParameters&, ...).
 template <class Field>
 void describe(ExplorerParameters& p, Field&& field) {
-  field("strategy", p.strategy, {"greedy"}, "how the next goal is chosen");
+  field("strategy", p.strategy, {"greedy", "nearest_frontier", "gain_distance"},
+        "how the next goal is chosen");
 }
 
 /// The one door into mapping and navigation: the simulator's loop and the ROS callback both walk
@@ -51,14 +53,17 @@ class Explorer {
   Action step(const Observation& observation);
 
   const LineMap& lineMap() const { return line_map_; }
-  const ExplorationGrid& grid() const { return grid_; }
+  const ExplorationGrid& grid() const { return planner_.grid(); }
+  const GlobalPlanner& planner() const { return planner_; }
   const TangentBug& tangentBug() const { return tangent_bug_; }
 
  private:
+  Velocity follow(const Plan& plan, const Observation& observation);
+
   LineMap line_map_;
-  ExplorationGrid grid_;
+  GlobalPlanner planner_;
   TangentBug tangent_bug_;
-  ExplorerParameters parameters_;
+  std::optional<Eigen::Vector2d> way_point_;
 };
 
 }  // namespace cca

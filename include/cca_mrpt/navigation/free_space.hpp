@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "cca_mrpt/navigation/cell.hpp"
+#include "cca_mrpt/navigation/exploration_grid.hpp"
+
+namespace cca {
+
+/// Where the robot's centre may be, as far as is known: free cells that keep a clearance from every
+/// occupied cell. The robot's configuration space, since the robot is round.
+///
+/// Unknown cells are not grown: what they hold is for the local planner to see in time.
+class FreeSpace {
+ public:
+  /// Blocks of kBlock x kBlock cells are the coarse squares that long paths are searched on.
+  static constexpr int kBlockBits = 2, kBlock = 1 << kBlockBits;
+  static Cell blockOf(Cell c) { return {c.x >> kBlockBits, c.y >> kBlockBits}; }
+  static unsigned bitOf(Cell c) {
+    return 1u << (((c.y & (kBlock - 1)) << kBlockBits) | (c.x & (kBlock - 1)));
+  }
+
+  /// @param clearance   m, from a cell's centre to the nearest point of an occupied cell.
+  /// @param resolution  m, the grid's.
+  FreeSpace(double clearance, double resolution);
+
+  /// Takes over the cells that have changed. Cost: cells that became occupied or ceased to be,
+  /// times the cells of the grown disc.
+  void update(const ExplorationGrid& grid, const std::vector<Cell>& changed);
+
+  bool isTraversable(Cell c) const { return cells_.at(c) == kFreeAndClear; }
+  /// Like isTraversable, for each cell of a block: bit 4 (y mod 4) + (x mod 4).
+  unsigned traversableCells(Cell block) const { return blocks_.at(block); }
+
+  double clearance() const { return clearance_; }
+
+ private:
+  static constexpr std::uint16_t kFree = 0x8000, kOccupied = 0x4000, kFreeAndClear = kFree;
+  void grow(Cell obstacle, int sign);
+  void mark(Cell c);
+
+  double clearance_;
+  std::vector<Cell> disc_;
+  TiledGrid<std::uint16_t> cells_;   ///< state bits, and the number of obstacles within clearance
+  TiledGrid<std::uint16_t> blocks_;  ///< traversable cells, a bit each
+};
+
+}  // namespace cca

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "cca_mrpt/navigation/exploration_grid.hpp"
+#include "cca_mrpt/navigation/frontier.hpp"
+#include "cca_mrpt/navigation/grid_paths.hpp"
+
+namespace cca {
+
+/// A place to look from, and what is expected to be seen.
+struct ViewPoint {
+  Cell cell;              ///< traversable and reached
+  Cell target;            ///< the unknown cell that it is there to see
+  double distance = 0.0;  ///< m, of the way there
+  double gain = 0.0;      ///< m^2 of unknown area expected to be revealed
+};
+
+/// The unknown side neighbour of a frontier cell. Precondition: isFrontier(grid, c).
+Cell unknownBeside(const ExplorationGrid& grid, Cell c);
+
+/// The place of the shortest way from which a cell is in free view.
+///
+/// Rays go out from the cell and end where something is not known to be free.
+/// @param range  m, how far off it may be.
+/// @param rays   number of directions tried.
+/// @return       empty where no reached place sees the cell.
+/// Cost: O(rays * range / resolution).
+std::optional<ViewPoint> nearestViewPoint(const ExplorationGrid& grid, const FreeSpace& space,
+                                          const DistanceField& field, Cell target, double range,
+                                          int rays = 90);
+
+/// The unknown area in view from a cell if all unknown cells were free [Gonzalez-Banos & Latombe
+/// 2002]: rays end at occupied cells and presumed walls.
+///
+/// @return m^2; at most pi range^2.
+double unknownAreaInView(const ExplorationGrid& grid, Cell from, double range, int rays = 72);
+
+}  // namespace cca

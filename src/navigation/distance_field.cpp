@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
+#include <cmath>
+
+#include "cca_mrpt/navigation/grid_paths.hpp"
+
+namespace cca {
+namespace {
+
+constexpr double kStartReach = 0.5;  // m, from a robot that stands too near to something
+
+// Bits of a block: 4 y + x.
+constexpr unsigned kLeft = 0x1111, kRight = 0x8888, kBottom = 0x000F, kTop = 0xF000;
+
+/// The 4-connected part of `cells` that holds `seed`.
+unsigned connectedPart(unsigned cells, unsigned seed) {
+  unsigned part = seed & cells;
+  for (;;) {
+    const unsigned wider =
+        (part | (part << 1 & ~kLeft) | (part >> 1 & ~kRight) | part << 4 | part >> 4) & cells;
+    if (wider == part) return part;
+    part = wider;
+  }
+}
+
+/// The cells of the neighbouring block that touch `part` across the side towards neighbour d.
+unsigned acrossSide(unsigned part, int d) {
+  switch (d) {
+    case 0:
+      return (part & kRight) >> 3;
+    case 1:
+      return (part & kTop) >> 12;
+    case 2:
+      return (part & kLeft) << 3;
+    default:
+      return (part & kBottom) << 12;
+  }
+}
+
+/// Diagonal neighbours d = 4..7: this block's corner cell, the one across, and the corner cells of
+/// the two blocks beside, horizontal then vertical, which must be open too (no cutting of corners).
+struct Corner {
+  unsigned here, there, beside_x, beside_y;
+};
+constexpr Corner kCorners[4] = {{0x8000, 0x0001, 0x1000, 0x0008},
+                                {0x1000, 0x0008, 0x8000, 0x0001},
+                                {0x0001, 0x8000, 0x0008, 0x1000},
+                                {0x0008, 0x1000, 0x0001, 0x8000}};
+
+}  // namespace
+
+DistanceField::Node& DistanceField::nodeAt(Cell block) {
+  Node& node = nodes_[block];
+  if (node.search != search_) node = {search_, {}};
+  return node;
+}
+
+void DistanceField::search(const FreeSpace& space, double resolution, Cell start, double horizon) {
+  ++search_;
+  unit_ = resolution * FreeSpace::kBlock / kStraight;
+  for (auto& bucket : queue_) bucket.clear();
+  waiting_ = 0;
+  started_ = nearestTraversable(space, start, static_cast<int>(kStartReach / resolution), start_);
+  if (!started_) return;
+  const Cell block = FreeSpace::blockOf(start_);
+  const unsigned cells = space.traversableCells(block);
+  relax(block, connectedPart(cells, FreeSpace::bitOf(start_)), 0, -1, -1);
+  for (std::uint32_t cost = 0; waiting_ > 0 && cost * unit_ <= horizon; ++cost) {
+    auto& bucket = queue_[cost % queue_.size()];
+    for (std::size_t i = 0; i < bucket.size(); ++i) {
+      const Entry entry = bucket[i];
+      Part& part = nodeAt(entry.block).parts[static_cast<std::size_t>(entry.part)];
+      if (part.settled || part.cost != entry.cost) continue;
+      part.settled = true;
+      expand(space, entry);
+    }
+    waiting_ -= bucket.size();
+    bucket.clear();
+  }
+}
+
+void DistanceField::expand(const FreeSpace& space, const Entry& entry) {
+  const Cell b = entry.block;
+  const unsigned part = nodes_[b].parts[static_cast<std::size_t>(entry.part)].cells;
+  for (int d = 0; d < 4; ++d) {
+    const unsigned touched = acrossSide(part, d);
+    if (!touched) continue;
+    const Cell next = b + kNeighbours[static_cast<std::size_t>(d)];
+    unsigned open = space.traversableCells(next) & touched;
+    while (open) {
+      const unsigned cells = connectedPart(space.traversableCells(next), open & (~open + 1));
+      relax(next, cells, entry.cost + kStraight, d, entry.part);
+      open &= ~cells;
+    }
+  }
+  for (int d = 4; d < 8; ++d) {
+    const Corner& corner = kCorners[d - 4];
+    if (!(part & corner.here)) continue;
+    const Cell step = kNeighbours[static_cast<std::size_t>(d)];
+    const unsigned there = space.traversableCells(b + step);
+    if ((there & corner.there) && (space.traversableCells(b + Cell{step.x, 0}) & corner.beside_x) &&
+        (space.traversableCells(b + Cell{0, step.y}) & corner.beside_y)) {
+      relax(b + step, connectedPart(there, corner.there), entry.cost + kDiagonal, d, entry.part);
+    }
+  }
+}
+
+void DistanceField::relax(Cell block, unsigned cells, std::uint32_t cost, int from, int from_part) {
+  if (!isStorable(block)) return;
+  Node& node = nodeAt(block);
+  for (std::size_t k = 0; k < kParts; ++k) {
+    Part& part = node.parts[k];
+    if (part.cells && !(part.cells & cells)) continue;
+    if (part.cells && cost >= part.cost) return;
+    part = {cost, static_cast<std::uint16_t>(cells), false, static_cast<std::int8_t>(from),
+            static_cast<std::int8_t>(from_part)};
+    queue_[cost % queue_.size()].push_back({block, static_cast<int>(k), cost});
+    ++waiting_;
+    return;
+  }
+}
+
+const DistanceField::Part* DistanceField::partOf(Cell c) const {
+  const Node& node = nodes_.at(FreeSpace::blockOf(c));
+  if (node.search != search_ || search_ == 0) return nullptr;
+  for (const Part& part : node.parts) {
+    if (part.settled && (part.cells & FreeSpace::bitOf(c))) return &part;
+  }
+  return nullptr;
+}
+
+double DistanceField::distanceTo(Cell c) const {
+  const Part* part = partOf(c);
+  return part ? part->cost * unit_ : kUnreached;
+}
+
+std::vector<Cell> DistanceField::blocksTo(Cell c) const {
+  std::vector<Cell> blocks;
+  Cell block = FreeSpace::blockOf(c);
+  for (const Part* part = partOf(c); part;) {
+    blocks.push_back(block);
+    if (part->from < 0) break;
+    const Cell step = kNeighbours[static_cast<std::size_t>(part->from)];
+    block = {block.x - step.x, block.y - step.y};
+    part = &nodes_.at(block).parts[static_cast<std::size_t>(part->from_part)];
+  }
+  std::reverse(blocks.begin(), blocks.end());
+  return blocks;
+}
+
+}  // namespace cca

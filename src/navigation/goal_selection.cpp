@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "cca_mrpt/navigation/goal_selection.hpp"
+
+#include <cmath>
+#include <stdexcept>
+
+namespace cca {
+namespace {
+
+constexpr double kPerMetre = 0.2;  // lambda of [Gonzalez-Banos & Latombe 2002]
+
+double score(Strategy strategy, const ViewPoint& view_point) {
+  switch (strategy) {
+    case Strategy::kGreedy:
+      return view_point.gain;
+    case Strategy::kNearestFrontier:
+      return -view_point.distance;
+    case Strategy::kGainDistance:
+      return view_point.gain * std::exp(-kPerMetre * view_point.distance);
+  }
+  return 0.0;
+}
+
+}  // namespace
+
+Strategy strategyNamed(const std::string& name) {
+  if (name == "greedy") return Strategy::kGreedy;
+  if (name == "nearest_frontier") return Strategy::kNearestFrontier;
+  if (name == "gain_distance") return Strategy::kGainDistance;
+  throw std::runtime_error("strategy '" + name +
+                           "' is none of greedy, nearest_frontier, gain_distance");
+}
+
+std::optional<std::size_t> selectGoal(Strategy strategy,
+                                      const std::vector<ViewPoint>& view_points) {
+  std::optional<std::size_t> best;
+  double best_score = 0.0;
+  for (std::size_t i = 0; i < view_points.size(); ++i) {
+    const double s = score(strategy, view_points[i]);
+    if (best && s <= best_score) continue;
+    best = i;
+    best_score = s;
+  }
+  return best;
+}
+
+}  // namespace cca
