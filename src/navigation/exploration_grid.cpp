@@ -67,18 +67,17 @@ void ExplorationGrid::presumeWalls(const Scan& scan) {
   for (std::size_t i = 0; i + 1 < n; ++i) {
     const double a = scan.ranges[i], b = scan.ranges[i + 1];
     if (!isReturn(a) || !isReturn(b) || std::max(a, b) > kLongestRangeCells * resolution_) continue;
-    const Eigen::Vector2d from = scan.T_map_sensor.position() + a * directionOf(scan, i);
-    const Eigen::Vector2d to = scan.T_map_sensor.position() + b * directionOf(scan, i + 1);
+    const double behind = kBehindSurface * resolution_;
+    const Eigen::Vector2d origin = scan.T_map_sensor.position();
+    const Eigen::Vector2d from = origin + (a + behind) * directionOf(scan, i);
+    const Eigen::Vector2d to = origin + (b + behind) * directionOf(scan, i + 1);
     const double gap = (to - from).norm();
     const double spacing = std::min(a, b) * std::abs(scan.angle_increment);
     if (gap < resolution_ || gap > kSteepest * spacing) continue;
-    const Eigen::Vector2d behind =
-        kBehindSurface * resolution_ * (from - scan.T_map_sensor.position()).normalized();
-    walkBeam((from + behind) / resolution_, (to - from) / gap, gap / resolution_,
-             [this](Cell c, double) {
-               if (evidence_.at(c) == kNever) write(c, kPresumed);
-               return true;
-             });
+    walkBeam(from / resolution_, (to - from) / gap, gap / resolution_, [this](Cell c, double) {
+      if (evidence_.at(c) == kNever) write(c, kPresumed);
+      return true;
+    });
   }
 }
 
