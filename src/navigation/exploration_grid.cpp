@@ -9,9 +9,11 @@
 namespace cca {
 namespace {
 
-constexpr int kReturn = 2, kPass = -1;       // weight of a return, of a beam that passes
-constexpr int kSurest = 8, kFreest = -4;     // bounds of the evidence: 8 scans forget an obstacle
-constexpr double kBehindSurface = 0.3;       // cells: a return lies in the cell behind the surface
+constexpr int kReturn = 2, kPass = -1;    // weight of a return, of a beam that passes
+constexpr int kSurest = 8, kFreest = -4;  // bounds of the evidence: 8 scans forget an obstacle
+// Cells. A return lies in the cell behind the surface, and what lies before it is known to be free
+// only up to this distance: noise and rounding must not open the wall.
+constexpr double kBehindSurface = 0.3;
 constexpr double kSteepest = 4.0;            // widest gap in one surface, in spacings of the beams
 constexpr double kLongestRangeCells = 4000;  // 200 m at 5 cm
 
@@ -49,7 +51,8 @@ void ExplorationGrid::insert(const Scan& scan) {
   for (std::size_t i = 0; i < scan.size(); ++i) {
     const bool returned = isReturn(scan.ranges[i]);
     if (!returned && !isNoReturn(scan.ranges[i])) continue;
-    const double free_range = returned ? scan.ranges[i] : scan.free_range_without_return;
+    const double free_range =
+        returned ? scan.ranges[i] - kBehindSurface * resolution_ : scan.free_range_without_return;
     if (!(free_range > 0.0)) continue;
     walkBeam(origin, directionOf(scan, i), std::min(free_range / resolution_, kLongestRangeCells),
              [this](Cell c, double) {

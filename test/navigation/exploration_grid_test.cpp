@@ -72,7 +72,8 @@ TEST(ExplorationGrid, PresumesAWallBetweenTwoReturnsOfOneSurface) {
   grid.insert(scan);
   for (int y = -25; y <= 25; ++y) {
     const CellState state = grid.at({160, y});
-    EXPECT_TRUE(state == CellState::kOccupied || state == CellState::kPresumedWall) << y;
+    EXPECT_TRUE(state == CellState::kOccupied || state == CellState::kPresumedWall)
+        << y << " is " << static_cast<int>(state);
   }
 }
 
