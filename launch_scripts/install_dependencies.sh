@@ -4,10 +4,11 @@
 # off-screen display and the tools of the tests.
 set -eu
 
-packages="build-essential ca-certificates cmake libcli11-dev libeigen3-dev libmrpt-dev mrpt-common"
+packages="build-essential ca-certificates cmake libboost-dev libcli11-dev libeigen3-dev
+  libmrpt-dev libnanoflann-dev mrpt-common nlohmann-json3-dev zlib1g-dev"
 if [ "${1:-}" = --tests ]; then
   packages="$packages catkin clang clang-format ffmpeg gdal-bin git imagemagick libbenchmark-dev
-    libboost-dev libdiagnostic-updater-dev libgeometry-msgs-dev libgl1-mesa-dri libgmock-dev
+    libdiagnostic-updater-dev libgeometry-msgs-dev libgl1-mesa-dri libgmock-dev
     libgtest-dev libnav-msgs-dev librosbag-dev libroscpp-dev librostest-dev
     libsensor-msgs-dev libstd-msgs-dev libstd-srvs-dev libtf2-dev libtf2-geometry-msgs-dev
     libtf2-ros-dev libvisualization-msgs-dev mrpt-apps python3-matplotlib python3-nav-msgs

@@ -9,5 +9,6 @@ namespace cca::apps {
 
 void addExtractCommand(CLI::App& program);
 void addMapCommand(CLI::App& program);
+void addEvaluateCommand(CLI::App& program);
 
 }  // namespace cca::apps

@@ -13,6 +13,7 @@ int main(int argc, char** argv) {
   program.require_subcommand(1);
   cca::apps::addExtractCommand(program);
   cca::apps::addMapCommand(program);
+  cca::apps::addEvaluateCommand(program);
   try {
     program.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -20,9 +20,9 @@ std::set<std::size_t> pickScans(std::size_t n, std::size_t most) {
   std::set<std::size_t> picked;
   const std::size_t m = std::min(n, most);
   for (std::size_t k = 0; k < m; ++k) {
-    const double at = m > 1 ? static_cast<double>(n - 1) * static_cast<double>(k) /
-                                  static_cast<double>(m - 1)
-                            : 0.0;
+    const double at =
+        m > 1 ? static_cast<double>(n - 1) * static_cast<double>(k) / static_cast<double>(m - 1)
+              : 0.0;
     picked.insert(static_cast<std::size_t>(std::nearbyint(at)));
   }
   return picked;
@@ -65,8 +65,8 @@ void testScan(const Scan& scan, const std::vector<Segment2>& map, const MapSampl
       if ((range - t) * std::abs(den) / along.norm() <= p.free_space_depth) continue;
       crossed_robustly = true;
       ++out.crossings;
-      const auto bin = std::min(
-          static_cast<std::size_t>(f * static_cast<double>(samples.count[s])), samples.count[s] - 1);
+      const auto bin = std::min(static_cast<std::size_t>(f * static_cast<double>(samples.count[s])),
+                                samples.count[s] - 1);
       evidence.crossings[samples.first[s] + bin] += 1.0;
     }
     out.violating += crossed;

@@ -21,8 +21,8 @@ double percentile(std::vector<double> values, double q) {  // linear between ran
 
 }  // namespace
 
-LateralBias lateralBias(const std::vector<Eigen::Vector2d>& points, const std::vector<Segment2>& map,
-                        const SegmentIndex& index) {
+LateralBias lateralBias(const std::vector<Eigen::Vector2d>& points,
+                        const std::vector<Segment2>& map, const SegmentIndex& index) {
   std::vector<std::size_t> first(1, 0), count;
   for (const auto& s : map) {
     count.push_back(
@@ -42,7 +42,7 @@ LateralBias lateralBias(const std::vector<Eigen::Vector2d>& points, const std::v
     if (along < 0.0 || along > 1.0) continue;
     const auto bin = static_cast<std::size_t>(along * static_cast<double>(count[hit.index]));
     offsets[first[hit.index] + std::min(bin, count[hit.index] - 1)].push_back(u.x() * d.y() -
-                                                                             u.y() * d.x());
+                                                                              u.y() * d.x());
   }
   LateralBias bias;
   std::vector<double> medians, spreads;

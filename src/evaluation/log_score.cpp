@@ -15,11 +15,11 @@ using log_score::EndPoints;
 using log_score::MapSamples;
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-constexpr double kUnsupportedRun = 0.5;      // m
-constexpr double kFarthest = 1.0;            // m, distances are capped here
-constexpr double kNatsPerSegment = 27.6;     // four coordinates of log(1000): 20 m at 2 cm
-constexpr double kNatsPerCell = 4.5;         // three standard deviations
-constexpr std::size_t kMostTested = 50000;   // samples tested for redundancy
+constexpr double kUnsupportedRun = 0.5;     // m
+constexpr double kFarthest = 1.0;           // m, distances are capped here
+constexpr double kNatsPerSegment = 27.6;    // four coordinates of log(1000): 20 m at 2 cm
+constexpr double kNatsPerCell = 4.5;        // three standard deviations
+constexpr std::size_t kMostTested = 50000;  // samples tested for redundancy
 constexpr double kMostSamples = 400000.0;
 
 double count(std::size_t n) { return static_cast<double>(n); }
@@ -27,8 +27,8 @@ double count(std::size_t n) { return static_cast<double>(n); }
 /// Share of the values at or below a limit; 0 where there are none.
 double shareWithin(const std::vector<double>& values, double limit) {
   if (values.empty()) return 0.0;
-  return count(static_cast<std::size_t>(std::count_if(
-             values.begin(), values.end(), [limit](double v) { return v <= limit; }))) /
+  return count(static_cast<std::size_t>(std::count_if(values.begin(), values.end(),
+                                                      [limit](double v) { return v <= limit; }))) /
          count(values.size());
 }
 
@@ -168,13 +168,13 @@ ScoreGroup scoreMap(const std::vector<Segment2>& map, double total) {
   for (const auto& s : map) lengths.push_back(s.length());
   const auto under = static_cast<std::size_t>(
       std::count_if(lengths.begin(), lengths.end(), [](double l) { return l < 0.5; }));
-  return {"map",
-          {{"segments", count(map.size())},
-           {"total_length_m", total},
-           {"median_segment_m", map.empty() ? 0.0 : quantile(lengths, 0.5)},
-           {"longest_segment_m",
-            map.empty() ? 0.0 : *std::max_element(lengths.begin(), lengths.end())},
-           {"segments_under_0.5m", count(under)}}};
+  return {
+      "map",
+      {{"segments", count(map.size())},
+       {"total_length_m", total},
+       {"median_segment_m", map.empty() ? 0.0 : quantile(lengths, 0.5)},
+       {"longest_segment_m", map.empty() ? 0.0 : *std::max_element(lengths.begin(), lengths.end())},
+       {"segments_under_0.5m", count(under)}}};
 }
 
 ScoreGroup scoreSize(const EndPoints& ends, std::size_t segments, const LogScoreParameters& p) {
@@ -232,7 +232,8 @@ LogScore scoreAgainstLog(const std::vector<Scan>& scans, const std::vector<Segme
   const double step = std::max(p.step, total / kMostSamples);
   const MapSamples samples = log_score::sampleMap(map, step);
   std::vector<std::size_t> picked;
-  const std::size_t stride = std::max<std::size_t>(1, (samples.size() + kMostTested - 1) / kMostTested);
+  const std::size_t stride =
+      std::max<std::size_t>(1, (samples.size() + kMostTested - 1) / kMostTested);
   for (std::size_t k = 0; k < samples.size(); k += stride) picked.push_back(k);
 
   LogScore score;
@@ -253,14 +254,13 @@ LogScore scoreAgainstLog(const std::vector<Scan>& scans, const std::vector<Segme
 
   const auto redundant =
       log_score::redundancy(map, index, samples, picked, keyframe_points, keyframe_origins);
-  score.groups.push_back(
-      {"redundancy",
-       {{"redundant_frac_05", redundant.fraction_05},
-        {"redundant_frac_10", redundant.fraction_10},
-        {"multiplicity_10", redundant.multiplicity},
-        {"dedup_length_m", redundant.dedup_length},
-        {"ratio_10", map.empty() ? kNaN : total / redundant.dedup_length},
-        {"joinable_pairs", count(redundant.joinable_pairs)}}});
+  score.groups.push_back({"redundancy",
+                          {{"redundant_frac_05", redundant.fraction_05},
+                           {"redundant_frac_10", redundant.fraction_10},
+                           {"multiplicity_10", redundant.multiplicity},
+                           {"dedup_length_m", redundant.dedup_length},
+                           {"ratio_10", map.empty() ? kNaN : total / redundant.dedup_length},
+                           {"joinable_pairs", count(redundant.joinable_pairs)}}});
 
   const auto rays = log_score::freeSpace(scans, map, samples, p);
   double contradicted = 0.0;

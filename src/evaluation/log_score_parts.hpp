@@ -24,9 +24,9 @@ EndPoints endPoints(const std::vector<Scan>& scans);
 struct MapSamples {
   std::vector<Eigen::Vector2d> xy;
   std::vector<std::size_t> segment;
-  std::vector<double> length;       ///< m, of the sample's bin
-  std::vector<std::size_t> first;   ///< a segment's first sample
-  std::vector<std::size_t> count;   ///< a segment's number of samples
+  std::vector<double> length;      ///< m, of the sample's bin
+  std::vector<std::size_t> first;  ///< a segment's first sample
+  std::vector<std::size_t> count;  ///< a segment's number of samples
 
   std::size_t size() const { return xy.size(); }
 };
@@ -36,7 +36,8 @@ MapSamples sampleMap(const std::vector<Segment2>& map, double step);
 /// Scans at least 0.5 m or 20 degrees apart, so that dense logs weigh like sparse ones.
 std::vector<bool> keyframes(const std::vector<Scan>& scans);
 
-/// Occupied cells with at least two points: centroids and whether their surroundings are a thin line.
+/// Occupied cells with at least two points: centroids and whether their surroundings are a thin
+/// line.
 struct Cells {
   std::vector<Eigen::Vector2d> centroid;
   std::vector<double> hits;
@@ -51,8 +52,8 @@ struct LateralBias {
   double rms = 0.0, p95 = 0.0, spread_median = 0.0;  ///< m; NaN without stations
 };
 
-LateralBias lateralBias(const std::vector<Eigen::Vector2d>& points, const std::vector<Segment2>& map,
-                        const SegmentIndex& index);
+LateralBias lateralBias(const std::vector<Eigen::Vector2d>& points,
+                        const std::vector<Segment2>& map, const SegmentIndex& index);
 
 /// Length of map that runs beside other map.
 struct Redundancy {

@@ -52,9 +52,9 @@ std::size_t joinablePairs(const std::vector<Segment2>& map, const SegmentIndex& 
   for (std::size_t i = 0; i < map.size(); ++i) {
     for (const std::size_t j : index.within(map[i], kGap)) {
       if (j <= i || angleBetweenLines(theta[i], theta[j]) > kJoinable) continue;
-      const double offset =
-          std::max({lateral(map[i].start, map[j], theta[j]), lateral(map[i].end, map[j], theta[j]),
-                    lateral(map[j].start, map[i], theta[i]), lateral(map[j].end, map[i], theta[i])});
+      const double offset = std::max(
+          {lateral(map[i].start, map[j], theta[j]), lateral(map[i].end, map[j], theta[j]),
+           lateral(map[j].start, map[i], theta[i]), lateral(map[j].end, map[i], theta[i])});
       if (offset <= kNear) ++pairs;
     }
   }

@@ -48,7 +48,8 @@ struct SegmentIndex::Tree {
 SegmentIndex::SegmentIndex(const std::vector<Segment2>& segments) : segments_(segments) {
   std::vector<std::pair<BoostBox, std::size_t>> values;
   values.reserve(segments.size());
-  for (std::size_t i = 0; i < segments.size(); ++i) values.emplace_back(boxAround(segments[i], 0), i);
+  for (std::size_t i = 0; i < segments.size(); ++i)
+    values.emplace_back(boxAround(segments[i], 0), i);
   tree_.reset(new Tree{decltype(Tree::boxes)(values)});
 }
 
@@ -79,8 +80,8 @@ std::vector<std::size_t> SegmentIndex::within(const Segment2& segment, double ra
   for (auto it = tree_->boxes.qbegin(bgi::intersects(boxAround(segment, radius)));
        it != tree_->boxes.qend(); ++it) {
     const Segment2& other = segments_[it->second];
-    const double d = is_point ? distance(segment.start, other)
-                              : bg::distance(toBoost(segment), toBoost(other));
+    const double d =
+        is_point ? distance(segment.start, other) : bg::distance(toBoost(segment), toBoost(other));
     if (d <= radius) found.push_back(it->second);
   }
   std::sort(found.begin(), found.end());
@@ -99,8 +100,8 @@ struct PointIndex::Tree {
       return false;
     }
   };
-  using Index =
-      nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<double, Points>, Points, 2>;
+  using Index = nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<double, Points>,
+                                                    Points, 2, std::size_t>;
 
   explicit Tree(const std::vector<Eigen::Vector2d>& p)
       : points{p}, index(2, points, nanoflann::KDTreeSingleIndexAdaptorParams(16)) {}

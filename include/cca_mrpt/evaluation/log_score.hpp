@@ -49,16 +49,17 @@ struct ScoreGroup {
   double at(const std::string& figure) const;
 };
 
-/// Groups "map", "points", "cells", "phantom", "bias", "redundancy", "free_space", "size", "summary".
+/// Groups "map", "points", "cells", "phantom", "bias", "redundancy", "free_space", "size",
+/// "summary".
 struct LogScore {
   std::vector<ScoreGroup> groups;
 
   const ScoreGroup& at(const std::string& group) const;
 };
 
-/// Judges a map by recall (cells whose surroundings are a thin line, within 10 cm), precision (length
-/// that is supported, not contradicted by rays, and counted once), lateral bias, redundancy, free
-/// space and description length. Meaning of each figure: docs/evaluation.md.
+/// Judges a map by recall (cells whose surroundings are a thin line, within 10 cm), precision
+/// (length that is supported, not contradicted by rays, and counted once), lateral bias,
+/// redundancy, free space and description length. Meaning of each figure: docs/evaluation.md.
 ///
 /// @param scans  at T_map_sensor; returns under 5 cm are not counted. At least one return, else
 ///               std::runtime_error.
