@@ -11,6 +11,7 @@ constexpr int kDone = 0, kRunFailed = 1, kUsage = 2;
 int main(int argc, char** argv) {
   CLI::App program{"Line maps from 2-D lasers, and exploration that brings them back", "cca-mrpt"};
   program.require_subcommand(1);
+  cca::apps::addExploreCommand(program);
   cca::apps::addExtractCommand(program);
   cca::apps::addMapCommand(program);
   cca::apps::addEvaluateCommand(program);

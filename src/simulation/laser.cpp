@@ -1,2 +1,107 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "cca_mrpt/simulation/laser.hpp"
+
+#include <mrpt/obs/CObservation2DRangeScan.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace cca {
+
+namespace {
+
+constexpr double kNoReturn = std::numeric_limits<double>::infinity();
+constexpr double kInvalid = std::numeric_limits<double>::quiet_NaN();
+
+std::vector<double> castExact(const World& world, const std::vector<Body>& bodies, const Scan& scan,
+                              const LaserParameters& parameters, Random& random) {
+  std::vector<double> ranges;
+  ranges.reserve(parameters.beams);
+  for (int beam = 0; beam < parameters.beams; ++beam) {
+    double bearing = scan.T_map_sensor.theta + scan.bearing(beam);
+    if (parameters.angle_noise_deg > 0.0) {
+      bearing += random.normal() * parameters.angle_noise_deg * M_PI / 180.0;
+    }
+    const Eigen::Vector2d p_map = scan.T_map_sensor.position();
+    double range = castBeam(world, p_map, bearing, parameters.range);
+    for (const Body& body : bodies) range = std::min(range, castBeam(body, p_map, bearing));
+    ranges.push_back(range);
+  }
+  return ranges;
+}
+
+/// MRPT's own simulator; without its noise, which comes from a global generator.
+std::vector<double> castByMrpt(const World& world, const Scan& scan,
+                               const LaserParameters& parameters) {
+  mrpt::obs::CObservation2DRangeScan observation;
+  observation.aperture = static_cast<float>(parameters.field_of_view_deg * M_PI / 180.0);
+  observation.maxRange = static_cast<float>(parameters.range);
+  observation.rightToLeft = true;
+  const Eigen::Vector2d p_grid = scan.T_map_sensor.position() - world.origin();
+  world.grid().laserScanSimulator(observation, {p_grid.x(), p_grid.y(), scan.T_map_sensor.theta},
+                                  0.5f, parameters.beams);
+  std::vector<double> ranges;
+  for (int beam = 0; beam < parameters.beams; ++beam) {
+    const double range = observation.getScanRange(beam);
+    ranges.push_back(observation.getScanRangeValidity(beam) ? range : kNoReturn);
+  }
+  return ranges;
+}
+
+double withNoise(double range, const LaserParameters& parameters, Random& random) {
+  if (parameters.dropout > 0.0 && random.uniform() < parameters.dropout) return kInvalid;
+  if (!std::isfinite(range)) return range;
+  if (range <= 0.0) return kInvalid;
+  if (parameters.range_noise > 0.0) range += random.normal() * parameters.range_noise;
+  if (range > parameters.range) return kNoReturn;
+  return range > 0.0 ? range : kInvalid;
+}
+
+}  // namespace
+
+double castBeam(const World& world, const Eigen::Vector2d& p_map, double bearing,
+                double max_range) {
+  const Eigen::Vector2d p = world.toCells(p_map);
+  const double dx = std::cos(bearing), dy = std::sin(bearing);
+  const double reach = max_range / world.resolution();
+  int ix = static_cast<int>(std::floor(p.x())), iy = static_cast<int>(std::floor(p.y()));
+  if (world.isObstacle(ix, iy)) return 0.0;
+  const int step_x = dx > 0.0 ? 1 : -1, step_y = dy > 0.0 ? 1 : -1;
+  // Travel between vertical (horizontal) cell edges, and to the first one.
+  const double every_x = dx != 0.0 ? std::abs(1.0 / dx) : kNoReturn;
+  const double every_y = dy != 0.0 ? std::abs(1.0 / dy) : kNoReturn;
+  double next_x = dx != 0.0 ? (dx > 0.0 ? ix + 1 - p.x() : p.x() - ix) * every_x : kNoReturn;
+  double next_y = dy != 0.0 ? (dy > 0.0 ? iy + 1 - p.y() : p.y() - iy) * every_y : kNoReturn;
+  for (;;) {
+    double travelled;
+    if (next_x < next_y) {
+      travelled = next_x;
+      next_x += every_x;
+      ix += step_x;
+    } else {
+      travelled = next_y;
+      next_y += every_y;
+      iy += step_y;
+    }
+    if (travelled > reach) return kNoReturn;
+    if (world.isObstacle(ix, iy)) return travelled * world.resolution();
+  }
+}
+
+Scan sweep(const World& world, const std::vector<Body>& bodies, const Pose2& T_map_sensor,
+           const LaserParameters& parameters, Random& random) {
+  Scan scan;
+  const double field_of_view = parameters.field_of_view_deg * M_PI / 180.0;
+  scan.angle_min = parameters.beams > 1 ? -0.5 * field_of_view : 0.0;
+  scan.angle_increment = parameters.beams > 1 ? field_of_view / (parameters.beams - 1) : 0.0;
+  scan.free_range_without_return = parameters.range;
+  scan.T_map_sensor = T_map_sensor;
+  scan.ranges = parameters.caster == "mrpt" ? castByMrpt(world, scan, parameters)
+                                            : castExact(world, bodies, scan, parameters, random);
+  if (parameters.caster == "mrpt") scan.free_range_without_return *= 0.8;  // it looks no farther
+  for (double& range : scan.ranges) range = withNoise(range, parameters, random);
+  return scan;
+}
+
+}  // namespace cca

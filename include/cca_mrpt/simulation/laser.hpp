@@ -1,6 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+#include "cca_mrpt/mapping/scan.hpp"
+#include "cca_mrpt/simulation/body.hpp"
+#include "cca_mrpt/simulation/random.hpp"
+#include "cca_mrpt/simulation/world.hpp"
+
 namespace cca {
 
 /// The simulated laser.
@@ -9,6 +18,9 @@ struct LaserParameters {
   double field_of_view_deg = 360.0;
   int beams = 361;
   double range_noise = 0.01;
+  double angle_noise_deg = 0.0;
+  double dropout = 0.0;
+  std::string caster = "exact";
 };
 
 /// See describe(CcaParameters&, ...).
@@ -18,6 +30,28 @@ void describe(LaserParameters& p, Field&& field) {
   field("field_of_view_deg", p.field_of_view_deg, 1.0, 360.0, "deg", "from first to last beam");
   field("beams", p.beams, 1, 100000, "", "number of beams");
   field("range_noise", p.range_noise, 0.0, 10.0, "m", "standard deviation of a range");
+  field("angle_noise_deg", p.angle_noise_deg, 0.0, 10.0, "deg",
+        "standard deviation of a beam's direction");
+  field("dropout", p.dropout, 0.0, 1.0, "", "share of beams that give an invalid reading");
+  field("caster", p.caster, {"exact", "mrpt"},
+        "how beams are traced: exact cell edges, or MRPT's simulator (sees 80 % of the range)");
 }
+
+/// Distance along one beam to the edge of the first obstacle cell (digital differential analyser,
+/// Amanatides & Woo 1987): exact for the grid, free of bias.
+/// @param bearing    rad, map frame.
+/// @param max_range  m.
+/// @return           m; +inf where nothing is met up to max_range; 0 inside an obstacle.
+/// Cost: cells crossed.
+double castBeam(const World& world, const Eigen::Vector2d& p_map, double bearing, double max_range);
+
+/// One sweep at T_map_sensor over the world and the bodies in it.
+///
+/// Noise is added to returns only; what then exceeds the range is no return, what falls to zero or
+/// below is invalid (NaN), as is a beam that drops out. A beam without return is free up to the
+/// range. Draws its random numbers beam by beam, so equal streams give equal scans.
+/// With caster "mrpt" the bodies are not seen: MRPT's simulator knows its grid alone.
+Scan sweep(const World& world, const std::vector<Body>& bodies, const Pose2& T_map_sensor,
+           const LaserParameters& parameters, Random& random);
 
 }  // namespace cca

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "cca_mrpt/mapping/pose2.hpp"
+#include "cca_mrpt/navigation/robot.hpp"
+#include "cca_mrpt/simulation/random.hpp"
+
+namespace cca {
+
+/// How wheel odometry errs: variances grow with the way driven and the angle turned, whatever the
+/// step [Thrun, Burgard & Fox 2005, ch. 5.4].
+struct OdometryParameters {
+  double distance_noise = 0.02;
+  double turn_noise_deg = 2.0;
+  double drift_noise_deg = 1.0;
+};
+
+/// See describe(CcaParameters&, ...).
+template <class Field>
+void describe(OdometryParameters& p, Field&& field) {
+  field("distance_noise", p.distance_noise, 0.0, 1.0, "m", "error of distance after 1 m, sigma");
+  field("turn_noise_deg", p.turn_noise_deg, 0.0, 90.0, "deg",
+        "error of heading after a turn of 1 rad, sigma");
+  field("drift_noise_deg", p.drift_noise_deg, 0.0, 90.0, "deg",
+        "error of heading after 1 m of way, sigma");
+}
+
+/// A velocity that goes towards a command as fast as the accelerations allow.
+/// @param dt  s, at least 0.
+Velocity approach(const Velocity& velocity, const Velocity& command, const RobotParameters& limits,
+                  double dt);
+
+/// Where a differential drive gets to in dt at constant velocity: an exact circular arc.
+Pose2 driveArc(const Pose2& T_map_robot, const Velocity& velocity, double dt);
+
+/// A copy of the true motion that errs; the truth never sees it.
+class Odometry {
+ public:
+  Odometry(const Pose2& T_odom_robot, const OdometryParameters& parameters, std::uint64_t seed)
+      : T_odom_robot_(T_odom_robot), parameters_(parameters), random_(seed) {}
+
+  /// Takes a true motion of `velocity` over dt seconds.
+  void add(const Velocity& velocity, double dt);
+  const Pose2& T_odom_robot() const { return T_odom_robot_; }
+
+ private:
+  Pose2 T_odom_robot_;
+  OdometryParameters parameters_;
+  Random random_;
+};
+
+}  // namespace cca

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "cca_mrpt/simulation/simulation.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
+namespace cca {
+
+namespace {
+
+constexpr double kLongestStep = 0.01;  // s, of the integration
+constexpr double kContactGap = 1e-7;   // m, rounding allowed in the contact test
+constexpr double kContactOver = 0.01;  // m, a contact has ended this far from the obstacle
+constexpr double kRecordDistance = 0.05, kRecordTurn = 0.1;  // m, rad
+
+// One seed, streams that do not disturb each other.
+enum Stream : std::uint64_t { kLaserStream = 1, kOdometryStream = 2 };
+std::uint64_t seedOf(std::uint64_t seed, Stream stream) {
+  return seed * 0x9E3779B97F4A7C15ULL + stream;
+}
+
+}  // namespace
+
+Simulation::Simulation(World world, const Pose2& T_map_start,
+                       const SimulationParameters& parameters)
+    : world_(std::move(world)),
+      parameters_(parameters),
+      T_map_robot_(T_map_start),
+      odometry_(T_map_start, parameters.odometry, seedOf(parameters.seed, kOdometryStream)),
+      laser_random_(seedOf(parameters.seed, kLaserStream)) {
+  requireStandable(world_, T_map_start, parameters.robot.radius);
+  record(true);
+}
+
+Observation Simulation::observe() {
+  Observation observation;
+  observation.scan = sweep(world_, bodies_, T_map_robot_, parameters_.laser, laser_random_);
+  observation.scan.T_map_sensor = T_map_robot_;
+  observation.T_map_robot = T_map_robot_;
+  observation.velocity = velocity_;
+  observation.time = time_;
+  return observation;
+}
+
+void Simulation::drive(const Velocity& command, double dt) {
+  assert(dt >= 0.0 && std::isfinite(command.linear) && std::isfinite(command.angular));
+  // Steps short enough that the disc cannot jump over an obstacle.
+  const double longest_way = 0.4 * std::min(world_.resolution(), parameters_.robot.radius);
+  const double fastest = parameters_.robot.max_linear_velocity;
+  const double step = std::min(kLongestStep, longest_way / fastest);
+  const int steps = std::max(1, static_cast<int>(std::ceil(dt / step - 1e-9)));
+  const double start = time_;
+  for (int i = 1; i <= steps; ++i) {
+    advance(command, dt / steps);
+    time_ = start + dt * i / steps;
+    record(i == steps);
+  }
+}
+
+void Simulation::advance(const Velocity& command, double dt) {
+  const Velocity before = velocity_;
+  velocity_ = approach(before, command, parameters_.robot, dt);
+  Velocity mean{0.5 * (before.linear + velocity_.linear),
+                0.5 * (before.angular + velocity_.angular)};
+  Pose2 next = driveArc(T_map_robot_, mean, dt);
+  if (mean.linear != 0.0 && touches(next.position())) {
+    if (!in_contact_) ++collisions_;
+    in_contact_ = true;
+    velocity_.linear = mean.linear = 0.0;  // a disc may still turn
+    next = driveArc(T_map_robot_, mean, dt);
+  } else if (in_contact_) {
+    const double away = parameters_.robot.radius + kContactOver;
+    in_contact_ = world_.clearance(next.position(), away) < away - kContactGap;
+  }
+  distance_ += std::abs(mean.linear) * dt;
+  odometry_.add(mean, dt);
+  T_map_robot_ = next;
+}
+
+bool Simulation::touches(const Eigen::Vector2d& p_map) const {
+  const double radius = parameters_.robot.radius;
+  return world_.clearance(p_map, radius) < radius - kContactGap;
+}
+
+void Simulation::record(bool always) {
+  if (!always) {
+    const Pose2& last = trajectory_.back().T_map_robot;
+    const double way = (T_map_robot_.position() - last.position()).norm();
+    const double turn = std::abs(wrapAngle(T_map_robot_.theta - last.theta));
+    if (way < kRecordDistance && turn < kRecordTurn) return;
+  }
+  trajectory_.push_back({time_, T_map_robot_});
+}
+
+}  // namespace cca

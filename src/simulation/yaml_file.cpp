@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "yaml_file.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <fstream>
+#include <sstream>
+#include <stdexcept>
+
+namespace cca {
+
+namespace {
+
+using mrpt::containers::yaml;
+
+std::string shown(double value) {
+  char text[40];
+  std::snprintf(text, sizeof text, "%.10g", value);
+  return text;
+}
+
+std::string joined(const std::vector<std::string>& words) {
+  std::string all;
+  for (const auto& word : words) all += (all.empty() ? "" : ", ") + word;
+  return all;
+}
+
+}  // namespace
+
+YamlNode YamlNode::load(const std::string& path) {
+  std::ifstream file(path);
+  std::stringstream text;
+  if (!file || !(text << file.rdbuf())) throw std::runtime_error(path + ": cannot be read");
+  yaml node;
+  try {
+    node.loadFromText(text.str());
+  } catch (const std::exception&) {
+    throw std::runtime_error(path + ": is not valid YAML");
+  }
+  if (node.empty() || !node.isMap()) {
+    throw std::runtime_error(path + ": holds no 'key: value' lines");
+  }
+  return YamlNode(path, node.asMap());
+}
+
+void YamlNode::fail(const std::string& key, const std::string& complaint) const {
+  throw std::runtime_error(where_ + ": " + key + ": " + complaint);
+}
+
+const YamlNode::Node* YamlNode::find(const std::string& key) const {
+  for (const auto& [name, value] : entries_) {
+    if (name.as<std::string>() == key) return &value;
+  }
+  return nullptr;
+}
+
+bool YamlNode::has(const std::string& key) const { return find(key) != nullptr; }
+
+std::vector<std::string> YamlNode::keys() const {
+  std::vector<std::string> all;
+  for (const auto& entry : entries_) all.push_back(entry.first.as<std::string>());
+  return all;
+}
+
+const YamlNode::Node& YamlNode::at(const std::string& key) const {
+  const Node* value = find(key);
+  if (!value) fail(key, "is missing");
+  return *value;
+}
+
+double YamlNode::toNumber(const std::string& key, const Node& value) const {
+  if (!value.isScalar()) fail(key, "must be a number");
+  const std::string text = value.as<std::string>();
+  char* end = nullptr;
+  const double number = std::strtod(text.c_str(), &end);
+  if (text.empty() || *end != '\0' || !std::isfinite(number)) {
+    fail(key, "'" + text + "' is not a number");
+  }
+  return number;
+}
+
+double YamlNode::number(const std::string& key, double lowest, double highest) const {
+  const double value = toNumber(key, at(key));
+  if (value < lowest || value > highest) {
+    fail(key,
+         shown(value) + " is out of range, allowed is " + shown(lowest) + " to " + shown(highest));
+  }
+  return value;
+}
+
+double YamlNode::number(const std::string& key, double lowest, double highest,
+                        double otherwise) const {
+  return has(key) ? number(key, lowest, highest) : otherwise;
+}
+
+std::string YamlNode::text(const std::string& key) const {
+  const Node& value = at(key);
+  if (!value.isScalar() || value.as<std::string>().empty()) fail(key, "must be a text");
+  return value.as<std::string>();
+}
+
+std::string YamlNode::choice(const std::string& key, const std::vector<std::string>& allowed,
+                             const std::string& otherwise) const {
+  if (!has(key)) return otherwise;
+  const std::string value = text(key);
+  if (std::find(allowed.begin(), allowed.end(), value) == allowed.end()) {
+    fail(key, "'" + value + "' is not one of: " + joined(allowed));
+  }
+  return value;
+}
+
+std::vector<double> YamlNode::numbers(const std::string& key, std::size_t size) const {
+  const Node& value = at(key);
+  if (!value.isSequence() || (size > 0 && value.asSequence().size() != size)) {
+    fail(key, "must be a list of " + (size > 0 ? std::to_string(size) + " " : "") + "numbers");
+  }
+  std::vector<double> all;
+  for (const auto& entry : value.asSequence()) all.push_back(toNumber(key, entry));
+  return all;
+}
+
+std::vector<std::vector<double>> YamlNode::rows(const std::string& key, std::size_t size) const {
+  const Node& value = at(key);
+  const std::string wanted = "must be a list of lists of " + std::to_string(size) + " numbers";
+  if (!value.isSequence()) fail(key, wanted);
+  std::vector<std::vector<double>> all;
+  for (const auto& row : value.asSequence()) {
+    if (!row.isSequence() || row.asSequence().size() != size) fail(key, wanted);
+    all.emplace_back();
+    for (const auto& entry : row.asSequence()) all.back().push_back(toNumber(key, entry));
+  }
+  return all;
+}
+
+std::vector<YamlNode> YamlNode::list(const std::string& key) const {
+  if (!has(key)) return {};
+  const Node& value = at(key);
+  if (!value.isSequence()) fail(key, "must be a list");
+  std::vector<YamlNode> all;
+  for (const auto& entry : value.asSequence()) {
+    const std::string place = key + "[" + std::to_string(all.size()) + "]";
+    if (!entry.isMap()) fail(place, "must hold 'key: value' lines");
+    all.push_back(YamlNode(where_ + ": " + place, entry.asMap()));
+  }
+  return all;
+}
+
+void YamlNode::allowOnly(const std::vector<std::string>& allowed) const {
+  for (const auto& key : keys()) {
+    if (std::find(allowed.begin(), allowed.end(), key) == allowed.end()) {
+      fail(key, "is no known key, allowed are: " + joined(allowed));
+    }
+  }
+}
+
+}  // namespace cca
