@@ -2,9 +2,14 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
+#include <vector>
 
 #include "cca_mrpt/mapping/scan.hpp"
+#include "cca_mrpt/navigation/configuration_space.hpp"
+#include "cca_mrpt/navigation/local_view.hpp"
 #include "cca_mrpt/navigation/robot.hpp"
+#include "cca_mrpt/navigation/tangent_graph.hpp"
 
 namespace cca {
 
@@ -30,11 +35,24 @@ class TangentBug {
   Velocity step(const Scan& scan, const Pose2& T_map_robot, const Velocity& velocity, double time);
 
   TangentBugState state() const { return state_; }
+  /// What the last step saw and chose, for pictures, markers and tests.
+  const LocalView& localView() const { return view_; }
+  const std::vector<TangentNode>& tangentGraph() const { return nodes_; }
+  const std::optional<Eigen::Vector2d>& target() const { return target_; }
 
  private:
+  std::optional<Eigen::Vector2d> motionToGoal();
+  Velocity drive(const Velocity& velocity) const;
+
   RobotParameters robot_;
   Eigen::Vector2d goal_map_ = Eigen::Vector2d::Zero();
   TangentBugState state_ = TangentBugState::kReached;
+  LocalView view_;
+  ConfigurationSpace space_;
+  std::vector<FreeRange> free_ranges_;
+  std::vector<TangentNode> nodes_;
+  std::optional<Eigen::Vector2d> target_;
+  std::optional<bool> side_on_the_right_;
 };
 
 }  // namespace cca

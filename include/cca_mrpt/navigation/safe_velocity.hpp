@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "cca_mrpt/navigation/robot.hpp"
+
+namespace cca {
+
+/// A point that the robot must not touch.
+struct Hazard {
+  Eigen::Vector2d p_robot;     ///< m, robot frame
+  double closing_speed = 0.0;  ///< m/s, how fast it may come nearer (0: it stands)
+};
+
+/// The last word on what the robot does: the velocity nearest to the wanted one from which it can
+/// still stop before it touches anything.
+///
+/// A command is safe where the motion that it starts, one control period at that command, then
+/// braking both velocities with the robot's accelerations, keeps every hazard outside the disc of
+/// `radius`; a hazard that is inside already must not come nearer. Braking at once is what the
+/// safety of the last command rests on, so it is the answer where nothing else is safe. Turning on
+/// the spot is always safe for a disc.
+///
+/// @param wanted   any; clamped to what the accelerations allow in one period.
+/// @param present  the velocity now.
+/// @param radius   m, the robot's radius with the least clearance that is never given up.
+/// @param period   s, time between two commands.
+/// Cost: O(candidates * braking steps * near hazards), some 10 us.
+Velocity safeVelocity(const Velocity& wanted, const Velocity& present,
+                      const std::vector<Hazard>& hazards, const RobotParameters& robot,
+                      double radius, double period);
+
+}  // namespace cca

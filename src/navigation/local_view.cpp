@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "cca_mrpt/navigation/local_view.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace cca {
+namespace {
+
+constexpr double kGrazingAngle = 10.0 * M_PI / 180.0;  // incidence up to which a wall is one wall
+constexpr double kSpacing = 0.05;  // m; the discs of neighbouring samples dent by 1 mm only
+constexpr int kBeamsAcross = 3;    // invalid beams in a row that a surface may span
+
+struct Return {
+  std::size_t beam;
+  double range;
+  Eigen::Vector2d p_map;
+};
+
+bool coversFullTurn(const Scan& scan) {
+  const double span = static_cast<double>(scan.size()) * std::abs(scan.angle_increment);
+  return span > 2.0 * M_PI - 1.5 * std::abs(scan.angle_increment);
+}
+
+// Borges & Aldon: the spacing that two neighbouring beams have on a surface at grazing incidence.
+double largestSpacing(double near_range, double angle) {
+  if (angle >= kGrazingAngle) return near_range;
+  return near_range * std::sin(angle) / std::sin(kGrazingAngle - angle);
+}
+
+void add(const Eigen::Vector2d& p_map, LocalView& view) {
+  view.obstacles.push_back(p_map);
+  view.ends_here.push_back(false);
+}
+
+// What lies between two returns that follow each other in beam order.
+void addPair(const Scan& scan, const Return& a, const Return& b, std::size_t beams_apart,
+             bool open_between, double passable_gap, LocalView& view) {
+  const double gap = (a.p_map - b.p_map).norm();
+  const double angle = static_cast<double>(beams_apart) * std::abs(scan.angle_increment);
+  const double spacing = largestSpacing(std::min(a.range, b.range), angle);
+  const bool together = static_cast<int>(beams_apart) <= kBeamsAcross && !open_between;
+  if (!together || gap > std::max(spacing, passable_gap)) {
+    if (view.obstacles.back() != a.p_map) add(a.p_map, view);
+    view.ends_here.back() = true;
+    add(b.p_map, view);
+    return;
+  }
+  const int pieces = static_cast<int>(std::ceil(gap / kSpacing));
+  for (int i = 1; i < pieces; ++i) add(a.p_map + (b.p_map - a.p_map) * i / pieces, view);
+}
+
+// Beams that run clockwise give points that do.
+void reverse(LocalView& view) {
+  std::reverse(view.obstacles.begin(), view.obstacles.end());
+  std::reverse(view.ends_here.begin(), view.ends_here.end());
+  if (view.ends_here.empty()) return;
+  std::rotate(view.ends_here.begin(), view.ends_here.begin() + 1, view.ends_here.end());
+}
+
+}  // namespace
+
+double LocalView::seenDistanceTowards(const Eigen::Vector2d& p_map) const {
+  if (seen.empty() || angle_increment == 0.0) return 0.0;
+  const Eigen::Vector2d p_sensor = T_map_sensor.inverse() * p_map;
+  const double bearing = std::atan2(p_sensor.y(), p_sensor.x());
+  const double turn = 2.0 * M_PI / std::abs(angle_increment);
+  double beam = std::fmod((bearing - angle_min) / angle_increment, turn);
+  if (beam < -0.5) beam += turn;
+  const auto index = static_cast<std::size_t>(std::lround(std::max(beam, 0.0)));
+  if (index < seen.size()) return seen[index];
+  return index == seen.size() && turn - beam < 1.0 ? seen.front() : 0.0;
+}
+
+LocalView makeLocalView(const Scan& scan, const Pose2& T_map_robot, double passable_gap) {
+  LocalView view;
+  view.T_map_robot = T_map_robot;
+  view.T_map_sensor = scan.T_map_sensor;
+  view.angle_min = scan.angle_min;
+  view.angle_increment = scan.angle_increment;
+  view.seen.assign(scan.size(), 0.0);
+  std::vector<Return> returns;
+  returns.reserve(scan.size());
+  for (std::size_t i = 0; i < scan.size(); ++i) {
+    const double range = scan.ranges[i];
+    if (isReturn(range)) {
+      const double bearing = scan.bearing(i);
+      returns.push_back({i, range,
+                         scan.T_map_sensor * Eigen::Vector2d(range * std::cos(bearing),
+                                                             range * std::sin(bearing))});
+    }
+    view.seen[i] = isReturn(range)     ? range
+                   : isNoReturn(range) ? scan.free_range_without_return
+                                       : 0.0;
+    view.horizon = std::max(view.horizon, view.seen[i]);
+  }
+  const std::size_t n = returns.size();
+  for (std::size_t k = 0; k < n; ++k) {
+    const Return& a = returns[k];
+    if (view.obstacles.empty() || (view.obstacles.back() - a.p_map).norm() >= 0.5 * kSpacing) {
+      add(a.p_map, view);
+    }
+    if (k + 1 == n && !coversFullTurn(scan)) break;
+    const Return& b = returns[(k + 1) % n];
+    const std::size_t apart = (b.beam + scan.size() - a.beam - 1) % scan.size() + 1;
+    bool open_between = false;
+    for (std::size_t j = 1; j < apart; ++j) {
+      open_between = open_between || isNoReturn(scan.ranges[(a.beam + j) % scan.size()]);
+    }
+    addPair(scan, a, b, apart, open_between, passable_gap, view);
+  }
+  if (n > 0 && !coversFullTurn(scan)) view.ends_here.back() = true;
+  if (scan.angle_increment < 0.0) reverse(view);
+  return view;
+}
+
+bool LocalView::onOneSurface(int a, int b) const {
+  const int n = static_cast<int>(obstacles.size());
+  const auto bearing = [&](int i) {
+    const Eigen::Vector2d to = obstacles[static_cast<std::size_t>(i)] - T_map_sensor.position();
+    return std::atan2(to.y(), to.x());
+  };
+  if (wrapAngle(bearing(b) - bearing(a)) < 0.0) std::swap(a, b);
+  for (int i = a; i != b; i = (i + 1) % n) {
+    if (ends_here[static_cast<std::size_t>(i)]) return false;
+  }
+  return true;
+}
+
+}  // namespace cca
