@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "cca_mrpt/mapping/line_map.hpp"
+
+namespace cca {
+
+/// A line map as CSV, header `x1,y1,x2,y2,id,support,length,sigma_offset,sigma_angle_deg`: end
+/// points [m, map frame], stable id, laser returns, length [m], and the standard deviations of the
+/// line's lateral offset at its centroid [m] and of its orientation [deg].
+std::string linesCsv(const std::vector<MapLine>& lines);
+
+/// Reads linesCsv() back, and any CSV whose header names x1, y1, x2 and y2.
+/// @param name  of the file, for messages.
+/// @throws std::runtime_error naming file, row and column of what is missing or no finite number.
+std::vector<MapLine> readLinesCsv(const std::string& text, const std::string& name);
+
+/// A line map as a GeoJSON FeatureCollection in metres of the map frame (not longitude, latitude).
+/// Each line is a LineString with `kind` "line", `id`, `support`, `length` and `covariance`
+/// (offset-offset, offset-angle, angle-angle; m^2, m rad, rad^2); each poly-line one more with
+/// `kind` "poly_line", `length` and `line_ids`.
+std::string linesGeoJson(const std::vector<MapLine>& lines,
+                         const std::vector<PolyLine>& poly_lines);
+
+/// A floor plan to scale (1 : 100, when printed unscaled) as SVG: poly-lines as polylines, what is
+/// part of none as lines; ids and supports as data attributes.
+/// @param trajectory  drawn thin below the lines; may be empty.
+std::string linesSvg(const std::vector<MapLine>& lines, const std::vector<PolyLine>& poly_lines,
+                     const std::vector<Pose2>& trajectory);
+
+/// A floor plan as DXF R12, one drawing unit a metre: layers POLYLINES, LINES and TRAJECTORY.
+std::string linesDxf(const std::vector<MapLine>& lines, const std::vector<PolyLine>& poly_lines,
+                     const std::vector<Pose2>& trajectory);
+
+/// The lines that are part of no poly-line.
+std::vector<MapLine> loneLines(const std::vector<MapLine>& lines,
+                               const std::vector<PolyLine>& poly_lines);
+
+}  // namespace cca

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <mrpt/maps/COccupancyGridMap2D.h>
+
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "cca_mrpt/mapping/line_map.hpp"
+#include "cca_mrpt/mapping/pose2.hpp"
+
+namespace cca {
+
+/// What a run brings home: all that the files of a map's folder are made from.
+struct MapProducts {
+  std::string title;  ///< for people: the log's or the world's name
+  std::vector<MapLine> lines;
+  std::vector<PolyLine> poly_lines;
+  std::vector<Pose2> trajectory;  ///< T_map_robot, in order of time; may be empty
+  /// Occupancy of the same place (see ScanGrid); null: no map.pgm, no background in the picture.
+  std::shared_ptr<const mrpt::maps::COccupancyGridMap2D> grid;
+  /// Goes into summary.json, in this order, followed by the map's own numbers.
+  nlohmann::ordered_json summary = nlohmann::ordered_json::object();
+};
+
+/// Writes a map's folder: lines.csv, lines.geojson, lines.svg, lines.dxf, map.png, map.pgm and
+/// map.yaml, map.gridmap.gz, scene.3Dscene, summary.json (last: where it is, all is there).
+///
+/// The folder is made where it is missing. Each file appears whole or not at all.
+/// @throws std::runtime_error naming the file and the reason.
+void writeMapFolder(const std::string& folder, const MapProducts& products);
+
+/// Makes the folder for a run's files, before the work is done.
+/// @throws std::runtime_error where it cannot be made or written to, and where it already holds a
+///         run's summary.json and overwriting is not allowed.
+void prepareMapFolder(const std::string& folder, bool overwrite);
+
+}  // namespace cca

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <mrpt/opengl/COpenGLScene.h>
+
+#include <string>
+
+#include "cca_mrpt/io/map_products.hpp"
+
+namespace cca {
+
+/// The map in 3-D for MRPT's viewers: floor grid, walls of 1 m raised on the lines, trajectory,
+/// corner marks at start and end.
+mrpt::opengl::COpenGLScene::Ptr makeScene(const MapProducts& products);
+
+/// Writes makeScene() as a .3Dscene file, which SceneViewer3D opens.
+/// @throws std::runtime_error naming the file and the reason.
+void writeScene(const std::string& path, const MapProducts& products);
+
+}  // namespace cca

@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cinttypes>
+#include <cmath>
+#include <cstdio>
+#include <sstream>
+#include <stdexcept>
+#include <unordered_set>
+
+#include "cca_mrpt/io/line_formats.hpp"
+
+namespace cca {
+namespace {
+
+constexpr double kDegreesPerRadian = 180.0 / M_PI;
+constexpr std::array<const char*, 6> kColumns = {"x1", "y1", "x2", "y2", "id", "support"};
+constexpr std::size_t kNeeded = 4;
+
+double sigma(double variance) { return std::sqrt(std::max(0.0, variance)); }
+
+std::vector<std::string> cells(std::string row) {
+  if (!row.empty() && row.back() == '\r') row.pop_back();
+  std::vector<std::string> cells;
+  std::istringstream stream(row);
+  for (std::string cell; std::getline(stream, cell, ',');) cells.push_back(cell);
+  return cells;
+}
+
+/// Which cell of a row holds each of kColumns; the row's size where none does.
+std::array<std::size_t, kColumns.size()> findColumns(const std::vector<std::string>& header,
+                                                     const std::string& name) {
+  std::array<std::size_t, kColumns.size()> at{};
+  for (std::size_t k = 0; k < kColumns.size(); ++k) {
+    const auto found = std::find(header.begin(), header.end(), kColumns[k]);
+    if (found == header.end() && k < kNeeded) {
+      throw std::runtime_error(name + ": not a line map: no column " + kColumns[k] +
+                               " in the header (needed: x1,y1,x2,y2)");
+    }
+    at[k] = static_cast<std::size_t>(found - header.begin());
+  }
+  return at;
+}
+
+double number(const std::string& cell, const std::string& where) {
+  double value = 0.0;
+  const char* const end = cell.data() + cell.size();
+  const auto result = std::from_chars(cell.data(), end, value);
+  if (result.ec != std::errc() || result.ptr != end || !std::isfinite(value)) {
+    throw std::runtime_error(where + ": '" + cell + "' is not a finite number");
+  }
+  return value;
+}
+
+}  // namespace
+
+std::string linesCsv(const std::vector<MapLine>& lines) {
+  std::string text = "x1,y1,x2,y2,id,support,length,sigma_offset,sigma_angle_deg\n";
+  char row[256];
+  for (const MapLine& line : lines) {
+    const LineSegment& s = line.segment;
+    std::snprintf(row, sizeof row, "%.4f,%.4f,%.4f,%.4f,%" PRIu64 ",%.1f,%.4f,%.6f,%.6f\n",
+                  s.start.x(), s.start.y(), s.end.x(), s.end.y(), line.id, line.support, s.length(),
+                  sigma(s.covariance(0, 0)), kDegreesPerRadian * sigma(s.covariance(1, 1)));
+    text += row;
+  }
+  return text;
+}
+
+std::vector<MapLine> readLinesCsv(const std::string& text, const std::string& name) {
+  std::istringstream rows(text);
+  std::string row;
+  std::getline(rows, row);
+  const std::vector<std::string> header = cells(row);
+  const auto at = findColumns(header, name);
+  std::vector<MapLine> lines;
+  for (std::size_t number_of_row = 2; std::getline(rows, row); ++number_of_row) {
+    const std::vector<std::string> values = cells(row);
+    if (values.empty()) continue;
+    std::array<double, kColumns.size()> value{};
+    value[4] = static_cast<double>(lines.size());
+    for (std::size_t k = 0; k < kColumns.size(); ++k) {
+      if (at[k] == header.size()) continue;
+      const std::string where =
+          name + ", row " + std::to_string(number_of_row) + ", column " + kColumns[k];
+      if (at[k] >= values.size()) throw std::runtime_error(where + ": missing");
+      value[k] = number(values[at[k]], where);
+    }
+    MapLine line;
+    line.segment.start = {value[0], value[1]};
+    line.segment.end = {value[2], value[3]};
+    line.id = static_cast<std::uint64_t>(std::clamp(value[4], 0.0, 9e15));
+    line.support = value[5];
+    lines.push_back(line);
+  }
+  return lines;
+}
+
+std::vector<MapLine> loneLines(const std::vector<MapLine>& lines,
+                               const std::vector<PolyLine>& poly_lines) {
+  std::unordered_set<std::uint64_t> chained;
+  for (const PolyLine& chain : poly_lines) {
+    chained.insert(chain.line_ids.begin(), chain.line_ids.end());
+  }
+  std::vector<MapLine> lone;
+  std::copy_if(lines.begin(), lines.end(), std::back_inserter(lone),
+               [&](const MapLine& line) { return chained.count(line.id) == 0; });
+  return lone;
+}
+
+}  // namespace cca

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <Eigen/Geometry>
+#include <cinttypes>
+#include <cstdio>
+
+#include "cca_mrpt/io/line_formats.hpp"
+
+namespace cca {
+namespace {
+
+constexpr double kMargin = 0.5;              // m
+constexpr double kMillimetresPerMetre = 10;  // 1 : 100
+
+using Box = Eigen::AlignedBox2d;
+
+Box boundingBox(const std::vector<MapLine>& lines, const std::vector<Pose2>& trajectory) {
+  Box box;
+  for (const MapLine& line : lines) box.extend(line.segment.start).extend(line.segment.end);
+  for (const Pose2& pose : trajectory) box.extend(pose.position());
+  if (box.isEmpty()) box.extend(Eigen::Vector2d::Zero());
+  return Box(box.min().array() - kMargin, box.max().array() + kMargin);
+}
+
+template <class... Values>
+std::string format(const char* pattern, Values... values) {
+  char text[512];
+  std::snprintf(text, sizeof text, pattern, values...);
+  return text;
+}
+
+/// SVG's y axis points down the page.
+std::string point(const Eigen::Vector2d& p) { return format("%.4f,%.4f ", p.x(), -p.y()); }
+
+std::string svgHead(const Box& box) {
+  const Eigen::Vector2d size = box.sizes();
+  return "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n" +
+         format(
+             "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"%.2fmm\" height=\"%.2fmm\" "
+             "viewBox=\"%.4f %.4f %.4f %.4f\">\n",
+             kMillimetresPerMetre * size.x(), kMillimetresPerMetre * size.y(), box.min().x(),
+             -box.max().y(), size.x(), size.y()) +
+         "<title>Line map, 1 : 100, user unit 1 m</title>\n"
+         "<g fill=\"none\" stroke-linecap=\"round\" stroke-linejoin=\"round\">\n";
+}
+
+}  // namespace
+
+std::string linesSvg(const std::vector<MapLine>& lines, const std::vector<PolyLine>& poly_lines,
+                     const std::vector<Pose2>& trajectory) {
+  std::string text = svgHead(boundingBox(lines, trajectory));
+  if (!trajectory.empty()) {
+    text += "<polyline id=\"trajectory\" stroke=\"#d98c3f\" stroke-width=\"0.03\" points=\"";
+    for (const Pose2& pose : trajectory) text += point(pose.position());
+    text += "\"/>\n";
+  }
+  text += "<g id=\"poly_lines\" stroke=\"#1f5fa8\" stroke-width=\"0.05\">\n";
+  for (const PolyLine& chain : poly_lines) {
+    text += "<polyline data-line-ids=\"";
+    for (const std::uint64_t id : chain.line_ids) text += std::to_string(id) + " ";
+    text += "\" points=\"";
+    for (const auto& vertex : chain.vertices) text += point(vertex);
+    text += "\"/>\n";
+  }
+  text += "</g>\n<g id=\"lines\" stroke=\"#1f5fa8\" stroke-width=\"0.05\">\n";
+  for (const MapLine& line : loneLines(lines, poly_lines)) {
+    const auto &a = line.segment.start, &b = line.segment.end;
+    text +=
+        format("<line data-id=\"%" PRIu64 "\" data-support=\"%.1f\" ", line.id, line.support) +
+        format("x1=\"%.4f\" y1=\"%.4f\" x2=\"%.4f\" y2=\"%.4f\"/>\n", a.x(), -a.y(), b.x(), -b.y());
+  }
+  return text + "</g>\n</g>\n</svg>\n";
+}
+
+}  // namespace cca

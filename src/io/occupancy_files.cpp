@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "cca_mrpt/io/occupancy_files.hpp"
+
+#include <mrpt/io/CFileGZOutputStream.h>
+#include <mrpt/serialization/CArchive.h>
+
+#include <cstdio>
+#include <filesystem>
+#include <stdexcept>
+
+#include "cca_mrpt/io/atomic_file.hpp"
+
+namespace cca {
+namespace {
+
+constexpr float kOccupiedFrom = 0.65F, kFreeBelow = 0.196F;  // map_server's customary thresholds
+constexpr char kOccupied = 0, kFree = static_cast<char>(254), kUnknown = static_cast<char>(205);
+
+char shade(float free) {
+  const float occupied = 1.0F - free;
+  if (occupied > kOccupiedFrom) return kOccupied;
+  return occupied < kFreeBelow ? kFree : kUnknown;
+}
+
+std::string pgm(const mrpt::maps::COccupancyGridMap2D& grid) {
+  const int columns = static_cast<int>(grid.getSizeX()), rows = static_cast<int>(grid.getSizeY());
+  std::string image = "P5\n" + std::to_string(columns) + " " + std::to_string(rows) + "\n255\n";
+  image.reserve(image.size() + grid.getSizeX() * grid.getSizeY());
+  for (int row = rows - 1; row >= 0; --row) {
+    for (int column = 0; column < columns; ++column) image += shade(grid.getCell(column, row));
+  }
+  return image;
+}
+
+std::string yaml(const mrpt::maps::COccupancyGridMap2D& grid, const std::string& image) {
+  char text[512];
+  std::snprintf(text, sizeof text,
+                "resolution: %.6g\norigin: [%.6f, %.6f, 0.0]\n"
+                "occupied_thresh: %.3f\nfree_thresh: %.3f\nnegate: 0\n",
+                grid.getResolution(), grid.getXMin(), grid.getYMin(), kOccupiedFrom, kFreeBelow);
+  return "image: " + image + "\n" + text;
+}
+
+}  // namespace
+
+void writeOccupancyMap(const std::string& path_without_extension,
+                       const mrpt::maps::COccupancyGridMap2D& grid) {
+  const std::string image = path_without_extension + ".pgm";
+  writeFile(image, pgm(grid));
+  writeFile(path_without_extension + ".yaml",
+            yaml(grid, std::filesystem::path(image).filename().string()));
+}
+
+void writeGridMap(const std::string& path, const mrpt::maps::COccupancyGridMap2D& grid) {
+  AtomicFile file(path);
+  {
+    mrpt::io::CFileGZOutputStream stream;
+    if (!stream.open(file.temporary(), 1)) {
+      throw std::runtime_error(path + ": cannot be written");
+    }
+    mrpt::serialization::archiveFrom(stream) << grid;
+  }
+  file.commit();
+}
+
+}  // namespace cca
