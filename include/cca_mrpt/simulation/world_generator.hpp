@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "cca_mrpt/simulation/floor_plan.hpp"
+
+namespace cca {
+
+/// The kinds of building that generateFloorPlan() knows, in the order they are shipped.
+std::vector<std::string> floorPlanKinds();
+
+/// A building of a kind; the seed varies its furniture, or all of it (maze, random).
+///
+/// Every door and every passage between pieces of furniture is at least 0.9 m wide, so that all of
+/// the floor is one region for a robot of 0.25 m radius with a margin of 0.1 m.
+/// @throws std::runtime_error for an unknown kind, naming those that there are.
+FloorPlan generateFloorPlan(const std::string& kind, std::uint64_t seed);
+
+}  // namespace cca

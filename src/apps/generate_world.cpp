@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <cstdint>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <stdexcept>
+#include <string>
+
+#include "cca_mrpt/io/world_files.hpp"
+#include "cca_mrpt/simulation/world_generator.hpp"
+#include "commands.hpp"
+
+namespace cca::apps {
+
+namespace {
+
+struct GenerateOptions {
+  std::string kind, name, out = ".";
+  std::uint64_t seed = 1;
+  bool force = false;
+};
+
+void generate(const GenerateOptions& options) {
+  FloorPlan plan = generateFloorPlan(options.kind, options.seed);
+  if (!options.name.empty()) plan.name = options.name;
+  const std::string path = options.out + "/" + plan.name + ".yaml";
+  if (!options.force && std::filesystem::exists(path)) {
+    throw std::runtime_error(path + ": exists; --force overwrites it");
+  }
+  writeWorldFiles(plan, options.out);
+  std::printf("%s\n", path.c_str());
+}
+
+}  // namespace
+
+void addGenerateWorldCommand(CLI::App& program) {
+  auto* command = program.add_subcommand(
+      "generate-world", "a world with its true walls, by kind and seed, as in maps/");
+  auto options = std::make_shared<GenerateOptions>();
+  command->add_option("KIND", options->kind, "kind of building")
+      ->required()
+      ->check(CLI::IsMember(floorPlanKinds()));
+  command->add_option("--seed", options->seed, "varies furniture and random buildings")
+      ->capture_default_str();
+  command->add_option("--name", options->name, "name of the files, if not KIND");
+  command->add_option("--out", options->out, "folder")->capture_default_str();
+  command->add_flag("--force", options->force, "overwrite a world of that name");
+  command->callback([options] { generate(*options); });
+}
+
+}  // namespace cca::apps

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "cca_mrpt/io/world_files.hpp"
+
+#include <mrpt/img/CImage.h>
+
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <stdexcept>
+
+#include "cca_mrpt/io/atomic_file.hpp"
+
+namespace cca {
+
+namespace {
+
+std::string yamlText(const FloorPlan& plan) {
+  char text[400];
+  std::snprintf(text, sizeof text,
+                "image: %s.png\nresolution: %g\norigin: [0.0, 0.0, 0.0]\noccupied_thresh: 0.65\n"
+                "free_thresh: 0.196\nnegate: 0\nstart: [%g, %g, %g]\n",
+                plan.name.c_str(), kWorldResolution, plan.start.x, plan.start.y,
+                plan.start.theta * 180.0 / M_PI);
+  return text;
+}
+
+mrpt::img::CImage picture(const World& world) {
+  mrpt::img::CImage image(world.width(), world.height(), mrpt::img::CH_GRAY);
+  for (int iy = 0; iy < world.height(); ++iy) {
+    auto* line = image.ptrLine<unsigned char>(world.height() - 1 - iy);
+    for (int ix = 0; ix < world.width(); ++ix) line[ix] = world.isObstacle(ix, iy) ? 0 : 254;
+  }
+  return image;
+}
+
+std::string truthText(const FloorPlan& plan) {
+  std::string text = "x1,y1,x2,y2\n";
+  for (const auto& [a, b] : wallFaces(plan, kWorldResolution)) {
+    char line[120];
+    // Adding 0 turns a negative zero into a plain one.
+    std::snprintf(line, sizeof line, "%.6f,%.6f,%.6f,%.6f\n", a.x() + 0.0, a.y() + 0.0,
+                  b.x() + 0.0, b.y() + 0.0);
+    text += line;
+  }
+  return text;
+}
+
+}  // namespace
+
+void writeWorldFiles(const FloorPlan& plan, const std::string& folder) {
+  std::error_code failure;
+  std::filesystem::create_directories(folder, failure);
+  const std::string stem = folder + "/" + plan.name;
+  AtomicFile png(stem + ".png");
+  if (!picture(rasterise(plan, kWorldResolution)).saveToFile(png.temporary())) {
+    throw std::runtime_error(stem + ".png: cannot be written");
+  }
+  writeFile(stem + ".truth.csv", truthText(plan));
+  png.commit();
+  writeFile(stem + ".yaml", yamlText(plan));  // last: a world that is there is whole
+}
+
+}  // namespace cca

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "floor_plan_kinds.hpp"
+#include "furniture.hpp"
+
+namespace cca {
+
+namespace {
+
+constexpr double kOuter = 0.2, kInner = 0.1;  // m, thickness of walls
+constexpr double kSmallest = 3.0;             // m, side of a room
+constexpr double kLargest = 8.0;              // m, a longer side is always divided
+constexpr double kBesideDoor = 0.3;           // m, from a wall's end to a door
+
+/// Divides a floor by walls with a door each (or by a corridor with two), again and again: what
+/// was one region stays one.
+class Divider {
+ public:
+  Divider(FloorPlan& plan, Random& random) : plan_(plan), random_(random) {}
+
+  void divide(const Box& floor) {
+    const int axis = floor.sizes().x() > floor.sizes().y() ? 0 : 1;  // across the longer side
+    const double side = floor.sizes()[axis];
+    const bool corridor = side > 3.0 * kSmallest && random_.uniform() < 0.5;
+    const double wide = corridor ? onRaster(random_.uniform(1.5, 2.2)) : 0.0;
+    const double between = kInner * (corridor ? 2.0 : 1.0) + wide;
+    const double slack = side - between - 2.0 * kSmallest;
+    const bool small = side < kLargest && random_.uniform() < 0.3;
+    if (slack < 0.0 || small) {
+      rooms_.push_back(floor);
+      return;
+    }
+    for (int tries = 0; tries < 20; ++tries) {
+      const double at = floor.min()[axis] + kSmallest + onRaster(random_.uniform(0.0, slack));
+      if (!clearOfDoors(floor, axis, at, between)) continue;
+      Box low = floor, high = floor;
+      low.max()[axis] = at;
+      high.min()[axis] = at + between;
+      addWall(floor, axis, at + 0.5 * kInner);
+      if (corridor) addWall(floor, axis, at + between - 0.5 * kInner);
+      divide(low);
+      divide(high);
+      return;
+    }
+    rooms_.push_back(floor);
+  }
+
+  const std::vector<Box>& rooms() const { return rooms_; }
+  const std::vector<Box>& doors() const { return doors_; }
+
+ private:
+  /// Whether no door lies where the ends of a wall would come.
+  bool clearOfDoors(const Box& floor, int axis, double at, double between) const {
+    Box wall = floor;
+    wall.min()[axis] = at - kBesideDoor;
+    wall.max()[axis] = at + between + kBesideDoor;
+    wall.min()[1 - axis] -= kOuter;
+    wall.max()[1 - axis] += kOuter;
+    return std::none_of(doors_.begin(), doors_.end(),
+                        [&wall](const Box& door) { return wall.intersects(door); });
+  }
+
+  void addWall(const Box& floor, int axis, double centre) {
+    Eigen::Vector2d from = floor.min(), to = floor.max();
+    from[axis] = to[axis] = centre;
+    const double length = floor.sizes()[1 - axis];
+    const double wide = onRaster(random_.uniform(0.9, 1.4));
+    const double open = onRaster(random_.uniform(kBesideDoor, length - wide - kBesideDoor));
+    plan_.addWall(from, to, kInner, {{open, open + wide}});
+    Box door;
+    door.min()[axis] = centre - 0.5 * kInner;
+    door.max()[axis] = centre + 0.5 * kInner;
+    door.min()[1 - axis] = floor.min()[1 - axis] + open;
+    door.max()[1 - axis] = door.min()[1 - axis] + wide;
+    doors_.push_back(door);
+  }
+
+  FloorPlan& plan_;
+  Random& random_;
+  std::vector<Box> rooms_, doors_;
+};
+
+}  // namespace
+
+/// 16 to 32 by 12 to 24 m of rooms and corridors, furnished.
+FloorPlan randomBuilding(Random& random) {
+  FloorPlan plan;
+  plan.width = onRaster(random.uniform(16.0, 32.0));
+  plan.height = onRaster(random.uniform(12.0, 24.0));
+  plan.addOuterWalls(kOuter);
+  Divider divider(plan, random);
+  divider.divide(Box(Eigen::Vector2d(kOuter, kOuter),
+                     Eigen::Vector2d(plan.width - kOuter, plan.height - kOuter)));
+  for (const Box& floor : divider.rooms()) {
+    Room room{floor, divider.doors()};
+    if (&floor == &divider.rooms().front()) {  // the robot's place stays free
+      plan.start = {floor.center().x(), floor.center().y(), 0.0};
+      room.doors.emplace_back(floor.center(), floor.center());
+    }
+    furnish(plan, room, random.integer(1, 2 + static_cast<int>(floor.volume() / 7.0)), random);
+  }
+  return plan;
+}
+
+}  // namespace cca
