@@ -10,6 +10,7 @@ namespace cca::apps {
 void addExploreCommand(CLI::App& program);
 void addExtractCommand(CLI::App& program);
 void addMapCommand(CLI::App& program);
+void addGenerateWorldCommand(CLI::App& program);
 void addEvaluateCommand(CLI::App& program);
 
 }  // namespace cca::apps

@@ -14,6 +14,7 @@ int main(int argc, char** argv) {
   cca::apps::addExploreCommand(program);
   cca::apps::addExtractCommand(program);
   cca::apps::addMapCommand(program);
+  cca::apps::addGenerateWorldCommand(program);
   cca::apps::addEvaluateCommand(program);
   try {
     program.parse(argc, argv);

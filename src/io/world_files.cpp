@@ -38,8 +38,8 @@ std::string truthText(const FloorPlan& plan) {
   for (const auto& [a, b] : wallFaces(plan, kWorldResolution)) {
     char line[120];
     // Adding 0 turns a negative zero into a plain one.
-    std::snprintf(line, sizeof line, "%.6f,%.6f,%.6f,%.6f\n", a.x() + 0.0, a.y() + 0.0,
-                  b.x() + 0.0, b.y() + 0.0);
+    std::snprintf(line, sizeof line, "%.6f,%.6f,%.6f,%.6f\n", a.x() + 0.0, a.y() + 0.0, b.x() + 0.0,
+                  b.y() + 0.0);
     text += line;
   }
   return text;

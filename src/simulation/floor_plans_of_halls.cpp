@@ -11,7 +11,7 @@ constexpr double kOuter = 0.2, kInner = 0.1;  // m, thickness of walls
 constexpr double kRadPerDeg = M_PI / 180.0;
 }  // namespace
 
-/// 60 x 40 m: five double rows of racks 22 m long, an office in a corner, pallets.
+/// 60 x 40 m: two blocks of six racks 22 m long, an office in a corner, pallets.
 FloorPlan warehouse(Random& random) {
   FloorPlan plan;
   plan.width = 60.0;
@@ -36,14 +36,14 @@ FloorPlan warehouse(Random& random) {
   return plan;
 }
 
-/// 24 x 16 m: one corridor around a solid core, with four niches.
+/// 24 x 16 m: one corridor around a solid core, with three niches.
 FloorPlan corridorLoop(Random&) {
   FloorPlan plan;
   plan.width = 24.0;
   plan.height = 16.0;
   plan.start = {1.2, 1.2, 0.0};
   plan.addOuterWalls(kOuter);
-  const double wide = 2.0 + kOuter;  // the core, less a niche in each side
+  const double wide = 2.0 + kOuter;  // the core, less the niches
   plan.addBox({wide, wide + 1.5}, {24.0 - wide - 1.5, 16.0 - wide - 1.5});
   plan.addBox({wide, wide}, {8.0, wide + 1.5});
   plan.addBox({11.0, wide}, {24.0 - wide, wide + 1.5});
@@ -64,7 +64,7 @@ FloorPlan pillarHall(Random& random) {
   plan.solids.push_back({{0.0, 0.0}, {3.5, 0.0}, {0.0, 4.0}});
   plan.solids.push_back({{24.0, 18.0}, {19.0, 18.0}, {24.0, 14.5}});
   plan.addWall({12.0, 0.0}, {14.5, 6.0}, 0.15);
-  plan.addWall({6.0, 18.0}, {9.0, 12.5}, 0.15);
+  plan.addWall({6.0, 18.0}, {8.0, 13.8}, 0.15);
   plan.addWall({16.0, 11.0}, {21.0, 8.5}, 0.15);
   for (int row = 0; row < 3; ++row) {
     for (int column = 0; column < 4; ++column) {
@@ -91,9 +91,9 @@ FloorPlan gallery(Random&) {
     plan.addArcWall({9.0, 8.0}, 4.0, (door + 20.0) * kRadPerDeg, (door + 90.0) * kRadPerDeg, 0.2);
   }
   plan.addDisc({9.0, 8.0}, 0.8);
-  plan.addArcWall({16.0, 16.0}, 6.0, 200.0 * kRadPerDeg, 320.0 * kRadPerDeg, 0.15);
+  plan.addArcWall({17.0, 16.0}, 6.0, 200.0 * kRadPerDeg, 320.0 * kRadPerDeg, 0.15);
   plan.addArcWall({18.0, 0.0}, 5.0, 30.0 * kRadPerDeg, 130.0 * kRadPerDeg, 0.15);
-  plan.addArcWall({17.0, 8.0}, 9.0, -50.0 * kRadPerDeg, 50.0 * kRadPerDeg, 0.2);
+  plan.addArcWall({17.0, 8.0}, 9.0, -48.0 * kRadPerDeg, 48.0 * kRadPerDeg, 0.2);
   return plan;
 }
 

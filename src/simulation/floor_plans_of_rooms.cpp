@@ -19,9 +19,11 @@ Box doorInWallAlongY(double x, double y, double wide) {
 }
 
 /// A row of rooms between y = low and y = high, with doors to a corridor at y = corridor_wall.
-void roomRow(FloorPlan& plan, double low, double high, double corridor_wall,
-             const std::vector<double>& dividers, Random& random) {
+/// @return  the doors.
+std::vector<Box> roomRow(FloorPlan& plan, double low, double high, double corridor_wall,
+                         const std::vector<double>& dividers, Random& random) {
   std::vector<Opening> openings;
+  std::vector<Box> doors;
   double left = kOuter;
   for (std::size_t i = 0; i <= dividers.size(); ++i) {
     const bool last = i == dividers.size();
@@ -30,12 +32,13 @@ void roomRow(FloorPlan& plan, double low, double high, double corridor_wall,
     const double wide = onRaster(random.uniform(0.9, 1.2));
     const double door = onRaster(random.uniform(left + 0.5, right - 0.5 - wide));
     openings.emplace_back(door, door + wide);
-    const Room room{Box(Eigen::Vector2d(left, low), Eigen::Vector2d(right, high)),
-                    {doorInWallAlongX(door, corridor_wall, wide)}};
+    doors.push_back(doorInWallAlongX(door, corridor_wall, wide));
+    const Room room{Box(Eigen::Vector2d(left, low), Eigen::Vector2d(right, high)), {doors.back()}};
     furnish(plan, room, random.integer(4, 8), random);
     left = right + kInner;
   }
   plan.addWall({0.0, corridor_wall}, {plan.width, corridor_wall}, kInner, openings);
+  return doors;
 }
 
 }  // namespace
@@ -58,11 +61,13 @@ FloorPlan office(Random& random) {
   plan.height = 25.0;
   plan.start = {2.0, 12.5, 0.0};
   plan.addOuterWalls(kOuter);
-  roomRow(plan, kOuter, 11.40, 11.45, {5.5, 11.0, 15.5, 22.5, 28.0, 34.0}, random);
-  roomRow(plan, 13.60, 25.0 - kOuter, 13.55, {6.5, 11.5, 18.0, 23.5, 28.5, 33.0}, random);
-  plan.addBox({12.0, 13.1}, {13.2, 13.5});  // a cupboard, a bench and a column in the corridor
-  plan.addBox({25.0, 11.5}, {27.0, 11.9});
-  plan.addBox({38.9, 13.0}, {39.8, 13.5});
+  Room corridor{Box(Eigen::Vector2d(kOuter, 11.5), Eigen::Vector2d(40.0 - kOuter, 13.5)), {}};
+  corridor.doors = roomRow(plan, kOuter, 11.40, 11.45, {5.5, 11.0, 15.5, 22.5, 28.0, 34.0}, random);
+  const auto upper =
+      roomRow(plan, 13.60, 25.0 - kOuter, 13.55, {6.5, 11.5, 18.0, 23.5, 28.5, 33.0}, random);
+  corridor.doors.insert(corridor.doors.end(), upper.begin(), upper.end());
+  corridor.doors.emplace_back(plan.start.position(), plan.start.position());  // stays free, too
+  furnish(plan, corridor, 4, random);
   return plan;
 }
 

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "cca_mrpt/io/world_files.hpp"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+
+#include "cca_mrpt/simulation/world_generator.hpp"
+
+namespace cca {
+namespace {
+
+std::string bytesOf(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  EXPECT_TRUE(file) << path;
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+class Shipped : public testing::TestWithParam<std::string> {};
+
+TEST_P(Shipped, WorldIsWhatTheGeneratorMakesByteForByte) {
+  const std::string folder = testing::TempDir() + "cca_worlds";
+  writeWorldFiles(generateFloorPlan(GetParam(), 1), folder);
+  for (const char* extension : {".yaml", ".png", ".truth.csv"}) {
+    const std::string name = "/" + GetParam() + extension;
+    EXPECT_EQ(bytesOf(folder + name), bytesOf(CCA_MAPS_FOLDER + name)) << name;
+  }
+}
+
+TEST_P(Shipped, WorldLoadsAsItWasDrawn) {
+  const FloorPlan plan = generateFloorPlan(GetParam(), 1);
+  const World drawn = rasterise(plan, kWorldResolution);
+  const World loaded = loadWorld(std::string(CCA_MAPS_FOLDER) + "/" + GetParam() + ".yaml");
+  ASSERT_EQ(loaded.width(), drawn.width());
+  ASSERT_EQ(loaded.height(), drawn.height());
+  EXPECT_EQ(loaded.grid().getRawMap(), drawn.grid().getRawMap());
+  ASSERT_TRUE(loaded.start);
+  EXPECT_NEAR(loaded.start->x, plan.start.x, 1e-9);
+  EXPECT_TRUE(loaded.unknown_keys.empty());
+}
+
+INSTANTIATE_TEST_SUITE_P(Worlds, Shipped, testing::ValuesIn(floorPlanKinds()),
+                         [](const auto& kind) { return kind.param; });
+
+}  // namespace
+}  // namespace cca

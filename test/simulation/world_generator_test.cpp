@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "cca_mrpt/simulation/world_generator.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <vector>
+
+namespace cca {
+namespace {
+
+constexpr double kResolution = 0.05;
+
+/// Number of regions, of at least a robot's size, where a disc of `radius` can stand.
+int regionsFor(const World& world, double radius) {
+  const int width = world.width(), height = world.height();
+  std::vector<char> open(static_cast<std::size_t>(width) * height, 0);
+  for (int i = 0; i < width * height; ++i) {
+    const Eigen::Vector2d p = kResolution * Eigen::Vector2d(i % width + 0.5, i / width + 0.5);
+    open[i] = !world.isObstacle(i % width, i / width) && world.clearance(p, radius) >= radius;
+  }
+  int regions = 0;
+  for (int first = 0; first < width * height; ++first) {
+    if (!open[first]) continue;
+    std::vector<int> stack{first};
+    open[first] = 0;
+    int size = 0;
+    for (; !stack.empty(); ++size) {
+      const int cell = stack.back();
+      stack.pop_back();
+      for (int next : {cell - 1, cell + 1, cell - width, cell + width}) {
+        if (open[next]) open[next] = 0, stack.push_back(next);
+      }
+    }
+    regions += size > 4;
+  }
+  return regions;
+}
+
+class EveryKind : public testing::TestWithParam<std::string> {};
+
+TEST_P(EveryKind, IsOneRegionForARobotWithItsMargin) {
+  for (std::uint64_t seed : {1, 2}) {
+    const World world = rasterise(generateFloorPlan(GetParam(), seed), kResolution);
+    EXPECT_EQ(regionsFor(world, 0.25 + 0.1), 1) << GetParam() << " of seed " << seed;
+    EXPECT_NO_THROW(requireStandable(world, *world.start, 0.4));
+  }
+}
+
+TEST_P(EveryKind, HasFreeSpaceBeforeEachTrueFaceAndSolidBehind) {
+  const FloorPlan plan = generateFloorPlan(GetParam(), 1);
+  const World world = rasterise(plan, kResolution);
+  for (const auto& [a, b] : wallFaces(plan, kResolution)) {
+    const Eigen::Vector2d along = b - a;
+    if (along.norm() < 0.2) continue;  // the stairs of the raster are as long
+    const Eigen::Vector2d out = Eigen::Vector2d(along.y(), -along.x()).normalized();
+    const Eigen::Vector2d middle = 0.5 * (a + b);
+    const auto obstacle = [&world](const Eigen::Vector2d& p) {
+      const Eigen::Vector2d cell = world.toCells(p);
+      return world.isObstacle(static_cast<int>(cell.x()), static_cast<int>(cell.y()));
+    };
+    EXPECT_FALSE(obstacle(middle + 0.041 * out)) << middle.transpose();
+    EXPECT_TRUE(obstacle(middle - 0.041 * out)) << middle.transpose();
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Worlds, EveryKind, testing::ValuesIn(floorPlanKinds()),
+                         [](const auto& kind) { return kind.param; });
+
+TEST(WallFaces, OfTwoRoomsAreTheTwelveThatOneSees) {
+  const auto faces = wallFaces(generateFloorPlan("two_rooms", 1), kResolution);
+  EXPECT_EQ(faces.size(), 12u);
+  double length = 0.0;
+  for (const auto& [a, b] : faces) length += (b - a).norm();
+  // Two rooms of 4.75 x 5.6 m, less the door of 1 m twice, plus its two reveals of 0.1 m.
+  EXPECT_NEAR(length, 2.0 * 2.0 * (4.75 + 5.6) - 2.0 + 0.2, 1e-9);
+}
+
+TEST(GenerateFloorPlan, GivesTheSameForTheSameSeedAndElseAnother) {
+  const auto corners = [](const FloorPlan& plan) {
+    std::vector<double> all;
+    for (const auto& solid : plan.solids) {
+      for (const auto& p : solid) all.insert(all.end(), {p.x(), p.y()});
+    }
+    return all;
+  };
+  for (const char* kind : {"office", "maze", "random"}) {
+    EXPECT_EQ(corners(generateFloorPlan(kind, 4)), corners(generateFloorPlan(kind, 4)));
+    EXPECT_NE(corners(generateFloorPlan(kind, 4)), corners(generateFloorPlan(kind, 5)));
+  }
+}
+
+TEST(GenerateFloorPlan, NamesTheKindsThatThereAreForOneThatIsNot) {
+  try {
+    generateFloorPlan("castle", 1);
+    FAIL();
+  } catch (const std::runtime_error& error) {
+    EXPECT_NE(std::string(error.what()).find("castle"), std::string::npos);
+    EXPECT_NE(std::string(error.what()).find("two_rooms"), std::string::npos);
+  }
+}
+
+}  // namespace
+}  // namespace cca
