@@ -12,9 +12,12 @@ namespace cca {
 namespace {
 
 constexpr double kGoalTolerance = 0.1;    // m
+constexpr double kLeave = 0.1;            // m, by which d_reach must be below d_followed
+constexpr double kUnsure = 0.03;          // of the distance: beams are sparse far away
+constexpr double kInVain = 0.4;           // m
 constexpr double kSlack = 0.4;            // of the margin, given up on the way
+constexpr double kTraceSlack = 0.1;       // of the margin, given up along a boundary
 constexpr double kOnTheBoundary = 0.001;  // m
-constexpr double kOtherWay = 1.0;         // m, hysteresis between the two ways around
 constexpr int kBearings = 360;
 constexpr double kControlPeriod = 0.1;  // s
 
@@ -24,59 +27,131 @@ void TangentBug::setGoal(const Eigen::Vector2d& goal_map) {
   goal_map_ = goal_map;
   state_ = TangentBugState::kMotionToGoal;
   target_.reset();
-  side_on_the_right_.reset();
+  motion_to_goal_.start();
+  in_vain_map_.clear();
 }
 
 Velocity TangentBug::step(const Scan& scan, const Pose2& T_map_robot, const Velocity& velocity,
                           double) {
-  const double radius = robot_.radius + robot_.safety_margin;
-  view_ = makeLocalView(scan, T_map_robot, 2.0 * radius);
-  const Eigen::Vector2d x = T_map_robot.position();
-  space_ = {view_.obstacles, radius};
-  // Pressed to an obstacle, the robot still sees the ways along it.
-  space_.radius = std::clamp(space_.clearance(x) - kOnTheBoundary, robot_.radius,
-                             radius - kSlack * robot_.safety_margin);
-  free_ranges_ = space_.freeRanges(x, kBearings, std::max(view_.horizon, 0.0));
-  nodes_ = localTangentGraph(view_, space_, free_ranges_, radius);
-  if ((goal_map_ - T_map_robot.position()).norm() <= kGoalTolerance) {
+  observe(scan, T_map_robot);
+  target_.reset();
+  const bool under_way =
+      state_ == TangentBugState::kMotionToGoal || state_ == TangentBugState::kBoundaryFollowing;
+  if (under_way && (goal_map_ - T_map_robot.position()).norm() <= kGoalTolerance) {
     state_ = TangentBugState::kReached;
   }
-  target_.reset();
-  if (state_ == TangentBugState::kMotionToGoal) target_ = motionToGoal();
+  // Without any valid beam the robot is blind: it stops, and what it knew stays as it was.
+  if (view_.horizon > 0.0) {
+    if (state_ == TangentBugState::kMotionToGoal) {
+      target_ = moveToGoal();
+    } else if (state_ == TangentBugState::kBoundaryFollowing) {
+      target_ = followBoundary();
+    }
+  }
   return drive(velocity);
 }
 
-std::optional<Eigen::Vector2d> TangentBug::motionToGoal() {
+void TangentBug::observe(const Scan& scan, const Pose2& T_map_robot) {
+  const double radius = robot_.radius + robot_.safety_margin;
+  const Eigen::Vector2d x = T_map_robot.position();
+  view_ = makeLocalView(scan, T_map_robot, 2.0 * radius);
+  way_space_ = {view_.obstacles, radius};
+  // Pressed to an obstacle, the robot still sees the ways along it.
+  way_space_.radius = std::clamp(way_space_.clearance(x) - kOnTheBoundary, robot_.radius,
+                                 radius - kSlack * robot_.safety_margin);
+  trace_space_ = {view_.obstacles,
+                  way_space_.radius + (kSlack - kTraceSlack) * robot_.safety_margin};
+  free_ranges_ = way_space_.freeRanges(x, kBearings, view_.horizon);
+  nodes_ = localTangentGraph(view_, way_space_, free_ranges_, radius);
+  findReach();
+}
+
+// d_reach: the least distance to the goal of all places that the robot could drive straight to.
+void TangentBug::findReach() {
   const Eigen::Vector2d x = view_.T_map_robot.position();
-  if (space_.isFree(x, goal_map_)) return goal_map_;
-  const auto heuristic = [&](const TangentNode& node) {
-    return (node.p_map - x).norm() + (goal_map_ - node.p_map).norm();
+  reach_map_ = x;
+  d_reach_ = (goal_map_ - x).norm();
+  const auto consider = [&](const Eigen::Vector2d& direction, double free) {
+    const double ahead = std::clamp((goal_map_ - x).dot(direction), 0.0, free);
+    const Eigen::Vector2d p = x + ahead * direction;
+    const double distance = (goal_map_ - p).norm();
+    if (distance >= d_reach_ || isInVain(p)) return;
+    d_reach_ = distance;
+    reach_map_ = p;
   };
-  const TangentNode* best = nullptr;
-  double least = std::numeric_limits<double>::infinity();
-  for (const TangentNode& node : nodes_) {
-    // The other way around must be clearly better than what this way has promised.
-    const bool other_way = side_on_the_right_ && *side_on_the_right_ != node.obstacle_on_the_right;
-    const double h = heuristic(node) + (other_way ? kOtherWay : 0.0);
-    if (h >= least) continue;
-    least = h;
-    best = &node;
+  for (int k = 0; k < kBearings; ++k) {
+    const double bearing = 2.0 * M_PI * k / kBearings;
+    consider({std::cos(bearing), std::sin(bearing)},
+             free_ranges_[static_cast<std::size_t>(k)].distance);
   }
-  if (!best) return std::nullopt;
-  side_on_the_right_ = best->obstacle_on_the_right;
-  return best->p_map;
+  for (const TangentNode& node : nodes_) {
+    const double length = (node.p_map - x).norm();
+    if (length > 0.0) consider((node.p_map - x) / length, length);
+  }
+  const double d_goal = (goal_map_ - x).norm();
+  if (d_goal == 0.0) return;
+  const Eigen::Vector2d towards_goal = (goal_map_ - x) / d_goal;
+  consider(towards_goal, way_space_.freeDistance(x, towards_goal, std::min(d_goal, view_.horizon)));
+}
+
+bool TangentBug::isInVain(const Eigen::Vector2d& p_map) const {
+  return std::any_of(in_vain_map_.begin(), in_vain_map_.end(),
+                     [&](const Eigen::Vector2d& p) { return (p - p_map).norm() < kInVain; });
+}
+
+std::optional<Eigen::Vector2d> TangentBug::moveToGoal() {
+  const auto target = motion_to_goal_.step(view_.T_map_robot.position(), goal_map_, way_space_,
+                                           nodes_, view_.horizon);
+  if (const auto in_vain = motion_to_goal_.reachedInVain()) in_vain_map_.push_back(*in_vain);
+  return target ? target : startFollowing();
+}
+
+std::optional<Eigen::Vector2d> TangentBug::startFollowing() {
+  const Eigen::Vector2d x = view_.T_map_robot.position();
+  const Eigen::Vector2d towards_goal = (goal_map_ - x).normalized();
+  const double free = trace_space_.freeDistance(x, towards_goal, view_.horizon);
+  const Eigen::Vector2d hit = x + free * towards_goal;
+  // In the last direction: where the robot was heading left of the goal, it has the obstacle that
+  // lies towards the goal on its right.
+  const Eigen::Vector2d last =
+      motion_to_goal_.lastDirection().value_or(view_.T_map_robot.heading());
+  const bool on_the_right = towards_goal.x() * last.y() - towards_goal.y() * last.x() > 0.0;
+  follower_.start(hit, on_the_right, goal_map_, view_, trace_space_);
+  state_ = TangentBugState::kBoundaryFollowing;
+  return followBoundary();
+}
+
+std::optional<Eigen::Vector2d> TangentBug::followBoundary() {
+  const auto target = follower_.step(goal_map_, view_, trace_space_, way_space_);
+  const double unsure = kUnsure * (reach_map_ - view_.T_map_robot.position()).norm();
+  if (d_reach_ < follower_.followedDistance() - kLeave - unsure) {
+    state_ = TangentBugState::kMotionToGoal;
+    motion_to_goal_.startFromBoundary(reach_map_, follower_.followedDistance() - 0.5 * kLeave,
+                                      follower_.onTheRight());
+    return reach_map_;
+  }
+  if (follower_.circled()) {
+    state_ = TangentBugState::kUnreachable;
+    return std::nullopt;
+  }
+  if (!target) {  // what was followed has gone
+    state_ = TangentBugState::kMotionToGoal;
+    motion_to_goal_.start();
+  }
+  return target;
 }
 
 Velocity TangentBug::drive(const Velocity& velocity) const {
   const Pose2 T_robot_map = view_.T_map_robot.inverse();
   Velocity wanted;
   if (target_) wanted = velocityTowards(T_robot_map * *target_, *target_ == goal_map_, robot_);
-  if (view_.horizon == 0.0) wanted = {};
   std::vector<Hazard> hazards;
-  for (const Eigen::Vector2d& p_map : view_.obstacles)
+  hazards.reserve(view_.obstacles.size());
+  for (const Eigen::Vector2d& p_map : view_.obstacles) {
     hazards.push_back({T_robot_map * p_map, 0.0});
-  return safeVelocity(wanted, velocity, hazards, robot_, robot_.radius + 0.4 * robot_.safety_margin,
-                      kControlPeriod);
+  }
+  return safeVelocity(wanted, velocity, hazards, robot_,
+                      robot_.radius + kSlack * robot_.safety_margin, kControlPeriod);
 }
 
 }  // namespace cca

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "tangent_run.hpp"
+#include "traps.hpp"
 
 namespace cca::testing {
 namespace {
@@ -38,6 +39,16 @@ TEST(TangentBug, PassesADoorOfNinetyCentimetres) {
   const TangentRun end = run(world, {8, 2, 0}, {2, 8});
   EXPECT_EQ(end.state, TangentBugState::kReached);
   EXPECT_GE(end.clearance, 0.25);
+}
+
+TEST(TangentBug, ComesOutOfEveryTrapOrProvesItClosed) {
+  for (const Trap& trap : allTraps()) {
+    SCOPED_TRACE(trap.name);
+    const TangentRun end = run(trap.world, trap.start, trap.goal);
+    EXPECT_EQ(end.state,
+              trap.reachable ? TangentBugState::kReached : TangentBugState::kUnreachable);
+    EXPECT_GE(end.clearance, 0.25);
+  }
 }
 
 }  // namespace

@@ -6,8 +6,10 @@
 #include <vector>
 
 #include "cca_mrpt/mapping/scan.hpp"
+#include "cca_mrpt/navigation/boundary_follower.hpp"
 #include "cca_mrpt/navigation/configuration_space.hpp"
 #include "cca_mrpt/navigation/local_view.hpp"
+#include "cca_mrpt/navigation/motion_to_goal.hpp"
 #include "cca_mrpt/navigation/robot.hpp"
 #include "cca_mrpt/navigation/tangent_graph.hpp"
 
@@ -39,20 +41,31 @@ class TangentBug {
   const LocalView& localView() const { return view_; }
   const std::vector<TangentNode>& tangentGraph() const { return nodes_; }
   const std::optional<Eigen::Vector2d>& target() const { return target_; }
+  const BoundaryFollower& boundaryFollower() const { return follower_; }
+  double reachDistance() const { return d_reach_; }  ///< d_reach, m
 
  private:
-  std::optional<Eigen::Vector2d> motionToGoal();
+  void observe(const Scan& scan, const Pose2& T_map_robot);
+  void findReach();
+  bool isInVain(const Eigen::Vector2d& p_map) const;
+  std::optional<Eigen::Vector2d> moveToGoal();
+  std::optional<Eigen::Vector2d> startFollowing();
+  std::optional<Eigen::Vector2d> followBoundary();
   Velocity drive(const Velocity& velocity) const;
 
   RobotParameters robot_;
   Eigen::Vector2d goal_map_ = Eigen::Vector2d::Zero();
   TangentBugState state_ = TangentBugState::kReached;
   LocalView view_;
-  ConfigurationSpace space_;
+  ConfigurationSpace way_space_, trace_space_;
   std::vector<FreeRange> free_ranges_;
   std::vector<TangentNode> nodes_;
   std::optional<Eigen::Vector2d> target_;
-  std::optional<bool> side_on_the_right_;
+  MotionToGoal motion_to_goal_;
+  BoundaryFollower follower_;
+  double d_reach_ = 0.0;
+  std::vector<Eigen::Vector2d> in_vain_map_;  ///< places that d_reach promised, and were not there
+  Eigen::Vector2d reach_map_ = Eigen::Vector2d::Zero();  ///< the place in sight nearest to the goal
 };
 
 }  // namespace cca

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+#include <vector>
+
+#include "cca_mrpt/navigation/boundary_trace.hpp"
+#include "cca_mrpt/navigation/circling.hpp"
+#include "cca_mrpt/navigation/configuration_space.hpp"
+#include "cca_mrpt/navigation/local_view.hpp"
+
+namespace cca {
+
+/// Boundary following [Kamon, Rimon & Rivlin 1998, Sec. 3]: along the obstacle in one direction,
+/// by the shortest way that is in sight, keeping d_followed and the proof of having been all
+/// around.
+///
+/// The boundary in sight is traced from where the robot stands beside it; the robot heads for the
+/// farthest place of the trace to which the straight way is free, and so cuts its pockets.
+class BoundaryFollower {
+ public:
+  /// Follows the boundary through the place of the configuration space nearest to `start_map`.
+  /// d_followed starts as the least distance to the goal of all its places in sight, both ways.
+  /// @param space  for tracing, seen from the present view.
+  void start(const Eigen::Vector2d& start_map, bool on_the_right, const Eigen::Vector2d& goal_map,
+             const LocalView& view, const ConfigurationSpace& space);
+
+  /// @param trace_space  for tracing; @param way_space  with a slightly smaller radius, for ways.
+  /// @return the place to head for; none where the boundary is no longer in sight.
+  std::optional<Eigen::Vector2d> step(const Eigen::Vector2d& goal_map, const LocalView& view,
+                                      const ConfigurationSpace& trace_space,
+                                      const ConfigurationSpace& way_space);
+
+  bool onTheRight() const { return on_the_right_; }
+  double followedDistance() const { return d_followed_; }  ///< d_followed, m
+  bool circled() const { return circling_.closed(); }
+  double length() const { return length_; }  ///< m, followed so far
+  const std::vector<BoundaryPoint>& trace() const { return trace_; }
+
+ private:
+  void include(const std::vector<BoundaryPoint>& trace, const Eigen::Vector2d& goal_map);
+  void moveAnchor(const Eigen::Vector2d& x_map, std::size_t last);
+
+  bool on_the_right_ = true;
+  Eigen::Vector2d anchor_map_ = Eigen::Vector2d::Zero();  ///< the boundary's place beside the robot
+  double length_ = 0.0, heading_ = 0.0;                   ///< of the walk, at the anchor
+  double d_followed_ = 0.0;
+  Circling circling_;
+  std::vector<BoundaryPoint> trace_;
+};
+
+}  // namespace cca
