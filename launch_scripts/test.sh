@@ -28,8 +28,9 @@ part() {  # part NAME COMMAND...: runs it, and keeps how it ended
 configure_and_build() {  # DIR OPTIONS...
   local dir=$1
   shift
+  mkdir -p "$dir"
   cmake -S . -B "$dir" -DPYTHON_EXECUTABLE=/usr/bin/python3 -DCCA_WARNINGS_AS_ERRORS=$werror "$@" \
-    >"$dir.configure.log" 2>&1 || { cat "$dir.configure.log"; return 1; }
+    >"$dir/configure.log" 2>&1 || { cat "$dir/configure.log"; return 1; }
   cmake --build "$dir" -j"$jobs" -- --no-print-directory 2>&1 | grep -vE '^\[ *[0-9]+%\] (Built|Linking|Generating)|^Scanning'
   return "${PIPESTATUS[0]}"
 }
