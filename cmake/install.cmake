@@ -14,7 +14,7 @@ endif()
 
 # The Eigen-only layers stand in an export of their own, so that using them needs no MRPT.
 set(eigen_layers cca_mapping cca_navigation cca_baselines)
-set(mrpt_layers cca_evaluation cca_simulation cca_io)
+set(mrpt_layers cca_evaluation cca_simulation cca_io cca_evidence)
 if(NOT CCA_WITH_MRPT)
   set(mrpt_layers "")
 endif()

@@ -11,6 +11,7 @@ void addExploreCommand(CLI::App& program);
 void addExtractCommand(CLI::App& program);
 void addMapCommand(CLI::App& program);
 void addGenerateWorldCommand(CLI::App& program);
+void addCompareExtractorsCommand(CLI::App& program);
 void addEvaluateCommand(CLI::App& program);
 
 }  // namespace cca::apps

@@ -15,6 +15,7 @@ int main(int argc, char** argv) {
   cca::apps::addExtractCommand(program);
   cca::apps::addMapCommand(program);
   cca::apps::addGenerateWorldCommand(program);
+  cca::apps::addCompareExtractorsCommand(program);
   cca::apps::addEvaluateCommand(program);
   try {
     program.parse(argc, argv);

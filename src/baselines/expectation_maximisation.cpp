@@ -3,7 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <random>
+#include <random>  // seeded by parameter
 
 namespace cca::baselines {
 namespace {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "cca_mrpt/baselines/ransac.hpp"
 
-#include <random>
+#include <random>  // seeded by parameter
 
 namespace cca::baselines {
 namespace {

@@ -2,7 +2,7 @@
 #pragma once
 
 #include <functional>
-#include <random>
+#include <random>  // seeded by the caller
 #include <string>
 #include <vector>
 
