@@ -7,13 +7,13 @@ set -eu
 packages="build-essential ca-certificates cmake libboost-dev libcairo2-dev libcli11-dev libeigen3-dev
   libmrpt-dev libnanoflann-dev mrpt-common nlohmann-json3-dev pkg-config zlib1g-dev"
 if [ "${1:-}" = --tests ]; then
-  packages="$packages catkin clang clang-format ffmpeg gdal-bin git imagemagick libbenchmark-dev
+  packages="$packages catkin catkin-lint clang clang-format ffmpeg gdal-bin git imagemagick libbenchmark-dev
     libdiagnostic-updater-dev libgeometry-msgs-dev libgl1-mesa-dri libgmock-dev
-    libgtest-dev libnav-msgs-dev librosbag-dev libroscpp-dev librostest-dev
-    libsensor-msgs-dev libstd-msgs-dev libstd-srvs-dev libtf2-dev libtf2-geometry-msgs-dev
-    libtf2-ros-dev libvisualization-msgs-dev mrpt-apps python3-matplotlib python3-nav-msgs
+    libgtest-dev libnav-msgs-dev librosbag-dev libroscpp-dev libroslib-dev librostest-dev
+    libsensor-msgs-dev libstd-msgs-dev libstd-srvs-dev libtf2-dev libtf2-msgs-dev
+    libvisualization-msgs-dev mrpt-apps python3-diagnostic-msgs python3-matplotlib python3-nav-msgs
     python3-numpy python3-rosbag python3-roslaunch python3-rospy python3-rostest
-    python3-sensor-msgs python3-tf2-ros python3-visualization-msgs ros-core-dev rosbash rosout
+    python3-sensor-msgs python3-std-srvs python3-tf2-ros python3-visualization-msgs ros-core-dev rosbash rosout
     rviz x11-utils xauth xvfb"
 fi
 

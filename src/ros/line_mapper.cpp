@@ -2,13 +2,12 @@
 //
 // rosrun cca_mrpt line_mapper: `scan` and tf in, `lines` and `line_markers` out. For a bag, or a
 // robot that something else drives.
-#include <std_srvs/Trigger.h>
-
 #include "cca_mrpt/mapping/line_map.hpp"
 #include "line_publisher.hpp"
 #include "node_diagnostics.hpp"
 #include "node_main.hpp"
 #include "private_parameters.hpp"
+#include "save_map.hpp"
 #include "scan_feed.hpp"
 
 namespace cca {
@@ -42,18 +41,37 @@ class LineMapper {
         scans_(node, {parameters_.map_frame, ""}, 0.0,
                [this](const PlacedScan& scan) { insert(scan); }),
         diagnostics_(
-            node, private_node, [this]() -> const auto& { return scans_.dropped(); }) {}
+            node, private_node, [this]() -> const auto& { return scans_.dropped(); }) {
+    save_service_ = private_node.advertiseService("save", &LineMapper::onSave, this);
+  }
+
+  void end() {
+    if (parameters_.save_at_end) saveOrTell([this] { save(); });
+  }
 
  private:
   void insert(const PlacedScan& scan) {
     const ros::WallTime begin = ros::WallTime::now();
     line_map_.insert(scan.scan);
+    record_.add(scan.scan, scan.T_map_robot);
     publisher_.publish(line_map_.lines(), scan.stamp);
     diagnostics_.scanUsed((ros::WallTime::now() - begin).toSec());
   }
 
+  void save() {
+    line_map_.finishBatch();
+    saveMap(parameters_.out, "line_mapper", line_map_, record_, {});
+  }
+
+  bool onSave(std_srvs::Trigger::Request& /*request*/, std_srvs::Trigger::Response& response) {
+    answer(response, parameters_.out, [this] { save(); });
+    return true;
+  }
+
   LineMapperParameters parameters_;
   LineMap line_map_;
+  MapRecord record_;
+  ros::ServiceServer save_service_;
   LinePublisher publisher_;
   ScanFeed scans_;
   NodeDiagnostics diagnostics_;
@@ -67,5 +85,6 @@ int main(int argc, char** argv) {
     cca::LineMapper mapper;
     while (cca::keepRunning(0.1)) {
     }
+    mapper.end();
   });
 }

@@ -27,6 +27,7 @@ ScanFeed::ScanFeed(ros::NodeHandle& node, Frames frames, double oldest, Sink sin
 
 void ScanFeed::drop(const std::string& reason, const std::string& detail) {
   ++dropped_[reason];
+  last_trouble_ = ": " + reason;
   ROS_WARN_STREAM_THROTTLE(5.0,
                            "scan dropped: " << reason << (detail.empty() ? "" : ": ") << detail);
 }
@@ -44,7 +45,6 @@ void ScanFeed::startAnewIfClockWasSetBack() {
 }
 
 void ScanFeed::receive(const sensor_msgs::LaserScan& message) {
-  ++received_;
   startAnewIfClockWasSetBack();
   try {
     Waiting waiting{scanFromMessage(message), message.header.stamp, sweepMiddle(message),
@@ -101,7 +101,7 @@ void ScanFeed::use(const Waiting& waiting) {
   const auto verdict = gate_.check(placed.T_map_robot, waiting.stamp.toSec());
   if (verdict == PoseGate::Verdict::kHeld) return drop("the pose leapt");
   if (verdict == PoseGate::Verdict::kMoved) ROS_WARN("the pose leapt, and stays: going on there");
-  sensor_frame_ = waiting.frame;
+  last_trouble_.clear();
   sink_(placed);
 }
 

@@ -39,8 +39,8 @@ class ScanFeed {
   ScanFeed(ros::NodeHandle& node, Frames frames, double oldest, Sink sink);
 
   const std::map<std::string, long>& dropped() const { return dropped_; }
-  long received() const { return received_; }
-  const std::string& sensorFrame() const { return sensor_frame_; }
+  /// Why the last scan was dropped, as ": reason"; empty where it was not.
+  const std::string& lastTrouble() const { return last_trouble_; }
 
  private:
   struct Waiting {
@@ -63,9 +63,8 @@ class ScanFeed {
   std::deque<Waiting> waiting_;
   PoseGate gate_;
   ros::Time last_stamp_, last_now_;
-  std::string sensor_frame_;
+  std::string last_trouble_;
   std::map<std::string, long> dropped_;
-  long received_ = 0;
   TransformFeed transforms_;  // these two last: they call what stands above
   ros::Subscriber scans_;
 };

@@ -40,6 +40,7 @@ class GlobalPlanner {
 
   const ExplorationGrid& grid() const { return grid_; }
   const FreeSpace& space() const { return space_; }
+  const FrontierCells& frontierCells() const { return frontier_cells_; }
   const std::vector<ViewPoint>& viewPoints() const { return view_points_; }
   const Plan& plan() const { return plan_; }
 

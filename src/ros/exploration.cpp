@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "exploration.hpp"
+
+#include <algorithm>
+
+namespace cca {
+namespace {
+
+/// The explorer's clock does not count longer gaps between its steps: the robot was held meanwhile,
+/// and standing still was no lack of progress.
+constexpr double kLongestStep = 0.5;  // s
+
+const char* wordFor(ExplorationStatus status) {
+  switch (status) {
+    case ExplorationStatus::kExploring:
+      return "exploring";
+    case ExplorationStatus::kReturning:
+      return "returning";
+    case ExplorationStatus::kPaused:
+      return "paused";
+    case ExplorationStatus::kFinished:
+      return "finished";
+  }
+  return "";
+}
+
+}  // namespace
+
+Exploration::Exploration(ros::NodeHandle& node, ros::NodeHandle& private_node, Settings settings,
+                         const Parameters& program)
+    : settings_(std::move(settings)),
+      explorer_(program.mapping, program.robot, program.exploration),
+      publisher_(node, settings_.map_frame),
+      mode_(settings_.autostart ? Mode::kRunning : Mode::kStopped) {
+  services_ = {private_node.advertiseService("start", &Exploration::onStart, this),
+               private_node.advertiseService("stop", &Exploration::onStop, this),
+               private_node.advertiseService("pause", &Exploration::onPause, this),
+               private_node.advertiseService("save", &Exploration::onSave, this)};
+  setMode(mode_);
+}
+
+Velocity Exploration::step(Observation observation, const ros::Time& stamp) {
+  own_time_ += std::clamp(observation.time - last_time_, 0.0, kLongestStep);
+  last_time_ = observation.time;
+  if (!drives()) return {};
+  observation.time = own_time_;
+  const Action action = explorer_.step(observation);
+  record_.add(observation.scan, observation.T_map_robot);
+  publisher_.show(explorer_, *record_.grid.grid(), observation.T_map_robot, action.goal, stamp);
+  tell(action);
+  if (action.status == ExplorationStatus::kFinished) finish(stamp);
+  return finished_ ? Velocity{} : action.velocity;
+}
+
+void Exploration::tell(const Action& action) {
+  state_ = std::string(wordFor(action.status)) + ": " + action.reason;
+  publisher_.showStatus(state_);
+}
+
+void Exploration::finish(const ros::Time& stamp) {
+  finished_ = true;
+  publisher_.showAll(explorer_, *record_.grid.grid(), stamp);
+  end();
+}
+
+void Exploration::save() {
+  nlohmann::ordered_json summary;
+  summary["finished"] = finished_;
+  summary["reason"] = state_;
+  saveMap(settings_.out, settings_.title, explorer_.lineMap(), record_, summary);
+}
+
+void Exploration::end() {
+  if (settings_.save_at_end && !record_.way.empty()) saveOrTell([this] { save(); });
+}
+
+void Exploration::setMode(Mode mode) {
+  mode_ = mode;
+  if (finished_) return;
+  state_ = mode == Mode::kStopped  ? "stopped: call ~start to explore"
+           : mode == Mode::kPaused ? "paused: call ~pause with false to go on"
+                                   : "waiting: for the first scan";
+  publisher_.showStatus(state_);
+}
+
+bool Exploration::onStart(std_srvs::Trigger::Request& /*request*/,
+                          std_srvs::Trigger::Response& response) {
+  response.success = !finished_;
+  response.message = finished_ ? "the exploration has finished" : "exploring";
+  if (response.success) setMode(Mode::kRunning);
+  return true;
+}
+
+bool Exploration::onStop(std_srvs::Trigger::Request& /*request*/,
+                         std_srvs::Trigger::Response& response) {
+  setMode(Mode::kStopped);
+  response.success = true;
+  response.message = "stopped";
+  return true;
+}
+
+bool Exploration::onPause(std_srvs::SetBool::Request& request,
+                          std_srvs::SetBool::Response& response) {
+  response.success = mode_ != Mode::kStopped && !finished_;
+  response.message = response.success ? (request.data ? "paused" : "exploring") : "not exploring";
+  if (response.success) setMode(request.data ? Mode::kPaused : Mode::kRunning);
+  return true;
+}
+
+bool Exploration::onSave(std_srvs::Trigger::Request& /*request*/,
+                         std_srvs::Trigger::Response& response) {
+  answer(response, settings_.out, [this] { save(); });
+  return true;
+}
+
+}  // namespace cca

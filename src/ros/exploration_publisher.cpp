@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "exploration_publisher.hpp"
+
+#include <geometry_msgs/PoseStamped.h>
+#include <nav_msgs/OccupancyGrid.h>
+#include <std_msgs/String.h>
+
+#include <cmath>
+
+#include "cca_mrpt/ros/grid_message.hpp"
+#include "cca_mrpt/ros/line_messages.hpp"
+#include "cca_mrpt/ros/pose_message.hpp"
+
+namespace cca {
+namespace {
+
+const ros::WallDuration kLinePeriod(0.04), kMapPeriod(1.0);
+constexpr double kWayStep = 0.05, kWayTurn = 0.2;  // m, rad between recorded poses
+
+}  // namespace
+
+ExplorationPublisher::ExplorationPublisher(ros::NodeHandle& node, std::string map_frame)
+    : map_frame_(std::move(map_frame)),
+      lines_(node, map_frame_),
+      map_(node.advertise<nav_msgs::OccupancyGrid>("map", 1, true)),
+      frontiers_(node.advertise<visualization_msgs::MarkerArray>("frontier_markers", 1, true)),
+      goal_(node.advertise<geometry_msgs::PoseStamped>("goal", 5)),
+      trajectory_(node.advertise<nav_msgs::Path>("trajectory", 1, true)),
+      status_(node.advertise<std_msgs::String>("status", 5, true)) {}
+
+std_msgs::Header ExplorationPublisher::header(const ros::Time& stamp) const {
+  std_msgs::Header h;
+  h.frame_id = map_frame_;
+  h.stamp = stamp;
+  return h;
+}
+
+void ExplorationPublisher::recordWay(const Pose2& T_map_robot, const ros::Time& stamp) {
+  const auto& poses = way_.poses;
+  if (!poses.empty()) {
+    const auto& last = poses.back().pose;
+    const double way = std::hypot(T_map_robot.x - last.position.x, T_map_robot.y - last.position.y);
+    const double theta = 2.0 * std::atan2(last.orientation.z, last.orientation.w);
+    if (way < kWayStep && std::abs(wrapAngle(T_map_robot.theta - theta)) < kWayTurn) return;
+  }
+  geometry_msgs::PoseStamped pose;
+  pose.header = header(stamp);
+  pose.pose = poseMessage(T_map_robot);
+  way_.poses.push_back(pose);
+}
+
+void ExplorationPublisher::showGoal(const std::optional<Eigen::Vector2d>& goal,
+                                    const ros::Time& stamp) {
+  if (goal && (!shown_goal_ || *goal != *shown_goal_)) {
+    geometry_msgs::PoseStamped message;
+    message.header = header(stamp);
+    message.pose = poseMessage({goal->x(), goal->y(), 0.0});
+    goal_.publish(message);
+  }
+  shown_goal_ = goal;
+}
+
+void ExplorationPublisher::show(const Explorer& explorer,
+                                const mrpt::maps::COccupancyGridMap2D& grid,
+                                const Pose2& T_map_robot,
+                                const std::optional<Eigen::Vector2d>& goal,
+                                const ros::Time& stamp) {
+  recordWay(T_map_robot, stamp);
+  showGoal(goal, stamp);
+  const ros::WallTime now = ros::WallTime::now();
+  if (now - map_shown_ >= kMapPeriod) {
+    showAll(explorer, grid, stamp);
+  } else if (now - lines_shown_ >= kLinePeriod) {
+    lines_.publish(explorer.lineMap().lines(), stamp);
+    lines_shown_ = now;
+  }
+}
+
+void ExplorationPublisher::showAll(const Explorer& explorer,
+                                   const mrpt::maps::COccupancyGridMap2D& grid,
+                                   const ros::Time& stamp) {
+  lines_.publish(explorer.lineMap().lines(), stamp);
+  map_.publish(gridMessage(grid, header(stamp)));
+  std::vector<Eigen::Vector2d> frontier;
+  const auto& exploration_grid = explorer.grid();
+  for (const Cell cell : explorer.planner().frontierCells().cells()) {
+    frontier.push_back(exploration_grid.centreOf(cell));
+  }
+  frontiers_.publish(frontierMarkers(frontier, exploration_grid.resolution(), header(stamp)));
+  way_.header = header(stamp);
+  trajectory_.publish(way_);
+  lines_shown_ = map_shown_ = ros::WallTime::now();
+}
+
+void ExplorationPublisher::showStatus(const std::string& status) {
+  if (status == shown_status_) return;
+  shown_status_ = status;
+  std_msgs::String message;
+  message.data = status;
+  status_.publish(message);
+  ROS_INFO("%s", status.c_str());
+}
+
+}  // namespace cca

@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// rosrun cca_mrpt explore [_world:=FILE.yaml _strategy:=NAME]: explores a simulated world in one
+// process; with an empty `~world`, explores with a robot that has `scan`, tf and `cmd_vel`.
+#include <filesystem>
+
+#include "exploration.hpp"
+#include "node_diagnostics.hpp"
+#include "node_main.hpp"
+#include "pace.hpp"
+#include "private_parameters.hpp"
+#include "robot_driver.hpp"
+#include "simulated_robot.hpp"
+#include "simulator_parameters.hpp"
+
+namespace cca {
+namespace {
+
+struct Settings {
+  SimulatorParameters simulator;
+  RobotDriver::Settings driver;
+  Exploration::Settings exploration;
+  std::string pose = "tf";
+  bool exit_at_end = false;
+  Parameters program;
+};
+
+Settings readSettings() {
+  Settings s;
+  s.simulator.world = "two_rooms";
+  PrivateParameters parameters{ros::NodeHandle("~")};
+  readParameters(parameters, s.simulator);
+  parameters.text("map_frame", s.driver.frames.map);
+  parameters.text("odom_frame", s.driver.frames.odom);
+  parameters.text("base_frame", s.driver.frames.base);
+  parameters.text("laser_frame", s.driver.frames.laser);
+  parameters.number("scan_timeout", s.driver.scan_timeout, 0.05, 5.0, "s");
+  parameters.choice("pose", s.pose, {"tf", "odometry"});
+  parameters.text("out", s.exploration.out);
+  parameters.flag("autostart", s.exploration.autostart);
+  parameters.flag("save_at_end", s.exploration.save_at_end);
+  parameters.flag("exit_at_end", s.exit_at_end);
+  parameters.program(s.program);
+  parameters.refuseUnknown();
+  s.exploration.map_frame = s.driver.frames.map;
+  s.driver.publish_map_to_odom = s.pose == "odometry";
+  if (!s.simulator.world.empty()) {
+    s.exploration.title = std::filesystem::path(s.simulator.world).stem().string();
+  }
+  return s;
+}
+
+void exploreSimulated(const Settings& settings, ros::NodeHandle& node,
+                      ros::NodeHandle& private_node) {
+  SimulatedRobot robot(node, makeSimulation(settings.simulator, settings.program),
+                       settings.driver.frames, settings.simulator.scan_rate);
+  Exploration exploration(node, private_node, settings.exploration, settings.program);
+  const std::map<std::string, long> none_dropped;
+  NodeDiagnostics diagnostics(
+      node, private_node, [&]() -> const auto& { return none_dropped; });
+  Pace pace(settings.simulator.speed);
+  Velocity velocity;
+  while (pace.wait(robot.simulation().time())) {
+    robot.skip(pace.forgive(robot.simulation().time()));
+    if (robot.scanIsDue()) {
+      const ros::WallTime begin = ros::WallTime::now();
+      velocity = exploration.step(robot.scan(), robot.now());
+      diagnostics.scanUsed((ros::WallTime::now() - begin).toSec());
+      diagnostics.setState(exploration.state());
+    }
+    robot.tick(exploration.drives() ? velocity : Velocity{});
+    if (exploration.finished() && settings.exit_at_end) return;
+  }
+  if (!exploration.finished()) exploration.end();
+}
+
+void exploreWithRobot(const Settings& settings, ros::NodeHandle& node,
+                      ros::NodeHandle& private_node) {
+  Exploration exploration(node, private_node, settings.exploration, settings.program);
+  {
+    RobotDriver driver(node, private_node, settings.driver, exploration);
+    while (keepRunning(0.1)) {
+      if (exploration.finished() && settings.exit_at_end) return;
+    }
+  }
+  if (!exploration.finished()) exploration.end();
+}
+
+void explore() {
+  ros::NodeHandle node, private_node("~");
+  const Settings settings = readSettings();
+  if (settings.simulator.world.empty()) {
+    exploreWithRobot(settings, node, private_node);
+  } else {
+    exploreSimulated(settings, node, private_node);
+  }
+}
+
+}  // namespace
+}  // namespace cca
+
+int main(int argc, char** argv) { return cca::runNode(argc, argv, "explore", cca::explore); }

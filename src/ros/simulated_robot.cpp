@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "simulated_robot.hpp"
+
+#include <nav_msgs/Odometry.h>
+#include <rosgraph_msgs/Clock.h>
+#include <tf2_msgs/TFMessage.h>
+
+#include <cmath>
+
+#include "cca_mrpt/ros/pose_message.hpp"
+#include "cca_mrpt/ros/scan_message.hpp"
+
+namespace cca {
+namespace {
+
+constexpr double kPoseRate = 50.0;    // Hz, at least
+constexpr double kLaserHeight = 0.2;  // m, for the eye only
+
+geometry_msgs::TransformStamped stamped(const Pose2& pose, const std::string& parent,
+                                        const std::string& child, const ros::Time& stamp) {
+  geometry_msgs::TransformStamped message;
+  message.header.stamp = stamp;
+  message.header.frame_id = parent;
+  message.child_frame_id = child;
+  message.transform = transformMessage(pose);
+  return message;
+}
+
+}  // namespace
+
+SimulatedRobot::SimulatedRobot(ros::NodeHandle& node, Simulation simulation, FrameNames frames,
+                               double scan_rate)
+    : simulation_(std::move(simulation)),
+      frames_(std::move(frames)),
+      keeps_clock_(ros::Time::isSimTime()),
+      scan_period_(1.0 / scan_rate),
+      ticks_per_scan_(static_cast<int>(std::ceil(kPoseRate / scan_rate))),
+      transforms_(node.advertise<tf2_msgs::TFMessage>("/tf", 100)),
+      fixed_transforms_(node.advertise<tf2_msgs::TFMessage>("/tf_static", 10, true)),
+      odometry_(node.advertise<nav_msgs::Odometry>("odom", 50)),
+      scans_(node.advertise<sensor_msgs::LaserScan>("scan", 50)) {
+  tick_ = scan_period_ / ticks_per_scan_;
+  // With simulated time its source is this node: zero would mean that there is no time yet.
+  start_ = keeps_clock_ ? ros::Time(1.0) : ros::Time::now();
+  if (keeps_clock_) clock_ = node.advertise<rosgraph_msgs::Clock>("/clock", 10);
+  publishMount();
+  publishPose();
+}
+
+void SimulatedRobot::tick(const Velocity& command) {
+  simulation_.drive(command, tick_);
+  ++ticks_;
+  publishPose();
+}
+
+void SimulatedRobot::publishMount() {
+  tf2_msgs::TFMessage message;
+  message.transforms.push_back(stamped({}, frames_.base, frames_.laser, now()));
+  message.transforms.back().transform.translation.z = kLaserHeight;
+  fixed_transforms_.publish(message);
+}
+
+void SimulatedRobot::publishPose() {
+  const ros::Time stamp = now();
+  if (keeps_clock_) {
+    rosgraph_msgs::Clock clock;
+    clock.clock = stamp;
+    clock_.publish(clock);
+  }
+  const Pose2 T_odom_robot = simulation_.T_odom_robot();
+  const Pose2 T_map_odom = simulation_.T_map_robot() * T_odom_robot.inverse();
+  tf2_msgs::TFMessage message;
+  message.transforms.push_back(stamped(T_map_odom, frames_.map, frames_.odom, stamp));
+  message.transforms.push_back(stamped(T_odom_robot, frames_.odom, frames_.base, stamp));
+  transforms_.publish(message);
+
+  nav_msgs::Odometry odometry;
+  odometry.header = message.transforms.back().header;
+  odometry.child_frame_id = frames_.base;
+  odometry.pose.pose = poseMessage(T_odom_robot);
+  odometry.twist.twist.linear.x = simulation_.velocity().linear;
+  odometry.twist.twist.angular.z = simulation_.velocity().angular;
+  odometry_.publish(odometry);
+}
+
+Observation SimulatedRobot::scan() {
+  Observation observation = simulation_.observe();
+  std_msgs::Header header;
+  header.stamp = now();
+  header.frame_id = frames_.laser;
+  const LaserLimits limits{0.0, simulation_.parameters().laser.range, scan_period_, 0.0};
+  scans_.publish(scanToMessage(observation.scan, limits, header));
+  return observation;
+}
+
+}  // namespace cca

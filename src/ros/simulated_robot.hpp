@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <ros/ros.h>
+
+#include <string>
+
+#include "cca_mrpt/simulation/simulation.hpp"
+
+namespace cca {
+
+/// The frames that a robot speaks of [REP-105].
+struct FrameNames {
+  std::string map = "map", odom = "odom", base = "base_link", laser = "laser";
+};
+
+/// A Simulation as a robot of ROS: `scan`, `odom`, tf map->odom (of a perfect localisation),
+/// odom->base_link and base_link->laser, and `/clock` where the nodes use simulated time. No other
+/// node may publish these transforms.
+class SimulatedRobot {
+ public:
+  /// @param scan_rate  Hz, positive. Poses are told at least 50 times a second.
+  SimulatedRobot(ros::NodeHandle& node, Simulation simulation, FrameNames frames, double scan_rate);
+
+  /// Drives for one tick towards the command, then tells the time and where the robot is.
+  void tick(const Velocity& command);
+  bool scanIsDue() const { return ticks_ % ticks_per_scan_ == 0; }
+  /// Takes a scan here and now, and publishes it after the transforms that place it.
+  Observation scan();
+
+  /// The present moment: from 1 s on with simulated time, else that of the wall's clock at the
+  /// start and on from there.
+  ros::Time now() const { return start_ + ros::Duration(simulation_.time()); }
+  /// Keeps the stamps with the wall's clock after the simulation was late (see Pace::forgive).
+  void skip(double seconds) {
+    if (!keeps_clock_) start_ += ros::Duration(seconds);
+  }
+  const Simulation& simulation() const { return simulation_; }
+  const FrameNames& frames() const { return frames_; }
+
+ private:
+  void publishPose();
+  void publishMount();
+
+  Simulation simulation_;
+  FrameNames frames_;
+  ros::Time start_;
+  bool keeps_clock_;
+  double scan_period_, tick_;
+  int ticks_per_scan_;
+  long ticks_ = 0;
+  ros::Publisher clock_, transforms_, fixed_transforms_, odometry_, scans_;
+};
+
+}  // namespace cca

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// rosrun cca_mrpt simulator _world:=FILE.yaml: a robot in MRPT's world. It takes `cmd_vel`, and
+// gives `scan`, `odom`, tf and, with simulated time, `/clock`.
+#include <geometry_msgs/Twist.h>
+
+#include <cmath>
+
+#include "node_main.hpp"
+#include "pace.hpp"
+#include "private_parameters.hpp"
+#include "simulated_robot.hpp"
+#include "simulator_parameters.hpp"
+
+namespace cca {
+namespace {
+
+constexpr double kCommandHolds = 0.5;  // s; a base that hears nothing for longer stops
+
+struct Settings {
+  SimulatorParameters simulator;
+  FrameNames frames;
+  Parameters program;
+};
+
+Settings readSettings() {
+  Settings s;
+  PrivateParameters parameters{ros::NodeHandle("~")};
+  readParameters(parameters, s.simulator);
+  parameters.text("map_frame", s.frames.map);
+  parameters.text("odom_frame", s.frames.odom);
+  parameters.text("base_frame", s.frames.base);
+  parameters.text("laser_frame", s.frames.laser);
+  parameters.program(s.program);
+  parameters.refuseUnknown();
+  return s;
+}
+
+void simulate() {
+  const Settings settings = readSettings();
+  ros::NodeHandle node;
+  SimulatedRobot robot(node, makeSimulation(settings.simulator, settings.program), settings.frames,
+                       settings.simulator.scan_rate);
+  Velocity command;
+  double commanded_at = -kCommandHolds;
+  const auto take = [&](const geometry_msgs::Twist::ConstPtr& twist) {
+    if (!std::isfinite(twist->linear.x) || !std::isfinite(twist->angular.z)) {
+      ROS_WARN_THROTTLE(5.0, "cmd_vel that is not finite: ignored");
+      return;
+    }
+    command = {twist->linear.x, twist->angular.z};
+    commanded_at = robot.simulation().time();
+  };
+  const ros::Subscriber commands = node.subscribe<geometry_msgs::Twist>(
+      "cmd_vel", 1, take, ros::VoidConstPtr(), ros::TransportHints().tcpNoDelay());
+  Pace pace(settings.simulator.speed);
+  int collisions = 0;
+  while (pace.wait(robot.simulation().time())) {
+    robot.skip(pace.forgive(robot.simulation().time()));
+    const bool heard = robot.simulation().time() - commanded_at < kCommandHolds;
+    robot.tick(heard ? command : Velocity{});
+    if (robot.scanIsDue()) robot.scan();
+    if (robot.simulation().collisions() > collisions) {
+      collisions = robot.simulation().collisions();
+      ROS_ERROR("collision number %d at %.2f, %.2f", collisions, robot.simulation().T_map_robot().x,
+                robot.simulation().T_map_robot().y);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace cca
+
+int main(int argc, char** argv) { return cca::runNode(argc, argv, "simulator", cca::simulate); }

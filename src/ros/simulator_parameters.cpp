@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "simulator_parameters.hpp"
+
+#include <ros/package.h>
+#include <ros/time.h>
+
+#include <cmath>
+#include <filesystem>
+#include <sstream>
+#include <stdexcept>
+
+namespace cca {
+namespace {
+
+std::string worldFile(const std::string& world) {
+  if (std::filesystem::exists(world)) return world;
+  const std::string maps = ros::package::getPath("cca_mrpt") + "/maps/";
+  for (const std::string& candidate : {maps + world, maps + world + ".yaml"}) {
+    if (std::filesystem::is_regular_file(candidate)) return candidate;
+  }
+  throw std::runtime_error("parameter ~world = '" + world +
+                           "' must be a map_server YAML file, or " + "the name of one in " + maps);
+}
+
+Pose2 parseStart(const std::string& text) {
+  std::istringstream in(text);
+  Pose2 pose;
+  char first = 0, second = 0;
+  double degrees = 0.0;
+  const bool read = static_cast<bool>(in >> pose.x >> first >> pose.y >> second >> degrees);
+  if (!read || first != ',' || second != ',' || !(in >> std::ws).eof()) {
+    throw std::runtime_error("parameter ~start_pose = '" + text +
+                             "' must be X,Y,DEG in metres and degrees");
+  }
+  pose.theta = wrapAngle(degrees * M_PI / 180.0);
+  return pose;
+}
+
+}  // namespace
+
+void readParameters(PrivateParameters& parameters, SimulatorParameters& p) {
+  parameters.text("world", p.world);
+  parameters.text("start_pose", p.start_pose);
+  parameters.number("speed", p.speed, 0.01, 1000.0, "times real time");
+  parameters.number("scan_rate", p.scan_rate, 1.0, 100.0, "Hz");
+  parameters.number("seed", p.seed, 0.0, 1e9, "");
+}
+
+Simulation makeSimulation(const SimulatorParameters& p, const Parameters& program) {
+  if (p.speed != 1.0 && !ros::Time::isSimTime()) {
+    throw std::runtime_error("parameter ~speed must be 1 unless /use_sim_time is true");
+  }
+  World world = loadWorld(worldFile(p.world));
+  const Pose2 T_map_start =
+      p.start_pose.empty() ? defaultStart(world, program.robot.radius) : parseStart(p.start_pose);
+  SimulationParameters simulation;
+  simulation.robot = program.robot;
+  simulation.laser = program.laser;
+  simulation.seed = static_cast<std::uint64_t>(p.seed);
+  return Simulation(std::move(world), T_map_start, simulation);
+}
+
+}  // namespace cca
