@@ -3,10 +3,13 @@
 
 #include <sstream>
 #include <stdexcept>
+#include <utility>
 
 #include "carmen_line.hpp"
 #include "carmen_reader.hpp"
 #include "gzip_lines.hpp"
+#include "mrpt_objects.hpp"
+#include "rawlog_reader.hpp"
 
 namespace cca {
 namespace {
@@ -22,13 +25,52 @@ bool looksLikeCarmen(const std::string& head) {
   return false;
 }
 
+/// Both names are in use; the last is that of files from before 2006.
+bool isSimpleMap(const std::string& class_name) {
+  return class_name == "mrpt::maps::CSimpleMap" || class_name == "CSimpleMap" ||
+         class_name == "CSensFrameProbSequence";
+}
+
+std::unique_ptr<LogReader> openAsWhatItIs(const std::string& path) {
+  const std::string head = fileHead(path, kHead);
+  if (head.empty()) throw std::runtime_error(path + ": is empty, or a damaged compressed file");
+  const std::string mrpt_class = mrptClassName(head);
+  if (isSimpleMap(mrpt_class)) return openSimpleMap(path);
+  if (!mrpt_class.empty()) return openRawlog(path);
+  if (looksLikeCarmen(head)) return openCarmenLog(path);
+  throw std::runtime_error(path + ": not a log of a known kind (known: MRPT .rawlog and " +
+                           ".simplemap, CARMEN .log, each also gzipped)");
+}
+
+/// A log whose first scan has been read already: it is known to have one.
+class BegunLog : public LogReader {
+ public:
+  BegunLog(std::unique_ptr<LogReader> log, LogRecord first)
+      : log_(std::move(log)), first_(std::move(first)) {}
+
+  std::optional<LogRecord> next() override {
+    if (!first_) return log_->next();
+    return std::exchange(first_, std::nullopt);
+  }
+
+  std::string warnings() const override { return log_->warnings(); }
+
+ private:
+  std::unique_ptr<LogReader> log_;
+  std::optional<LogRecord> first_;
+};
+
 }  // namespace
 
 std::unique_ptr<LogReader> openLog(const std::string& path) {
-  const std::string head = fileHead(path, kHead);
-  if (head.empty()) throw std::runtime_error(path + ": is empty");
-  if (looksLikeCarmen(head)) return openCarmenLog(path);
-  throw std::runtime_error(path + ": not a log of a known kind (CARMEN .log)");
+  auto log = openAsWhatItIs(path);
+  auto first = log->next();
+  if (!first) {
+    const std::string why = log->warnings();
+    throw std::runtime_error(path + ": holds no scan of a 2-D laser" +
+                             (why.empty() ? "" : " (" + why + ")"));
+  }
+  return std::make_unique<BegunLog>(std::move(log), std::move(*first));
 }
 
 }  // namespace cca

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "mrpt_objects.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <stdexcept>
+
+namespace cca {
+namespace {
+
+/// MRPT's messages are call stacks: their last line that says something is the cause.
+std::string shortReason(const std::string& message) {
+  const std::size_t end = message.find('\n');
+  return message.substr(0, std::min<std::size_t>(end, 200));
+}
+
+}  // namespace
+
+MrptObjects::MrptObjects(const std::string& path) {
+  if (!file_.open(path)) throw std::runtime_error(path + ": cannot be opened");
+}
+
+mrpt::serialization::CSerializable::Ptr MrptObjects::next() {
+  if (ended_) return nullptr;
+  auto archive = mrpt::serialization::archiveFrom(file_);
+  try {
+    if (auto object = archive.ReadObject()) return object;
+    fault_ = "an object of a class that is not known";
+  } catch (const mrpt::serialization::CExceptionEOF&) {
+    // MRPT's word for the end of the file, in the middle of an object too.
+    if (!file_.checkEOF()) fault_ = "the compressed file is damaged";
+  } catch (const std::exception& error) {
+    fault_ = "unreadable from there on: " + shortReason(error.what());
+  }
+  ended_ = true;
+  return nullptr;
+}
+
+std::string mrptClassName(const std::string& head) {
+  if (head.size() < 5) return {};
+  // A length and a name: one byte with bit 7 set, or four bytes in files from before 2006.
+  const auto first = static_cast<unsigned char>(head.front());
+  const bool old_format = (first & 0x80) == 0;
+  if (old_format && head.compare(1, 3, std::string(3, '\0')) != 0) return {};
+  const std::size_t length = first & 0x7F, begin = old_format ? 4 : 1;
+  if (length == 0 || head.size() < begin + length) return {};
+  const std::string name = head.substr(begin, length);
+  const bool plain = std::all_of(name.begin(), name.end(), [](unsigned char c) {
+    return std::isalnum(c) != 0 || c == ':' || c == '_';
+  });
+  return plain ? name : std::string();
+}
+
+}  // namespace cca
