@@ -17,7 +17,6 @@ namespace {
 constexpr std::size_t kHead = 1 << 16;
 
 bool looksLikeCarmen(const std::string& head) {
-  if (head.find('\0') != std::string::npos) return false;
   std::istringstream lines(head);
   for (std::string line; std::getline(lines, line);) {
     if (isCarmenLine(line)) return true;

@@ -8,10 +8,13 @@
 namespace cca {
 namespace {
 
-/// MRPT's messages are call stacks: their last line that says something is the cause.
+/// MRPT's messages are several lines with a call stack; the cause stands after "Message:".
 std::string shortReason(const std::string& message) {
-  const std::size_t end = message.find('\n');
-  return message.substr(0, std::min<std::size_t>(end, 200));
+  const std::string key = "Message:";
+  const std::size_t found = message.find(key);
+  const std::size_t key_end = found == std::string::npos ? 0 : found + key.size();
+  const std::size_t begin = std::min(message.find_first_not_of(" \n", key_end), message.size());
+  return message.substr(begin, std::min<std::size_t>(message.find('\n', begin) - begin, 200));
 }
 
 }  // namespace

@@ -45,10 +45,10 @@ std::optional<MountedScan> fromMrpt(const mrpt::obs::CObservation2DRangeScan& ob
 }
 
 mrpt::obs::CObservation2DRangeScan toMrpt(const Scan& scan, const Pose2& T_robot_sensor,
-                                          double max_range, double time) {
+                                          double max_range, std::optional<double> time) {
   mrpt::obs::CObservation2DRangeScan observation;
   observation.sensorLabel = "LASER";
-  if (time > 0.0) observation.timestamp = mrpt::Clock::fromDouble(time);
+  observation.timestamp = time ? mrpt::Clock::fromDouble(*time) : INVALID_TIMESTAMP;
   observation.resizeScan(scan.size());
   const double gaps = scan.size() > 1 ? static_cast<double>(scan.size() - 1) : 0.0;
   observation.aperture = static_cast<float>(std::abs(scan.angle_increment) * gaps);

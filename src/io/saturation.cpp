@@ -33,7 +33,7 @@ double Saturation::threshold() const {
       continue;
     }
     top += count;
-    most.front() = std::max(most.front(), count);
+    if (count > 1) most.front() = std::max(most.front(), count);
     std::sort(most.begin(), most.end());
     most.front() = 0;
   }

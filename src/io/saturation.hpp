@@ -17,8 +17,8 @@ class Saturation {
   /// Readings from here on are no returns; +infinity where all are returns.
   ///
   /// They are there if the readings within 4 % of the largest outnumber those of the next 10 %, and
-  /// if a handful of values makes up most of them: the far wall of a small room also heaps readings
-  /// at the top of a short log, but its readings differ.
+  /// if a handful of values, each read more than once, makes up most of them: the far wall of a
+  /// small room also heaps readings at the top of a short log, but its readings differ.
   double threshold() const;
 
   /// m; no indoor laser reads that far: readings beyond are damage, not the top of a scale.

@@ -28,7 +28,7 @@ void ScanGrid::insert(const Scan& scan) {
   if (scan.size() < 2 || !fits(scan)) return;
   const double free_range = scan.free_range_without_return;
   const double longest = free_range > 0.0 ? std::min(kLongestBeam, free_range) : kLongestBeam;
-  auto observation = toMrpt(scan, {}, longest + 1.0, 0.0);
+  auto observation = toMrpt(scan, {}, longest + 1.0);
   // A valid beam that reads longer than what is inserted frees its way and marks no obstacle.
   for (std::size_t beam = 0; beam < scan.size(); ++beam) {
     if (free_range > 0.0 && isNoReturn(scan.ranges[beam])) {

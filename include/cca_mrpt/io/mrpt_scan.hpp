@@ -24,8 +24,8 @@ std::optional<MountedScan> fromMrpt(const mrpt::obs::CObservation2DRangeScan& ob
 /// The reverse. Beams without return are invalid and read max_range; invalid ones are invalid and
 /// read a thousandth of it. MRPT's scans are symmetric about their x axis: what ours is not goes
 /// into sensorPose.
-/// @param max_range  m. @param time  s since 1970; 0: no time stamp.
+/// @param max_range  m. @param time  s since 1970; nothing: no time stamp.
 mrpt::obs::CObservation2DRangeScan toMrpt(const Scan& scan, const Pose2& T_robot_sensor,
-                                          double max_range, double time);
+                                          double max_range, std::optional<double> time = {});
 
 }  // namespace cca
