@@ -1,0 +1,210 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
+#include <atomic>
+#include <cstdio>
+#include <exception>
+#include <filesystem>
+#include <memory>
+#include <mutex>
+#include <sstream>
+#include <stdexcept>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "cca_mrpt/evidence/tuning_analysis.hpp"
+#include "cca_mrpt/evidence/tuning_rows.hpp"
+#include "cca_mrpt/io/atomic_file.hpp"
+#include "commands.hpp"
+
+namespace cca::apps {
+namespace {
+
+using namespace evidence;
+
+struct Options {
+  TuningDesign design;
+  std::string shard = "1/1", out;
+  int threads = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+  bool merge = false;
+};
+
+struct Shard {
+  std::size_t number = 1, count = 1;
+};
+
+Shard parseShard(const std::string& text) {
+  Shard shard;
+  char rest = 0;
+  if (std::sscanf(text.c_str(), "%zu/%zu%c", &shard.number, &shard.count, &rest) != 2 ||
+      shard.number < 1 || shard.number > shard.count) {
+    throw CLI::ValidationError("--shard", text + ": must be I/N with 1 <= I <= N");
+  }
+  return shard;
+}
+
+std::string rowsPath(const Options& options, const Shard& shard) {
+  return options.out + "/rows-" + std::to_string(shard.number) + "-of-" +
+         std::to_string(shard.count) + ".csv";
+}
+
+/// The jobs of this shard, shared out among threads. Neighbouring jobs share a scene, which is made
+/// once and kept while somebody uses it.
+class Workers {
+ public:
+  Workers(const Options& options, const Shard& shard, TuningRows& rows)
+      : options_(options), rows_(rows) {
+    for (std::size_t job = 0; job < options.design.jobs(); ++job) {
+      const std::size_t scene = job / options.design.combinations();
+      if (scene % shard.count == shard.number - 1 && !rows.has(job)) jobs_.push_back(job);
+    }
+  }
+
+  void run() {
+    std::vector<std::thread> threads;
+    for (int k = 0; k < options_.threads; ++k) threads.emplace_back([this] { work(); });
+    for (std::thread& thread : threads) thread.join();
+    if (failure_) std::rethrow_exception(failure_);
+  }
+
+ private:
+  void work() try {
+    for (std::size_t k = next_++; k < jobs_.size(); k = next_++) {
+      const TuningJob job = tuningJob(options_.design, jobs_[k]);
+      const TuningRow row = runJob(job, *sceneOf(job));
+      const std::lock_guard<std::mutex> lock(rows_mutex_);
+      rows_.append(job, row);
+      if (++done_ % 100 == 0) std::fprintf(stderr, "%zu of %zu runs\n", done_, jobs_.size());
+    }
+  } catch (...) {
+    const std::lock_guard<std::mutex> lock(rows_mutex_);
+    failure_ = std::current_exception();
+    next_ = jobs_.size();
+  }
+
+  std::shared_ptr<const Scene> sceneOf(const TuningJob& job) {
+    const std::lock_guard<std::mutex> lock(scene_mutex_);
+    if (!scene_ || scene_number_ != job.scene) {
+      scene_ = std::make_shared<const Scene>(makeScene(options_.design, job));
+      scene_number_ = job.scene;
+    }
+    return scene_;
+  }
+
+  const Options& options_;
+  TuningRows& rows_;
+  std::vector<std::size_t> jobs_;
+  std::atomic<std::size_t> next_{0};
+  std::size_t done_ = 0;
+  std::mutex rows_mutex_, scene_mutex_;
+  std::shared_ptr<const Scene> scene_;
+  std::size_t scene_number_ = 0;
+  std::exception_ptr failure_;
+};
+
+std::vector<std::string> allRows(const std::string& folder) {
+  std::vector<std::string> paths;
+  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+    const std::string name = entry.path().filename().string();
+    if (name.rfind("rows-", 0) == 0 && entry.path().extension() == ".csv") {
+      paths.push_back(entry.path().string());
+    }
+  }
+  std::sort(paths.begin(), paths.end());
+  return paths;
+}
+
+void printVariance(const AnalysisOfVariance& a) {
+  std::printf("| effect | df | sum of squares | mean square | F | p | partial eta^2 |\n");
+  std::printf("|---|---|---|---|---|---|---|\n");
+  for (const Effect& e : a.effects) {
+    std::printf("| %s | %d | %.4f | %.5f | %.1f | %.2g | %.3f |\n", e.name.c_str(), e.degrees,
+                e.sum_of_squares, e.mean_square, e.f, e.p_value, e.partial_eta_sq);
+  }
+  std::printf("| residual | %d | %.4f | %.5f | | | |\n", a.residual_degrees,
+              a.residual_sum_of_squares, a.residual_sum_of_squares / a.residual_degrees);
+}
+
+void printRecommendation(const Recommendation& r, bool with_batches) {
+  std::printf("\nBest: points_per_cluster %d [%g, %g], similarity_cut %g [%g, %g]",
+              r.best.points_per_cluster, r.points_per_cluster.low, r.points_per_cluster.high,
+              r.best.similarity_cut, r.similarity_cut.low, r.similarity_cut.high);
+  if (with_batches) {
+    std::printf(", scans_per_batch %d [%g, %g]", r.best.scans_per_batch, r.scans_per_batch.low,
+                r.scans_per_batch.high);
+  }
+  std::printf(": %.4f.\n", r.best_value);
+  if (!r.shipped_in_design) {
+    std::printf("The shipped combination is not one of the design's.\n");
+    return;
+  }
+  std::printf("Shipped: %.4f; short of the best by %.4f [%.4f, %.4f].\n", r.shipped_value,
+              r.shortfall.value, r.shortfall.low, r.shortfall.high);
+}
+
+void analyse(const Options& options) {
+  const std::vector<TuningRow> rows = readTuningRows(allRows(options.out), options.design);
+  std::printf("%zu of %zu runs, %zu scenes.\n", rows.size(), options.design.jobs(),
+              options.design.scenes());
+  std::ostringstream csv;
+  csv << "objective,points_per_cluster,similarity_cut,scans_per_batch,value,low,high\n";
+  const std::pair<Objective, const char*> objectives[] = {
+      {Objective::kScan, "scan"}, {Objective::kMap, "map"}, {Objective::kBoth, "both"}};
+  const char* titles[] = {"F1 of single scans", "F1 of the map's length", "Mean of the two"};
+  for (int k = 0; k < 3; ++k) {
+    const auto [objective, name] = objectives[k];
+    std::printf("\n### %s\n\n", titles[k]);
+    printVariance(analyseTuning(options.design, rows, objective));
+    printRecommendation(recommend(options.design, rows, objective), objective != Objective::kScan);
+    for (const Combination& c : combinationMeans(options.design, rows, objective)) {
+      csv << name << ',' << c.parameters.points_per_cluster << ',' << c.parameters.similarity_cut
+          << ',' << c.parameters.scans_per_batch << ',' << c.value.value << ',' << c.value.low
+          << ',' << c.value.high << '\n';
+    }
+  }
+  writeFile(options.out + "/surface.csv", csv.str());
+}
+
+void tune(const Options& options) {
+  const Shard shard = parseShard(options.shard);
+  std::filesystem::create_directories(options.out);
+  if (!options.merge) {
+    TuningRows rows(rowsPath(options, shard), options.design);
+    Workers(options, shard, rows).run();
+  }
+  if (options.merge || shard.count == 1) analyse(options);
+}
+
+}  // namespace
+
+void addTuneCommand(CLI::App& program) {
+  auto* command = program.add_subcommand(
+      "tune", "statistics of the three input parameters: a factorial experiment over worlds");
+  auto options = std::make_shared<Options>();
+  TuningDesign& design = options->design;
+  command->add_option("WORLD", design.worlds, "worlds (.yaml, true segments beside them)")
+      ->required();
+  command->add_option("--out", options->out, "folder of the results; run again, it goes on there")
+      ->required();
+  const auto levels = [command](const char* name, auto& values, const char* meaning) {
+    command->add_option(name, values, meaning)->delimiter(',')->capture_default_str();
+  };
+  levels("--points-per-cluster", design.points_per_cluster, "levels, separated by commas");
+  levels("--similarity-cut", design.similarity_cut, "levels, separated by commas");
+  levels("--scans-per-batch", design.scans_per_batch, "levels, separated by commas");
+  levels("--noise", design.noises, "range noises [m], separated by commas");
+  const auto count = [command](const char* name, int& value, const char* meaning) {
+    command->add_option(name, value, meaning)
+        ->check(CLI::Range(1, 1000000))
+        ->capture_default_str();
+  };
+  count("--seeds", design.seeds, "repetitions of each world and noise");
+  count("--scans", design.scans, "single scans of each scene");
+  count("--poses", design.poses, "longest tour for a map, in scans");
+  count("--threads", options->threads, "runs at a time");
+  command->add_option("--shard", options->shard, "I/N: run only the I-th of N parts of the scenes");
+  command->add_flag("--merge", options->merge, "run nothing: analyse what all shards have left");
+  command->callback([options] { tune(*options); });
+}
+
+}  // namespace cca::apps
