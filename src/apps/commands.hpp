@@ -12,6 +12,7 @@ void addExtractCommand(CLI::App& program);
 void addMapCommand(CLI::App& program);
 void addGenerateWorldCommand(CLI::App& program);
 void addCompareExtractorsCommand(CLI::App& program);
+void addTuneCommand(CLI::App& program);
 void addEvaluateCommand(CLI::App& program);
 
 }  // namespace cca::apps

@@ -16,6 +16,7 @@ int main(int argc, char** argv) {
   cca::apps::addMapCommand(program);
   cca::apps::addGenerateWorldCommand(program);
   cca::apps::addCompareExtractorsCommand(program);
+  cca::apps::addTuneCommand(program);
   cca::apps::addEvaluateCommand(program);
   try {
     program.parse(argc, argv);

@@ -194,9 +194,7 @@ void addTuneCommand(CLI::App& program) {
   levels("--scans-per-batch", design.scans_per_batch, "levels, separated by commas");
   levels("--noise", design.noises, "range noises [m], separated by commas");
   const auto count = [command](const char* name, int& value, const char* meaning) {
-    command->add_option(name, value, meaning)
-        ->check(CLI::Range(1, 1000000))
-        ->capture_default_str();
+    command->add_option(name, value, meaning)->check(CLI::Range(1, 1000000))->capture_default_str();
   };
   count("--seeds", design.seeds, "repetitions of each world and noise");
   count("--scans", design.scans, "single scans of each scene");

@@ -91,8 +91,8 @@ AnalysisOfVariance analyseVariance(const Experiment& experiment,
     Effect e;
     e.name = nameOf(experiment, effects[k]);
     e.degrees = static_cast<int>(blocks[k].cols());
-    e.sum_of_squares = std::max(
-        0.0, residual(joined(blocks, response.size(), k), response) - result.residual_sum_of_squares);
+    e.sum_of_squares = std::max(0.0, residual(joined(blocks, response.size(), k), response) -
+                                         result.residual_sum_of_squares);
     e.mean_square = e.sum_of_squares / e.degrees;
     const double both = e.sum_of_squares + result.residual_sum_of_squares;
     if (both > 0.0) e.partial_eta_sq = e.sum_of_squares / both;

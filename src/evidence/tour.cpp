@@ -24,8 +24,7 @@ class Ground {
   }
 
   Eigen::Vector2d place(int cell) const {
-    return world_.origin() +
-           p_.cell * Eigen::Vector2d(cell % width_ + 0.5, cell / width_ + 0.5);
+    return world_.origin() + p_.cell * Eigen::Vector2d(cell % width_ + 0.5, cell / width_ + 0.5);
   }
 
   /// The free cell nearest to a point.

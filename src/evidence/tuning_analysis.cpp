@@ -89,8 +89,7 @@ AnalysisOfVariance analyseTuning(const TuningDesign& design, const std::vector<T
 }
 
 std::vector<Combination> combinationMeans(const TuningDesign& design,
-                                          const std::vector<TuningRow>& rows,
-                                          Objective objective) {
+                                          const std::vector<TuningRow>& rows, Objective objective) {
   const auto scenes = table(design, rows, objective);
   std::vector<Combination> means;
   for (std::size_t k = 0; k < design.combinations(); ++k) {

@@ -112,7 +112,8 @@ TuningRow runJob(const TuningJob& job, const Scene& scene) {
   for (const Scan& scan : scene.tour) map.insert(scan);
   map.finishBatch();
   std::vector<Segment2> segments;
-  for (const MapLine& line : map.lines()) segments.push_back({line.segment.start, line.segment.end});
+  for (const MapLine& line : map.lines())
+    segments.push_back({line.segment.start, line.segment.end});
   if (!segments.empty() && !scene.walls.empty()) {
     const double f1 = scoreAgainstWorld(scene.walls, segments).at("world").at("f1");
     if (std::isfinite(f1)) row.map_f1 = f1;

@@ -13,9 +13,7 @@ namespace {
 constexpr const char* kHeader =
     "job,points_per_cluster,similarity_cut,scans_per_batch,world,noise,seed,scan_f1,map_f1";
 
-std::string head(const TuningDesign& design) {
-  return design.signature() + "\n" + kHeader + "\n";
-}
+std::string head(const TuningDesign& design) { return design.signature() + "\n" + kHeader + "\n"; }
 
 /// The whole lines of a file after its head, and how many bytes they and the head take.
 struct Content {

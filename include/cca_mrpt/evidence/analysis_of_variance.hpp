@@ -20,12 +20,12 @@ struct Experiment {
 /// One row of the table: a main effect (one factor) or an interaction (several).
 struct Effect {
   std::string name;
-  int degrees = 0;               ///< of freedom
+  int degrees = 0;  ///< of freedom
   double sum_of_squares = 0.0;
   double mean_square = 0.0;
   double f = 0.0;
-  double p_value = 1.0;          ///< of an F at least as large where the effect is nil
-  double partial_eta_sq = 0.0;   ///< SS / (SS + SS of the residual)
+  double p_value = 1.0;         ///< of an F at least as large where the effect is nil
+  double partial_eta_sq = 0.0;  ///< SS / (SS + SS of the residual)
 };
 
 struct AnalysisOfVariance {

@@ -8,8 +8,9 @@
 
 namespace cca::evidence {
 
-/// A way through a world on which a robot sees nearly everything, whatever the map: from the world's
-/// start it goes, again and again, to the nearest place farther than `reach` from its way so far.
+/// A way through a world on which a robot sees nearly everything, whatever the map: from the
+/// world's start it goes, again and again, to the nearest place farther than `reach` from its way
+/// so far.
 struct TourParameters {
   double cell = 0.25;       ///< m, of the grid that the way is found on
   double clearance = 0.35;  ///< m, from obstacles

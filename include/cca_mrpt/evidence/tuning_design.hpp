@@ -21,9 +21,9 @@ struct TuningDesign {
   std::vector<std::string> worlds;  ///< .yaml
   std::vector<double> noises{0.01, 0.03};
   int seeds = 2;
-  int scans = 15;                 ///< single scans of each scene
-  int poses = 120;                ///< longest tour of a scene, for the map
-  double pose_noise = 0.01;       ///< m, per axis: the map is built with poses that err
+  int scans = 15;            ///< single scans of each scene
+  int poses = 120;           ///< longest tour of a scene, for the map
+  double pose_noise = 0.01;  ///< m, per axis: the map is built with poses that err
   double heading_noise_deg = 0.1;
 
   std::size_t scenes() const { return worlds.size() * noises.size() * seeds; }
