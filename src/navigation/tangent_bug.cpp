@@ -29,10 +29,12 @@ void TangentBug::setGoal(const Eigen::Vector2d& goal_map) {
   target_.reset();
   motion_to_goal_.start();
   in_vain_map_.clear();
+  shut_map_.clear();
+  progress_ = {};
 }
 
 Velocity TangentBug::step(const Scan& scan, const Pose2& T_map_robot, const Velocity& velocity,
-                          double) {
+                          double time) {
   observe(scan, T_map_robot);
   target_.reset();
   const bool under_way =
@@ -48,13 +50,31 @@ Velocity TangentBug::step(const Scan& scan, const Pose2& T_map_robot, const Velo
       target_ = followBoundary();
     }
   }
+  const bool still =
+      state_ == TangentBugState::kMotionToGoal || state_ == TangentBugState::kBoundaryFollowing;
+  if (still && progress_.stuck(T_map_robot.position(), follower_.length(), time, false)) {
+    shutWhatIsTooNarrow();
+  }
   return drive(velocity);
+}
+
+// A gap as wide as the robot may look open from afar and shut from nearby: it is shut for good.
+void TangentBug::shutWhatIsTooNarrow() {
+  const Eigen::Vector2d x = view_.T_map_robot.position();
+  if (state_ == TangentBugState::kBoundaryFollowing) {
+    if (const auto place = follower_.takeNarrowPlace()) shut_map_.push_back(*place);
+  } else if (target_ && *target_ != x) {
+    const double ahead = std::min((*target_ - x).norm(), way_space_.radius);
+    shut_map_.push_back(x + ahead * (*target_ - x).normalized());
+  }
 }
 
 void TangentBug::observe(const Scan& scan, const Pose2& T_map_robot) {
   const double radius = robot_.radius + robot_.safety_margin;
   const Eigen::Vector2d x = T_map_robot.position();
   view_ = makeLocalView(scan, T_map_robot, 2.0 * radius);
+  view_.obstacles.insert(view_.obstacles.end(), shut_map_.begin(), shut_map_.end());
+  view_.ends_here.resize(view_.obstacles.size(), false);
   way_space_ = {view_.obstacles, radius};
   // Pressed to an obstacle, the robot still sees the ways along it.
   way_space_.radius = std::clamp(way_space_.clearance(x) - kOnTheBoundary, robot_.radius,
@@ -124,7 +144,8 @@ std::optional<Eigen::Vector2d> TangentBug::startFollowing() {
 std::optional<Eigen::Vector2d> TangentBug::followBoundary() {
   const auto target = follower_.step(goal_map_, view_, trace_space_, way_space_);
   const double unsure = kUnsure * (reach_map_ - view_.T_map_robot.position()).norm();
-  if (d_reach_ < follower_.followedDistance() - kLeave - unsure) {
+  if (d_reach_ < follower_.followedDistance() - kLeave - unsure ||
+      d_reach_ < 0.9 * kGoalTolerance) {
     state_ = TangentBugState::kMotionToGoal;
     motion_to_goal_.startFromBoundary(reach_map_, follower_.followedDistance() - 0.5 * kLeave,
                                       follower_.onTheRight());

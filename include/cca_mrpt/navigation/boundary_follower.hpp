@@ -34,20 +34,33 @@ class BoundaryFollower {
 
   bool onTheRight() const { return on_the_right_; }
   double followedDistance() const { return d_followed_; }  ///< d_followed, m
-  bool circled() const { return circling_.closed(); }
-  double length() const { return length_; }  ///< m, followed so far
-  const std::vector<BoundaryPoint>& trace() const { return trace_; }
+  /// Whether the boundary has been circled and its place nearest to the goal been visited. Where a
+  /// short cut passed that place by, a second round keeps close to the boundary.
+  bool circled() const { return circling_.closed() && (passed_nearest_ || closely_); }
+  double length() const { return length_; }                           ///< m, followed so far
+  const std::vector<BoundaryPoint>& trace() const { return trace_; }  ///< in sight, from the robot
+
+  /// A place a little ahead, on the obstacle's side, of all that the traces since the last call
+  /// would have gone through: where the robot gets nowhere, that gap is too narrow after all.
+  std::optional<Eigen::Vector2d> takeNarrowPlace();
 
  private:
   void include(const std::vector<BoundaryPoint>& trace, const Eigen::Vector2d& goal_map);
-  void moveAnchor(const Eigen::Vector2d& x_map, std::size_t last);
+  void include(const Eigen::Vector2d& p_map, const Eigen::Vector2d& goal_map);
+  bool findAnchor(const LocalView& view, const ConfigurationSpace& space);
+  void noteNarrowPlace();
+  void moveAnchor(const Eigen::Vector2d& x_map, const Eigen::Vector2d& goal_map, std::size_t last);
 
   bool on_the_right_ = true;
-  Eigen::Vector2d anchor_map_ = Eigen::Vector2d::Zero();  ///< the boundary's place beside the robot
-  double length_ = 0.0, heading_ = 0.0;                   ///< of the walk, at the anchor
+  double length_ = 0.0, heading_ = 0.0;  ///< of the walk, at the anchor
   double d_followed_ = 0.0;
+  Eigen::Vector2d nearest_map_ = Eigen::Vector2d::Zero();  ///< the place of d_followed
+  bool passed_nearest_ = false, closely_ = false;
   Circling circling_;
   std::vector<BoundaryPoint> trace_;
+  std::size_t anchor_ = 0;  ///< of the trace
+  std::optional<Eigen::Vector2d> narrow_map_;
+  double narrow_turn_ = 0.0;
 };
 
 }  // namespace cca

@@ -27,6 +27,7 @@ class Circling {
     double length, heading;
   };
   std::vector<Place> places_;
+  double again_since_ = -1.0;  ///< m, where the walk came upon its own traces; below 0: it did not
   bool closed_ = false;
 };
 

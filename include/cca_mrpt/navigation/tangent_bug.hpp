@@ -10,6 +10,7 @@
 #include "cca_mrpt/navigation/configuration_space.hpp"
 #include "cca_mrpt/navigation/local_view.hpp"
 #include "cca_mrpt/navigation/motion_to_goal.hpp"
+#include "cca_mrpt/navigation/progress_watch.hpp"
 #include "cca_mrpt/navigation/robot.hpp"
 #include "cca_mrpt/navigation/tangent_graph.hpp"
 
@@ -45,6 +46,7 @@ class TangentBug {
   double reachDistance() const { return d_reach_; }  ///< d_reach, m
 
  private:
+  void shutWhatIsTooNarrow();
   void observe(const Scan& scan, const Pose2& T_map_robot);
   void findReach();
   bool isInVain(const Eigen::Vector2d& p_map) const;
@@ -56,6 +58,8 @@ class TangentBug {
   RobotParameters robot_;
   Eigen::Vector2d goal_map_ = Eigen::Vector2d::Zero();
   TangentBugState state_ = TangentBugState::kReached;
+  ProgressWatch progress_;
+  std::vector<Eigen::Vector2d> shut_map_;  ///< places in gaps that proved too narrow
   LocalView view_;
   ConfigurationSpace way_space_, trace_space_;
   std::vector<FreeRange> free_ranges_;
