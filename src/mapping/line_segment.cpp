@@ -27,15 +27,24 @@ Eigen::Vector2d LineSegment::direction() const {
 }
 
 FittedLine fitLine(const PointMoments& moments) {
-  const double sxx = moments.scatter(0, 0), syy = moments.scatter(1, 1),
-               sxy = moments.scatter(0, 1);
-  const double theta = 0.5 * std::atan2(2.0 * sxy, sxx - syy);
-  const double mid = 0.5 * (sxx + syy), swing = std::hypot(0.5 * (sxx - syy), sxy);
+  const double half_difference = 0.5 * (moments.scatter(0, 0) - moments.scatter(1, 1));
+  const double sxy = moments.scatter(0, 1);
+  const double mid = 0.5 * (moments.scatter(0, 0) + moments.scatter(1, 1));
+  const double swing = std::sqrt(half_difference * half_difference + sxy * sxy);
   FittedLine line;
   line.centroid = moments.mean;
-  line.direction = {std::cos(theta), std::sin(theta)};
   line.residual_sum_sq = std::max(0.0, mid - swing);
-  line.spread_sum_sq = mid + swing;
+  line.spread_sum_sq = std::max(0.0, mid + swing);
+  if (swing <= 0.0) return line;
+  // Half of the angle whose cosine and sine are these, without trigonometry.
+  const double cos_2 = half_difference / swing, sin_2 = sxy / swing;
+  if (cos_2 >= 0.0) {
+    const double c = std::sqrt(0.5 * (1.0 + cos_2));
+    line.direction = {c, 0.5 * sin_2 / c};
+  } else {
+    const double s = std::sqrt(0.5 * (1.0 - cos_2));
+    line.direction = {0.5 * std::abs(sin_2) / s, sin_2 < 0.0 ? -s : s};
+  }
   return line;
 }
 

@@ -13,9 +13,6 @@ namespace {
 constexpr int kLloydSweeps = 5;
 /// Two-sided 99.9 % quantile of the normal distribution: gate of a single residual.
 constexpr double kResidualGate = 3.29;
-/// A wall seen at less than this angle cannot be told from a step in depth [Borges & Aldon 2004].
-constexpr double kGrazing = 10.0 * M_PI / 180.0;
-
 /// Centroids in cyclic order of bearing.
 class CentroidRing {
  public:
@@ -87,17 +84,6 @@ std::vector<Eigen::Vector2d> centroidsOf(const std::vector<Eigen::Vector2d>& pos
   return sum;
 }
 
-bool hasGap(const ScanPoints& points, const PointNoise& noise, int i) {
-  const Eigen::Vector2d &p = points.positions[i], &q = points.positions[i + 1];
-  const int missing = points.beams[i + 1] - points.beams[i];
-  if (missing > 1) return true;
-  const double turn = points.beam_spacing * missing;
-  const double range = std::min(p.norm(), q.norm());
-  const double widest =
-      range * std::sin(turn) / std::sin(std::max(kGrazing - turn, 0.5 * kGrazing));
-  return (q - p).norm() > widest + kResidualGate * noise.range_sigma * std::sqrt(2.0);
-}
-
 bool isLinear(const ScanPoints& points, const PrefixMoments& prefix, const PointNoise& noise,
               const PointCluster& run) {
   if (run.size() <= 2) return true;
@@ -130,7 +116,6 @@ int splitByTwoMeans(const PrefixMoments& prefix, const PointCluster& run) {
 
 void prune(const ScanPoints& points, const PrefixMoments& prefix, const PointNoise& noise,
            const PointCluster& run, std::vector<PointCluster>* kept) {
-  if (run.size() < 2) return;
   if (isLinear(points, prefix, noise, run)) {
     kept->push_back(run);
     return;
@@ -176,7 +161,8 @@ std::vector<PointCluster> pointClusters(const ScanPoints& points, const PrefixMo
   std::vector<PointCluster> runs;
   for (int first = 0; first < n;) {
     int last = first + 1;
-    while (last < n && cluster[last] == cluster[first] && !hasGap(points, noise, last - 1)) ++last;
+    while (last < n && cluster[last] == cluster[first] && points.breaksBetween(last - 1, last) == 0)
+      ++last;
     prune(points, prefix, noise, {first, last}, &runs);
     first = last;
   }

@@ -3,24 +3,54 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 namespace cca {
 namespace {
 
-constexpr double kMadToSigma = 1.4826;  // median |x| of a normal variable, inverted
+constexpr double kMedianToSigma = 1.4826;                // of |x|, x normal
 constexpr double kSecondDifference = 2.449489742783178;  // sqrt(1 + 4 + 1)
 constexpr double kUniformToSigma = 0.28867513459481287;  // 1 / sqrt 12
+/// Deviation of a beam's bearing, in spacings: a beam lies somewhere in a quarter of its own
+/// sector.
+constexpr double kBearingShare = 0.25 * kUniformToSigma;
 
 /// The smallest step between neighbouring ranges: the quantum, where ranges are rounded.
-double rangeQuantum(const Scan& scan) {
+double rangeQuantum(const std::vector<double>& ranges) {
+  constexpr double kRounding = 1e-9;
   double quantum = 0.0;
-  for (std::size_t i = 1; i < scan.size(); ++i) {
-    if (!isReturn(scan.ranges[i - 1]) || !isReturn(scan.ranges[i])) continue;
-    const double step = std::abs(scan.ranges[i] - scan.ranges[i - 1]);
-    if (step > 1e-9 && (quantum == 0.0 || step < quantum)) quantum = step;
+  for (std::size_t i = 1; i < ranges.size(); ++i) {
+    if (!isReturn(ranges[i - 1]) || !isReturn(ranges[i])) continue;
+    const double step = std::abs(ranges[i] - ranges[i - 1]);
+    if (step > kRounding && (quantum == 0.0 || step < quantum)) quantum = step;
   }
   return quantum;
+}
+
+struct Deviation {
+  double slope;  // |r(i+1) - r(i-1)|
+  double value;  // |e(i)|
+};
+
+std::vector<Deviation> deviations(const Scan& scan) {
+  const double two_cos = 2.0 * std::cos(scan.angle_increment);
+  std::vector<Deviation> found;
+  found.reserve(scan.size());
+  for (std::size_t i = 1; i + 1 < scan.size(); ++i) {
+    const double a = scan.ranges[i - 1], b = scan.ranges[i], c = scan.ranges[i + 1];
+    if (!isReturn(a) || !isReturn(b) || !isReturn(c)) continue;
+    const double e = std::abs(b * (b * (1.0 / a + 1.0 / c) - two_cos));
+    if (std::isfinite(e)) found.push_back({std::abs(c - a), e});
+  }
+  return found;
+}
+
+template <class Less>
+void lowerHalf(std::vector<Deviation>* all, Less less) {
+  const auto middle = all->begin() + static_cast<std::ptrdiff_t>(all->size() / 2);
+  std::nth_element(all->begin(), middle, all->end(), less);
+  all->erase(middle + 1, all->end());
 }
 
 }  // namespace
@@ -31,25 +61,24 @@ double PointNoise::lateralVariance(const Eigen::Vector2d& point,
   const double along = point.dot(direction);
   const double across_sq = std::max(0.0, range_sq - along * along);
   const double head_on = range_sq > 0.0 ? across_sq / range_sq : 1.0;
-  return range_sigma * range_sigma * head_on + bearing_sigma * bearing_sigma * along * along;
+  return range_sigma * range_sigma * head_on + bearing_sigma * bearing_sigma * along * along +
+         kFinestSigma * kFinestSigma;
 }
 
 PointNoise rangeNoise(const Scan& scan) {
-  const double two_cos = 2.0 * std::cos(scan.angle_increment);
-  std::vector<double> deviations;
-  deviations.reserve(scan.size());
-  for (std::size_t i = 1; i + 1 < scan.size(); ++i) {
-    const double a = scan.ranges[i - 1], b = scan.ranges[i], c = scan.ranges[i + 1];
-    if (!isReturn(a) || !isReturn(b) || !isReturn(c)) continue;
-    deviations.push_back(std::abs(b * b * (1.0 / a + 1.0 / c) - two_cos * b));
-  }
-  PointNoise noise{kFinestSigma, kUniformToSigma * std::abs(scan.angle_increment)};
-  if (deviations.empty()) return noise;
-  const auto middle = deviations.begin() + static_cast<std::ptrdiff_t>(deviations.size() / 2);
-  std::nth_element(deviations.begin(), middle, deviations.end());
-  noise.range_sigma = std::max({kFinestSigma, kMadToSigma * *middle / kSecondDifference,
-                                kUniformToSigma * rangeQuantum(scan)});
+  PointNoise noise{kFinestSigma, kBearingShare * std::abs(scan.angle_increment)};
+  std::vector<Deviation> all = deviations(scan);
+  if (all.empty()) return noise;
+  lowerHalf(&all, [](const Deviation& a, const Deviation& b) { return a.slope < b.slope; });
+  lowerHalf(&all, [](const Deviation& a, const Deviation& b) { return a.value < b.value; });
+  noise.range_sigma = std::max({kFinestSigma, kMedianToSigma * all.back().value / kSecondDifference,
+                                kUniformToSigma * rangeQuantum(scan.ranges)});
   return noise;
+}
+
+PointNoise wallNoise(PointNoise sensor) {
+  sensor.range_sigma = std::max(sensor.range_sigma, kStraightness);
+  return sensor;
 }
 
 }  // namespace cca

@@ -2,50 +2,84 @@
 #include "cca_mrpt/mapping/rank_order_clustering.hpp"
 
 #include <algorithm>
-#include <cstdint>
 #include <numeric>
 
 namespace cca {
 namespace {
 
-using Word = std::vector<bool>;
+/// The ones of the cut matrix, row after row.
+struct Ones {
+  std::vector<int> begin;   // of each row in columns; one more than rows
+  std::vector<int> column;  // includes the diagonal
+};
 
-/// Rows of the cut matrix as binary words, rows and columns both in the given order.
-std::vector<Word> wordsInOrder(const SimilarityMatrix& s, double cut,
-                               const std::vector<int>& order) {
-  std::vector<Word> words(order.size(), Word(order.size()));
-  for (std::size_t i = 0; i < order.size(); ++i) {
-    for (std::size_t j = 0; j < order.size(); ++j) words[i][j] = s(order[i], order[j]) >= cut;
+Ones cutMatrix(const SimilarityMatrix& s, double cut) {
+  Ones ones;
+  ones.begin.assign(s.size() + 1, 0);
+  for (int i = 0; i < s.size(); ++i) ones.begin[i + 1] = 1;
+  for (const auto& e : s.entries()) {
+    if (e.value < cut) continue;
+    ++ones.begin[e.row + 1];
+    ++ones.begin[e.column + 1];
   }
-  return words;
+  std::partial_sum(ones.begin.begin(), ones.begin.end(), ones.begin.begin());
+  ones.column.resize(ones.begin.back());
+  std::vector<int> next(ones.begin.begin(), ones.begin.end() - 1);
+  for (int i = 0; i < s.size(); ++i) ones.column[next[i]++] = i;
+  for (const auto& e : s.entries()) {
+    if (e.value < cut) continue;
+    ones.column[next[e.row]++] = e.column;
+    ones.column[next[e.column]++] = e.row;
+  }
+  return ones;
 }
 
 /// One of King's sorts, largest word first; true where something moved.
-bool sortOnce(const SimilarityMatrix& s, double cut, std::vector<int>* order) {
-  const std::vector<Word> words = wordsInOrder(s, cut, *order);
-  std::vector<int> rank(order->size());
-  std::iota(rank.begin(), rank.end(), 0);
-  std::stable_sort(rank.begin(), rank.end(), [&](int a, int b) { return words[b] < words[a]; });
-  if (std::is_sorted(rank.begin(), rank.end())) return false;
-  std::vector<int> sorted(order->size());
-  for (std::size_t i = 0; i < rank.size(); ++i) sorted[i] = (*order)[rank[i]];
-  order->swap(sorted);
+///
+/// A word is kept as the rising places of its ones: the larger of two binary words is the one with
+/// the smaller place where they first differ, and the longer where one begins the other.
+bool sortOnce(const Ones& ones, std::vector<int>* order, std::vector<int>* place,
+              std::vector<int>* words) {
+  const int n = static_cast<int>(order->size());
+  for (int i = 0; i < n; ++i) {
+    for (int k = ones.begin[i]; k < ones.begin[i + 1]; ++k) (*words)[k] = (*place)[ones.column[k]];
+    std::sort(words->begin() + ones.begin[i], words->begin() + ones.begin[i + 1]);
+  }
+  const auto larger = [&](int a, int b) {
+    const int* wa = words->data() + ones.begin[a];
+    const int* wb = words->data() + ones.begin[b];
+    const int na = ones.begin[a + 1] - ones.begin[a], nb = ones.begin[b + 1] - ones.begin[b];
+    for (int k = 0; k < std::min(na, nb); ++k) {
+      if (wa[k] != wb[k]) return wa[k] < wb[k];
+    }
+    return na != nb ? na > nb : (*place)[a] < (*place)[b];
+  };
+  if (std::is_sorted(order->begin(), order->end(), larger)) return false;
+  std::sort(order->begin(), order->end(), larger);
+  for (int i = 0; i < n; ++i) (*place)[(*order)[i]] = i;
   return true;
 }
 
 }  // namespace
 
 std::vector<std::vector<int>> rankOrderGroups(const SimilarityMatrix& similarity, double cut) {
+  const Ones ones = cutMatrix(similarity, cut);
   std::vector<int> order(similarity.size());
   std::iota(order.begin(), order.end(), 0);
-  for (int sweep = 0; sweep < similarity.size() && sortOnce(similarity, cut, &order); ++sweep) {
+  std::vector<int> place = order, words(ones.column.size());
+  for (int sweep = 0; sweep < similarity.size(); ++sweep) {
+    if (!sortOnce(ones, &order, &place, &words)) break;
   }
   std::vector<std::vector<int>> groups;
+  std::vector<int> group_of(similarity.size(), -1);
   for (const int next : order) {
-    const bool joins =
-        !groups.empty() && std::all_of(groups.back().begin(), groups.back().end(),
-                                       [&](int member) { return similarity(member, next) >= cut; });
-    if (!joins) groups.emplace_back();
+    const int open = static_cast<int>(groups.size()) - 1;
+    int alike = 0;
+    for (int k = ones.begin[next]; k < ones.begin[next + 1]; ++k) {
+      alike += group_of[ones.column[k]] == open ? 1 : 0;
+    }
+    if (open < 0 || alike < static_cast<int>(groups[open].size())) groups.emplace_back();
+    group_of[next] = static_cast<int>(groups.size()) - 1;
     groups.back().push_back(next);
   }
   return groups;

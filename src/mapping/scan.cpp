@@ -6,33 +6,70 @@
 namespace cca {
 namespace {
 
-/// A turn that lacks less than this many beam spacings is a full one.
-constexpr double kClosedWithinBeams = 1.5;
+/// Beams between two calls of sin and cos; in between the direction is turned by one spacing.
+constexpr int kBeamsPerSine = 64;
 
+/// A scan that lacks less than half a beam of a full turn joins its ends.
 bool isFullTurn(const Scan& scan) {
   const double spacing = std::abs(scan.angle_increment);
-  return static_cast<double>(scan.size()) * spacing >
-         2.0 * M_PI - (kClosedWithinBeams - 1.0) * spacing;
+  return (static_cast<double>(scan.size()) + 0.5) * spacing > 2.0 * M_PI;
 }
 
-/// The beam after the largest step in range around the circle; a missing return is a step.
+/// Where to open the circle: after a missing return, else at the sharpest bend of the ranges.
 std::size_t cutOfCircle(const std::vector<double>& ranges) {
+  const std::size_t n = ranges.size();
   std::size_t cut = 0;
-  double largest = -1.0;
-  for (std::size_t i = 0; i < ranges.size(); ++i) {
-    const double before = ranges[i == 0 ? ranges.size() - 1 : i - 1], here = ranges[i];
-    if (!isReturn(here)) continue;
+  double sharpest = -1.0;
+  for (std::size_t i = 0; i < n; ++i) {
+    const double before = ranges[(i + n - 1) % n], here = ranges[i], after = ranges[(i + 1) % n];
+    if (!isReturn(here) || !isReturn(after)) continue;
     if (!isReturn(before)) return i;
-    const double step = std::abs(here - before) / std::min(here, before);
-    if (step > largest) {
-      largest = step;
+    const double bend = std::abs(before + after - 2.0 * here);
+    if (bend > sharpest) {
+      sharpest = bend;
       cut = i;
     }
   }
   return cut;
 }
 
+/// A wall seen at less than this angle cannot be told from a step in depth [Borges & Aldon 2004].
+constexpr double kGrazing = 5.0 * M_PI / 180.0;
+
+/// A step in depth between points i and i + 1, seen under `turn`.
+bool isStep(const Eigen::Vector2d& p, const Eigen::Vector2d& q, double turn) {
+  const double near = std::sqrt(std::min(p.squaredNorm(), q.squaredNorm()));
+  const double widest = near * std::sin(turn) / std::sin(kGrazing);
+  return (q - p).norm() > widest + 0.1;
+}
+
+void countBreaks(ScanPoints* points) {
+  points->breaks = points->silent;
+  int steps = 0;
+  for (std::size_t i = 1; i < points->size(); ++i) {
+    const double turn = points->beam_spacing * (points->beams[i] - points->beams[i - 1]);
+    if (isStep(points->positions[i - 1], points->positions[i], turn)) ++steps;
+    points->breaks[i] += steps;
+  }
+}
+
 }  // namespace
+
+void reopen(int first, ScanPoints* points) {
+  const int size = static_cast<int>(points->size());
+  const auto rotate = [first](auto* v) { std::rotate(v->begin(), v->begin() + first, v->end()); };
+  const int beams = points->beam_count, first_beam = points->beams[first];
+  const int silent_before = points->silent[first], all = points->silent_in_all;
+  rotate(&points->positions);
+  rotate(&points->beams);
+  rotate(&points->silent);
+  for (int i = 0; i < size; ++i) {
+    const bool wrapped = i >= size - first;
+    points->beams[i] += (wrapped ? beams : 0) - first_beam;
+    points->silent[i] += (wrapped ? all : 0) - silent_before;
+  }
+  countBreaks(points);
+}
 
 ScanPoints scanPoints(const Scan& scan) {
   ScanPoints points;
@@ -42,24 +79,39 @@ ScanPoints scanPoints(const Scan& scan) {
     return points;
   }
   const bool clockwise = scan.angle_increment < 0.0;
-  points.beam_ranges = scan.ranges;
-  if (clockwise) std::reverse(points.beam_ranges.begin(), points.beam_ranges.end());
-  const double first_bearing = clockwise ? scan.bearing(scan.size() - 1) : scan.angle_min;
-
+  std::vector<double> ranges = scan.ranges;
+  if (clockwise) std::reverse(ranges.begin(), ranges.end());
   const std::size_t n = scan.size();
-  const std::size_t cut = isFullTurn(scan) ? cutOfCircle(points.beam_ranges) : 0;
-  std::rotate(points.beam_ranges.begin(),
-              points.beam_ranges.begin() + static_cast<std::ptrdiff_t>(cut),
-              points.beam_ranges.end());
+  const double first_bearing = clockwise && n > 0 ? scan.bearing(n - 1) : scan.angle_min;
+  points.closed = isFullTurn(scan);
+  const std::size_t cut = points.closed ? cutOfCircle(ranges) : 0;
+
   points.positions.reserve(n);
   points.beams.reserve(n);
+  const double turn_cos = std::cos(points.beam_spacing), turn_sin = std::sin(points.beam_spacing);
+  double c = 1.0, s = 0.0;
+  int silent = 0;
   for (std::size_t i = 0; i < n; ++i) {
-    const double range = points.beam_ranges[i];
-    if (!isReturn(range)) continue;
-    const double bearing = first_bearing + static_cast<double>((i + cut) % n) * points.beam_spacing;
-    points.positions.emplace_back(range * std::cos(bearing), range * std::sin(bearing));
+    const std::size_t beam = i + cut < n ? i + cut : i + cut - n;
+    if (i % kBeamsPerSine == 0 || beam == 0) {
+      const double bearing = first_bearing + static_cast<double>(beam) * points.beam_spacing;
+      c = std::cos(bearing);
+      s = std::sin(bearing);
+    } else {
+      const double turned = c * turn_cos - s * turn_sin;
+      s = s * turn_cos + c * turn_sin;
+      c = turned;
+    }
+    const double range = ranges[beam];
+    silent += isNoReturn(range) ? 1 : 0;
+    if (!isReturn(range) || range > kLongestRange) continue;
+    points.positions.emplace_back(range * c, range * s);
     points.beams.push_back(static_cast<int>(i));
+    points.silent.push_back(silent);
   }
+  points.silent_in_all = silent;
+  points.beam_count = static_cast<int>(n);
+  countBreaks(&points);
   return points;
 }
 

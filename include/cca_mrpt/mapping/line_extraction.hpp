@@ -9,10 +9,19 @@
 
 namespace cca {
 
-/// The lines of one scan by the Consecutive Clustering Algorithm.
+/// The lines of one scan by the Consecutive Clustering Algorithm (the paper's steps 2 to 5):
+/// noise from the scan itself, K-means point clusters, pruning, segments, similarity by five fuzzy
+/// memberships, Rank Order Clustering, merge and repeat, poly-lines.
+///
+/// Each segment stands on at least three returns, ends where its outermost rays meet it, or at the
+/// corner that it shares, to the last bit, with its neighbour; start precedes end
+/// counter-clockwise. Its moments are those of its own returns; a return belongs to one segment at
+/// most. No ray that passed or did not come back crosses it, but for the noise at its corners.
 ///
 /// @param scan  any; fewer than three returns give no line.
-/// @return      segments in the sensor frame (T_map_sensor is not used), ordered by bearing.
+/// @return      segments in the sensor frame (T_map_sensor is not used), counter-clockwise, of
+///              positive length.
+/// Cost: O(N) for N beams, plus O(n^2) for n lines.
 std::vector<LineSegment> extractLines(const Scan& scan, const CcaParameters& parameters = {});
 
 }  // namespace cca

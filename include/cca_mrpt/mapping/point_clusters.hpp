@@ -34,7 +34,10 @@ std::vector<int> kMeansInOrder(const ScanPoints& points, int clusters, int sweep
 ///
 /// Pruning: a cluster falls into runs of neighbouring points without an inner gap; a run whose
 /// points do not lie on one line within the noise is split by 2-means until all do.
-/// @return  runs in scan order, of at least two points.
+/// An inner gap is a beam without return or a step in depth (ScanPoints::breaks): without that test
+/// three points across a step always make a line.
+/// @return  runs in scan order that cover all points.
+/// Cost: O(N) for K-means; O(k^2) to prune a cluster of k points, k being bounded by the parameter.
 std::vector<PointCluster> pointClusters(const ScanPoints& points, const PrefixMoments& prefix,
                                         const PointNoise& noise, int points_per_cluster);
 

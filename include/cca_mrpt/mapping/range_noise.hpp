@@ -25,12 +25,19 @@ struct PointNoise {
 /// e(i) = r(i)^2 (q(i-1) - 2 cos(dphi) q(i) + q(i+1)) is noise alone, of variance near 6 sigma^2,
 /// and sigma = 1.4826 median|e| / sqrt 6: corners and depth jumps are the minority that the median
 /// ignores. It is floored at the standard deviation of rounding to the scan's range quantum.
-/// The bearing noise is that of a beam somewhere within its own spacing, dphi / sqrt 12.
+/// The bearing noise is that of a beam somewhere within a quarter of its sector, dphi / 4 sqrt 12.
 /// Deviation: plain second differences of the ranges take the curvature r(phi) of a wall for noise.
 ///
 /// @return  sigma of at least kFinestSigma; that floor where no three neighbours have returns.
 /// Cost: O(N).
 PointNoise rangeNoise(const Scan& scan);
+
+/// A wall, plastered and furnished, is straight to about this [m]: finer detail is no line's
+/// concern.
+inline constexpr double kStraightness = 0.035;
+
+/// The deviations of points from a wall: the larger of what sensor and wall themselves bring.
+PointNoise wallNoise(PointNoise sensor);
 
 /// No 2-D laser measures finer than this [m]; keeps noise-free simulations well posed.
 inline constexpr double kFinestSigma = 1e-3;

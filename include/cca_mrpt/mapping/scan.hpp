@@ -28,30 +28,42 @@ struct Scan {
   }
 };
 
-inline bool isReturn(double range) {
-  return std::isfinite(range) && range > 0.0;
-}
-inline bool isNoReturn(double range) {
-  return std::isinf(range) && range > 0.0;
-}
+inline bool isReturn(double range) { return std::isfinite(range) && range > 0.0; }
+inline bool isNoReturn(double range) { return std::isinf(range) && range > 0.0; }
 
-/// The returns of a scan as points, in order of rising bearing.
+/// The returns of a scan as points, in counter-clockwise order.
 struct ScanPoints {
   std::vector<Eigen::Vector2d> positions;  ///< m, sensor frame
-  std::vector<int> beams;                  ///< beam of each point, counted counter-clockwise
-  std::vector<double> beam_ranges;         ///< m, every beam, counter-clockwise, from the cut on
+  std::vector<int> beams;                  ///< beam of each point, counted from the cut on
+  std::vector<int> silent;                 ///< beams without return, from the cut to each point
+  std::vector<int> breaks;                 ///< beams without return and steps in depth, likewise
+  int beam_count = 0;                      ///< of the scan
+  int silent_in_all = 0;                   ///< beams without return of the whole scan
   double beam_spacing = 0.0;               ///< rad, > 0
+  bool closed = false;                     ///< the last beam is a neighbour of the first
 
   std::size_t size() const { return positions.size(); }
+  /// Beams without return between points i <= j.
+  int silentBetween(int i, int j) const { return silent[j] - silent[i]; }
+  /// The same, plus the steps in depth.
+  int breaksBetween(int i, int j) const { return breaks[j] - breaks[i]; }
+  /// Beams without return between the last point and the first of a closed scan.
+  int silentAtSeam() const { return silent.front() + silent_in_all - silent.back(); }
 };
+
+/// Farther than any 2-D laser sees [m]; what claims to come from beyond is no return.
+inline constexpr double kLongestRange = 1e4;
 
 /// Takes the returns of a scan in counter-clockwise order.
 ///
-/// A scan of a full turn has no first beam: the circle is cut beside its largest step in range, so
-/// that the seam falls on the edge of an object, never inside a wall that could have been avoided.
-/// Of more beams than a turn holds, the surplus closes the circle and stays in place.
+/// A scan of a full turn has no first beam: the circle is cut after a missing return, else at the
+/// sharpest bend of the ranges, so that the seam falls on a corner or a step in depth, not into the
+/// middle of a wall.
 /// @return  no points for a scan without returns, or with a spacing that is zero or not finite.
 /// Cost: O(N).
 ScanPoints scanPoints(const Scan& scan);
+
+/// Lets a closed scan begin at point `first`.
+void reopen(int first, ScanPoints* points);
 
 }  // namespace cca

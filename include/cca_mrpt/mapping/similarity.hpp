@@ -1,49 +1,60 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <Eigen/Core>
 #include <vector>
 
-#include "cca_mrpt/mapping/line_segment.hpp"
+#include "cca_mrpt/mapping/description_length.hpp"
 
 namespace cca {
 
 /// How far two segments are of one wall: five fuzzy memberships, each in [0, 1].
 ///
-/// Each is a bell 1 / (1 + z^2 / gate): 1 for a perfect match, 1/2 where the statistic z^2 stands
-/// at its gate, the 99.9 % quantile of what noise alone would give.
+/// Each is a bell 1 / (1 + x / gate), 1 for a perfect match and 1/2 where the evidence x against
+/// one wall equals what one line less saves: at similarity_cut = 1/2 two segments are alike where
+/// one line tells them more briefly than two. No width is set: all come from the noise of this
+/// scan.
 struct Memberships {
-  double orientation = 0.0;  ///< mu_1: angle between them, against their orientation deviations
-  double offset = 0.0;       ///< mu_2: distance of each centroid from the other's extended line
-  double gap = 0.0;          ///< mu_3: what lies between them speaks for one wall
+  double orientation = 0.0;  ///< mu_1: the angle between them, against its standard deviation
+  double offset = 0.0;       ///< mu_2: centroids off the other's extended line, likewise
+  double gap = 0.0;          ///< mu_3: rays that speak against a wall between the two
   double fit = 0.0;          ///< mu_4: growth of the residuals when one line replaces the two
-  double overlap = 0.0;      ///< mu_5: they do not lie side by side
+  double overlap = 0.0;      ///< mu_5: they follow one another and do not lie side by side
 
   /// The t-norm of the five, min.
   double similarity() const;
 };
 
-/// @param gap_evidence  >= 0, the statistic of mu_3: missing points (or rays that passed) between.
-Memberships memberships(const LineSegment& a, const LineSegment& b, double gap_evidence);
+/// mu_4 alone: the cheapest, and the first to fail.
+/// @param joint  fit of the points of both.
+double fitMembership(const FittedSegment& a, const FittedSegment& b, const FittedSegment& joint);
 
-/// The Similarity Index Matrix: symmetric, in [0, 1], unit diagonal; row by row.
+/// All five.
+/// @param joint        fit of the points of both.
+/// @param gap_evidence rays, >= 0: that pass where the joint line is, or end before it unexplained.
+/// @param overlap      [0, 1], share of the shorter one that lies beside the other.
+Memberships memberships(const FittedSegment& a, const FittedSegment& b, const FittedSegment& joint,
+                        double gap_evidence, double overlap);
+
+/// The Similarity Index Matrix: symmetric, in [0, 1], unit diagonal, 0 where nothing is set.
 class SimilarityMatrix {
  public:
-  explicit SimilarityMatrix(int size)
-      : size_(size), values_(static_cast<std::size_t>(size) * size, 0.0) {
-    for (int i = 0; i < size; ++i) set(i, i, 1.0);
+  struct Entry {
+    int row = 0;  ///< < column
+    int column = 0;
+    double value = 0.0;
+  };
+
+  explicit SimilarityMatrix(int size) : size_(size) {}
+  /// @param i, j  different, in 0..size-1, each pair set once at most.
+  void set(int i, int j, double value) {
+    if (value > 0.0) entries_.push_back({i < j ? i : j, i < j ? j : i, value});
   }
   int size() const { return size_; }
-  double operator()(int i, int j) const { return values_[index(i, j)]; }
-  void set(int i, int j, double value) { values_[index(i, j)] = values_[index(j, i)] = value; }
+  const std::vector<Entry>& entries() const { return entries_; }
 
  private:
-  std::size_t index(int i, int j) const {
-    return static_cast<std::size_t>(i) * static_cast<std::size_t>(size_) +
-           static_cast<std::size_t>(j);
-  }
   int size_;
-  std::vector<double> values_;
+  std::vector<Entry> entries_;
 };
 
 }  // namespace cca

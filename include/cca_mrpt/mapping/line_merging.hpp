@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <vector>
+
+#include "cca_mrpt/mapping/description_length.hpp"
+#include "cca_mrpt/mapping/scan.hpp"
+
+namespace cca {
+
+/// Runs of one wall each, in scan order, covering all points of a scan.
+using Runs = std::vector<FittedRun>;
+
+/// One round of SIM, ROC and merging among runs that follow one another.
+/// @param cut  alpha-cut of the similarity, (0, 1].
+/// @return     true where something merged.
+/// Cost: O(n) memberships, n = runs.
+bool mergeConsecutive(const ScanPoints& points, const RunFitter& fitter, double cut, Runs* runs);
+
+/// SIM and ROC among all lines: joins the pieces of walls that something hides in part.
+///
+/// @param runs  those that are lines count; the others are clutter that no line explains.
+/// @return      groups of indices into runs, each rising; ordered by their first.
+/// Cost: O(n^2) fits, n = lines, and the rays between those that fit.
+std::vector<std::vector<int>> groupInterrupted(const ScanPoints& points, const RunFitter& fitter,
+                                               double cut, const Runs& runs);
+
+}  // namespace cca

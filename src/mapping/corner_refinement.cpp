@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "cca_mrpt/mapping/corner_refinement.hpp"
+
+#include <algorithm>
+
+namespace cca {
+namespace {
+
+/// Points by which a boundary may move in one sweep.
+constexpr int kReach = 8;
+/// Longest line sought among loose points, and longest run that is shared out.
+constexpr int kLongestLoose = 12;
+/// nats, below any real gain: keeps rounding from moving a boundary to and fro.
+constexpr double kNoGain = 1e-6;
+
+bool areNeighbours(const ScanPoints& points, const FittedRun& a, const FittedRun& b) {
+  return points.breaksBetween(a.last - 1, b.first) == 0;
+}
+
+/// The best middle in [low, high] to part first..last at; -1 where none is cheaper than `price`.
+int bestParting(const RunFitter& fitter, int first, int low, int high, int last, double price) {
+  int best = -1;
+  double least = price - kNoGain;
+  for (int middle = low; middle <= high; ++middle) {
+    const double parted = fitter.priceOfTwo(first, middle, last);
+    if (parted < least) {
+      least = parted;
+      best = middle;
+    }
+  }
+  return best;
+}
+
+void dropEmpty(Runs* runs) {
+  runs->erase(
+      std::remove_if(runs->begin(), runs->end(), [](const FittedRun& r) { return r.size() == 0; }),
+      runs->end());
+}
+
+bool moveBoundaries(const ScanPoints& points, const RunFitter& fitter, Runs* runs) {
+  bool moved = false;
+  for (std::size_t k = 0; k + 1 < runs->size(); ++k) {
+    FittedRun &a = (*runs)[k], &b = (*runs)[k + 1];
+    if ((!a.is_line && !b.is_line) || !areNeighbours(points, a, b)) continue;
+    const int middle = bestParting(fitter, a.first, std::max(a.first, a.last - kReach),
+                                   std::min(b.last, a.last + kReach), b.last, a.price + b.price);
+    if (middle < 0) continue;
+    moved = true;
+    const int last = b.last;
+    a = fitter.fit(a.first, middle);
+    b = fitter.fit(middle, last);
+  }
+  dropEmpty(runs);
+  return moved;
+}
+
+bool shareOut(const ScanPoints& points, const RunFitter& fitter, Runs* runs) {
+  bool shared = false;
+  for (std::size_t k = 1; k + 1 < runs->size(); ++k) {
+    FittedRun &a = (*runs)[k - 1], &b = (*runs)[k], &c = (*runs)[k + 1];
+    if (a.size() == 0 || b.size() > 2 * kLongestLoose) continue;
+    if (!areNeighbours(points, a, b) || !areNeighbours(points, b, c)) continue;
+    const int middle =
+        bestParting(fitter, a.first, b.first, b.last, c.last, a.price + b.price + c.price);
+    if (middle < 0) continue;
+    shared = true;
+    b = fitter.fit(a.first, middle);
+    c = fitter.fit(middle, c.last);
+    a.last = a.first;
+  }
+  dropEmpty(runs);
+  return shared;
+}
+
+bool splitLines(const RunFitter& fitter, Runs* runs) {
+  Runs parted;
+  for (const FittedRun& run : *runs) {
+    const bool may_gain = run.is_line && 0.5 * run.chi_square > kLinePrice;
+    const int middle =
+        may_gain ? bestParting(fitter, run.first, run.first + 1, run.last - 1, run.last, run.price)
+                 : -1;
+    if (middle < 0) {
+      parted.push_back(run);
+      continue;
+    }
+    parted.push_back(fitter.fit(run.first, middle));
+    parted.push_back(fitter.fit(middle, run.last));
+  }
+  const bool split = parted.size() > runs->size();
+  runs->swap(parted);
+  return split;
+}
+
+/// Appends the points first <= i < last as their best line and what is left on either side.
+void appendLinesAmong(const ScanPoints& points, const RunFitter& fitter, int first, int last,
+                      Runs* runs) {
+  FittedRun best;
+  double most = kNoGain;
+  for (int i = first; i + kFewestPoints <= last; ++i) {
+    for (int j = i + 2; j <= std::min(last, i + kLongestLoose); ++j) {
+      if (points.breaksBetween(i, j - 1) > 0) break;
+      if (j < i + kFewestPoints) continue;
+      const FittedRun run = fitter.fit(i, j);
+      const double gain = kPointPrice * run.size() - run.price;
+      if (gain <= most) continue;
+      most = gain;
+      best = run;
+    }
+  }
+  if (best.size() == 0) {
+    if (last <= first) return;
+    FittedRun loose = fitter.fit(first, last);
+    loose.is_line = false;
+    loose.price = kPointPrice * loose.size();
+    runs->push_back(loose);
+    return;
+  }
+  appendLinesAmong(points, fitter, first, best.first, runs);
+  runs->push_back(best);
+  appendLinesAmong(points, fitter, best.last, last, runs);
+}
+
+bool tellLoosePoints(const ScanPoints& points, const RunFitter& fitter, Runs* runs) {
+  Runs told;
+  bool found = false;
+  for (std::size_t k = 0; k < runs->size();) {
+    if ((*runs)[k].is_line) {
+      told.push_back((*runs)[k++]);
+      continue;
+    }
+    std::size_t end = k + 1;
+    while (end < runs->size() && !(*runs)[end].is_line &&
+           points.silentBetween((*runs)[end - 1].last - 1, (*runs)[end].first) == 0) {
+      ++end;
+    }
+    const std::size_t before = told.size();
+    appendLinesAmong(points, fitter, (*runs)[k].first, (*runs)[end - 1].last, &told);
+    for (std::size_t i = before; i < told.size(); ++i) found = found || told[i].is_line;
+    k = end;
+  }
+  runs->swap(told);
+  return found;
+}
+
+}  // namespace
+
+bool refineCorners(const ScanPoints& points, const RunFitter& fitter, Runs* runs) {
+  bool changed = false;
+  while (moveBoundaries(points, fitter, runs)) changed = true;
+  if (splitLines(fitter, runs)) changed = true;
+  if (tellLoosePoints(points, fitter, runs)) changed = true;
+  if (shareOut(points, fitter, runs)) changed = true;
+  return changed;
+}
+
+}  // namespace cca

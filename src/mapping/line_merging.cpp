@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "cca_mrpt/mapping/line_merging.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "cca_mrpt/mapping/rank_order_clustering.hpp"
+#include "cca_mrpt/mapping/similarity.hpp"
+
+namespace cca {
+namespace {
+
+/// Each run is compared with this many that follow it. Rounds join longer walls.
+constexpr int kNeighbours = 3;
+/// 99.9 % of normal residuals lie within this many deviations.
+constexpr double kResidualGate = 3.29;
+
+SimilarityMatrix consecutiveSimilarity(const ScanPoints& points, const RunFitter& fitter,
+                                       double cut, const Runs& runs) {
+  const int n = static_cast<int>(runs.size());
+  SimilarityMatrix s(n);
+  for (int i = 0; i < n; ++i) {
+    PointMoments before = runs[i].moments;
+    for (int j = i + 1; j < std::min(n, i + 1 + kNeighbours); ++j) {
+      const int silent = points.silentBetween(runs[i].last - 1, runs[j].first);
+      if (silent > 0) break;
+      const FittedSegment joint = fitter.fit(fitter.prefix().run(runs[i].first, runs[j].last));
+      const FittedSegment rest = fitter.fit(before);
+      if (fitMembership(rest, runs[j], joint) < cut) break;
+      const double similarity = memberships(rest, runs[j], joint, silent, 0.0).similarity();
+      if (similarity < cut) break;
+      s.set(i, j, similarity);
+      before.add(runs[j].moments);
+    }
+  }
+  return s;
+}
+
+double cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
+  return a.x() * b.y() - a.y() * b.x();
+}
+
+/// A line in pieces that something hides in part: its runs in scan order.
+struct Interrupted {
+  std::vector<int> runs;
+  FittedSegment fit;
+};
+
+/// Rays on the way from run i on to run j that speak against a wall there: they pass it, they do
+/// not return, or they end before it on what no other line explains.
+double raysAgainst(const ScanPoints& points, const FittedSegment& joint, const Runs& runs, int i,
+                   int j) {
+  const bool over_seam = j < i;
+  double against = over_seam ? points.silentAtSeam() +
+                                   points.silentBetween(runs[i].last - 1, runs.back().last - 1) +
+                                   points.silentBetween(0, runs[j].first)
+                             : points.silentBetween(runs[i].last - 1, runs[j].first);
+  const Eigen::Vector2d normal(-joint.line.direction.y(), joint.line.direction.x());
+  const double distance = normal.dot(joint.line.centroid);
+  const double gate = kResidualGate * std::sqrt(joint.variance);
+  const int n = static_cast<int>(runs.size());
+  for (int k = (i + 1) % n; k != j; k = (k + 1) % n) {
+    for (int p = runs[k].first; p < runs[k].last; ++p) {
+      const double off = normal.dot(points.positions[p]) - distance;
+      const double behind = distance < 0.0 ? -off : off;
+      if (behind > gate || (behind < -gate && !runs[k].is_line)) against += 1.0;
+    }
+  }
+  return against;
+}
+
+/// One lies within the stretch of the other.
+bool interlaced(const Interrupted& a, const Interrupted& b) {
+  const auto within = [](int k, const Interrupted& l) {
+    const int from = l.runs.front(), to = l.runs.back();
+    return from <= to ? from < k && k < to : k > from || k < to;
+  };
+  return within(b.runs.front(), a) || within(a.runs.front(), b);
+}
+
+/// Evidence against one wall through both, in rays: those of the gap, and the hidden length as a
+/// share of the seen. Infinite where the field of view does not hold the gap.
+double gapEvidence(const ScanPoints& points, const FittedSegment& joint, const Runs& runs,
+                   const Interrupted& a, const Interrupted& b) {
+  const auto first = [&](const Interrupted& l) {
+    return points.positions[runs[l.runs.front()].first];
+  };
+  const auto last = [&](const Interrupted& l) {
+    return points.positions[runs[l.runs.back()].last - 1];
+  };
+  const bool forward = cross(last(a), first(b)) >= 0.0;
+  if (!forward && !points.closed) return std::numeric_limits<double>::infinity();
+  const Interrupted &from = forward ? a : b, &to = forward ? b : a;
+  const Eigen::Vector2d& u = joint.line.direction;
+  const double hidden = std::abs(u.dot(first(to) - last(from)));
+  const double seen =
+      std::abs(u.dot(last(from) - first(from))) + std::abs(u.dot(last(to) - first(to)));
+  return hidden / seen + raysAgainst(points, joint, runs, from.runs.back(), to.runs.front());
+}
+
+/// Scan order, begun after the turn away from the line: a wall may lie across the seam.
+void orderAlong(const ScanPoints& points, const Runs& runs, std::vector<int>* parts) {
+  std::sort(parts->begin(), parts->end());
+  for (std::size_t k = 0; k + 1 < parts->size(); ++k) {
+    const auto& end = points.positions[runs[(*parts)[k]].last - 1];
+    const auto& start = points.positions[runs[(*parts)[k + 1]].first];
+    if (cross(end, start) >= 0.0) continue;
+    std::rotate(parts->begin(), parts->begin() + static_cast<std::ptrdiff_t>(k) + 1, parts->end());
+    return;
+  }
+}
+
+bool mergeInterrupted(const ScanPoints& points, const RunFitter& fitter, double cut,
+                      const Runs& runs, std::vector<Interrupted>* lines) {
+  const int n = static_cast<int>(lines->size());
+  SimilarityMatrix s(n);
+  for (int i = 0; i < n; ++i) {
+    for (int j = i + 1; j < n; ++j) {
+      const Interrupted &a = (*lines)[i], &b = (*lines)[j];
+      if (interlaced(a, b)) continue;
+      PointMoments moments = a.fit.moments;
+      moments.add(b.fit.moments);
+      const FittedSegment joint = fitter.fit(moments);
+      if (fitMembership(a.fit, b.fit, joint) < cut) continue;
+      const double against = gapEvidence(points, joint, runs, a, b);
+      s.set(i, j, memberships(a.fit, b.fit, joint, against, 0.0).similarity());
+    }
+  }
+  const auto groups = rankOrderGroups(s, cut);
+  if (groups.size() == lines->size()) return false;
+  std::vector<Interrupted> merged;
+  for (const auto& group : groups) {
+    Interrupted line;
+    for (const int k : group) {
+      const Interrupted& part = (*lines)[k];
+      line.runs.insert(line.runs.end(), part.runs.begin(), part.runs.end());
+      line.fit.moments.add(part.fit.moments);
+    }
+    orderAlong(points, runs, &line.runs);
+    line.fit = fitter.fit(line.fit.moments);
+    merged.push_back(line);
+  }
+  std::sort(merged.begin(), merged.end(),
+            [](const Interrupted& a, const Interrupted& b) { return a.runs < b.runs; });
+  lines->swap(merged);
+  return true;
+}
+
+}  // namespace
+
+bool mergeConsecutive(const ScanPoints& points, const RunFitter& fitter, double cut, Runs* runs) {
+  const auto groups = rankOrderGroups(consecutiveSimilarity(points, fitter, cut, *runs), cut);
+  if (groups.size() == runs->size()) return false;
+  std::vector<int> group_of(runs->size());
+  for (std::size_t g = 0; g < groups.size(); ++g) {
+    for (const int run : groups[g]) group_of[run] = static_cast<int>(g);
+  }
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < runs->size();) {
+    std::size_t j = i + 1;
+    while (j < runs->size() && group_of[j] == group_of[i]) ++j;
+    (*runs)[kept++] = j == i + 1 ? (*runs)[i] : fitter.fit((*runs)[i].first, (*runs)[j - 1].last);
+    i = j;
+  }
+  const bool merged = kept < runs->size();
+  runs->resize(kept);
+  return merged;
+}
+
+std::vector<std::vector<int>> groupInterrupted(const ScanPoints& points, const RunFitter& fitter,
+                                               double cut, const Runs& runs) {
+  std::vector<Interrupted> lines;
+  for (std::size_t k = 0; k < runs.size(); ++k) {
+    if (runs[k].is_line) lines.push_back({{static_cast<int>(k)}, runs[k]});
+  }
+  while (mergeInterrupted(points, fitter, cut, runs, &lines)) {
+  }
+  std::vector<std::vector<int>> groups;
+  for (const Interrupted& line : lines) groups.push_back(line.runs);
+  return groups;
+}
+
+}  // namespace cca
