@@ -155,6 +155,8 @@ class CarmenReader : public LogReader {
     return text;
   }
 
+  double progress() const override { return lines_.progress(); }
+
  private:
   LogRecord record(const CarmenScan& logged) {
     LogRecord record;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "gzip_lines.hpp"
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
@@ -27,7 +28,15 @@ gzFile open(const std::string& path) {
 
 }  // namespace
 
-GzipLines::GzipLines(const std::string& path) : file_(open(path), gzclose), block_(kBlock) {}
+GzipLines::GzipLines(const std::string& path)
+    : file_(open(path), gzclose),
+      bytes_(static_cast<double>(std::filesystem::file_size(path))),
+      block_(kBlock) {}
+
+double GzipLines::progress() const {
+  const auto at = static_cast<double>(gzoffset(file_.get()));
+  return bytes_ > 0.0 ? std::clamp(at / bytes_, 0.0, 1.0) : 1.0;
+}
 
 bool GzipLines::fill() {
   const int got = gzread(file_.get(), block_.data(), static_cast<unsigned>(block_.size()));

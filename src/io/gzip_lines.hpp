@@ -24,12 +24,16 @@ class GzipLines {
   /// True where the compressed data broke off or was damaged before its end.
   bool damaged() const { return damaged_; }
 
+  /// How much of the file has been read, in [0, 1].
+  double progress() const;
+
   static constexpr std::size_t kLongestLine = 1 << 24;
 
  private:
   bool fill();
 
   std::unique_ptr<gzFile_s, int (*)(gzFile)> file_;
+  double bytes_;
   std::vector<char> block_;
   std::size_t begin_ = 0, end_ = 0;  ///< what of block_ has not been given out
   std::string pieces_;               ///< a line that spans blocks

@@ -10,6 +10,7 @@
 #include "gzip_lines.hpp"
 #include "mrpt_objects.hpp"
 #include "rawlog_reader.hpp"
+#include "truth_file.hpp"
 
 namespace cca {
 namespace {
@@ -53,6 +54,7 @@ class BegunLog : public LogReader {
   }
 
   std::string warnings() const override { return log_->warnings(); }
+  double progress() const override { return log_->progress(); }
 
  private:
   std::unique_ptr<LogReader> log_;
@@ -63,6 +65,7 @@ class BegunLog : public LogReader {
 
 std::unique_ptr<LogReader> openLog(const std::string& path) {
   auto log = openAsWhatItIs(path);
+  if (const auto truth = findTruthFile(path)) log = withTruth(std::move(log), *truth);
   auto first = log->next();
   if (!first) {
     const std::string why = log->warnings();

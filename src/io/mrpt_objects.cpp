@@ -39,6 +39,11 @@ mrpt::serialization::CSerializable::Ptr MrptObjects::next() {
   return nullptr;
 }
 
+double MrptObjects::progress() const {
+  const auto bytes = static_cast<double>(file_.getTotalBytesCount());
+  return bytes > 0.0 ? std::clamp(static_cast<double>(file_.getPosition()) / bytes, 0.0, 1.0) : 1.0;
+}
+
 std::string mrptClassName(const std::string& head) {
   if (head.size() < 5) return {};
   // A length and a name: one byte with bit 7 set, or four bytes in files from before 2006.

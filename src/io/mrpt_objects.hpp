@@ -22,6 +22,9 @@ class MrptObjects {
   /// Why reading stopped before the end of the file; empty where it did not.
   const std::string& fault() const { return fault_; }
 
+  /// How much of the file has been read, in [0, 1].
+  double progress() const;
+
  private:
   mrpt::io::CFileGZInputStream file_;
   std::string fault_;

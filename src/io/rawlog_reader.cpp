@@ -92,6 +92,8 @@ class RawlogReader : public LogReader {
     return text;
   }
 
+  double progress() const override { return objects_.progress(); }
+
  private:
   void take(mrpt::serialization::CSerializable& object) {
     if (auto* actions = dynamic_cast<CActionCollection*>(&object)) {
@@ -197,6 +199,10 @@ class SimpleMapReader : public LogReader {
 
   std::string warnings() const override {
     return left_out_ > 0 ? std::to_string(left_out_) + " scan(s) of a tilted laser left out" : "";
+  }
+
+  double progress() const override {
+    return map_->empty() ? 1.0 : static_cast<double>(at_) / static_cast<double>(map_->size());
   }
 
  private:

@@ -29,10 +29,13 @@ class LogReader {
   virtual std::optional<LogRecord> next() = 0;
   /// What could not be read, for people; empty where all was well.
   virtual std::string warnings() const = 0;
+  /// How much of the log has been read, in [0, 1].
+  virtual double progress() const = 0;
 };
 
-/// Opens a log by its content: MRPT .rawlog, .simplemap(.gz), CARMEN .log(.gz), ROS .bag.
-/// @throws std::runtime_error naming the file and the reason.
+/// Opens a log by its content: MRPT .rawlog, .simplemap(.gz), CARMEN .log(.gz), ROS .bag (in builds
+/// with ROS). A file of true poses beside it (LOG.GT.txt, STEM_GT.txt) is read with it.
+/// @throws std::runtime_error naming the file and the reason; also where it holds no scan.
 std::unique_ptr<LogReader> openLog(const std::string& path);
 
 }  // namespace cca

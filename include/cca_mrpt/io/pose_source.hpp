@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "cca_mrpt/io/icp_localizer.hpp"
+#include "cca_mrpt/io/log_reader.hpp"
+
+namespace cca {
+
+/// Where the poses of a map come from.
+enum class PoseKind {
+  kLog,       ///< corrected poses where the log has them, else its odometry
+  kOdometry,  ///< the wheels alone
+  kIcp,       ///< MRPT's ICP-SLAM, started from the odometry
+  kTruth,     ///< of a simulation
+};
+
+/// @throws std::runtime_error telling what is allowed: log, odometry, icp, truth.
+PoseKind poseKind(const std::string& name);
+
+/// Gives every scan of a log its pose.
+class PoseSource {
+ public:
+  explicit PoseSource(PoseKind kind, const IcpParameters& icp = {}) : kind_(kind), icp_(icp) {}
+
+  /// @return  T_map_robot; odometry and ICP start where the log's own poses do.
+  /// @throws std::runtime_error where the log does not hold what is asked for.
+  Pose2 locate(const LogRecord& record);
+
+ private:
+  PoseKind kind_;
+  IcpParameters icp_;
+  std::optional<Pose2> T_map_odom_;
+  std::optional<IcpLocalizer> localizer_;
+};
+
+/// The pose that a run can be judged by: the truth, else what a SLAM system had stored.
+std::optional<Pose2> referencePose(const LogRecord& record);
+
+}  // namespace cca

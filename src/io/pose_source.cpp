@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "cca_mrpt/io/pose_source.hpp"
+
+#include <stdexcept>
+
+namespace cca {
+namespace {
+
+Pose2 needed(const std::optional<Pose2>& pose, const char* what) {
+  if (!pose) throw std::runtime_error(std::string("the log holds no ") + what);
+  return *pose;
+}
+
+Pose2 logPose(const LogRecord& record) {
+  return record.scan.T_map_sensor * record.T_robot_sensor.inverse();
+}
+
+}  // namespace
+
+PoseKind poseKind(const std::string& name) {
+  if (name == "log") return PoseKind::kLog;
+  if (name == "odometry") return PoseKind::kOdometry;
+  if (name == "icp") return PoseKind::kIcp;
+  if (name == "truth") return PoseKind::kTruth;
+  throw std::runtime_error("pose source '" + name + "': one of log, odometry, icp, truth");
+}
+
+std::optional<Pose2> referencePose(const LogRecord& record) {
+  return record.truth ? record.truth : record.corrected;
+}
+
+Pose2 PoseSource::locate(const LogRecord& record) {
+  if (kind_ == PoseKind::kLog) return logPose(record);
+  if (kind_ == PoseKind::kTruth) return needed(record.truth, "true poses");
+  // Errors can be told only where the first pose is the reference's.
+  const Pose2 start = referencePose(record).value_or(logPose(record));
+  if (kind_ == PoseKind::kOdometry) {
+    const Pose2 T_odom_robot = needed(record.odometry, "odometry");
+    if (!T_map_odom_) T_map_odom_ = start * T_odom_robot.inverse();
+    return *T_map_odom_ * T_odom_robot;
+  }
+  if (!localizer_) localizer_.emplace(start, icp_);
+  // Without odometry the robot is looked for where it was.
+  return localizer_->locate(record.scan, record.T_robot_sensor, record.odometry.value_or(Pose2()));
+}
+
+}  // namespace cca
