@@ -9,6 +9,7 @@ namespace cca::apps {
 
 void addExploreCommand(CLI::App& program);
 void addExtractCommand(CLI::App& program);
+void addInfoCommand(CLI::App& program);
 void addMapCommand(CLI::App& program);
 void addGenerateWorldCommand(CLI::App& program);
 void addCompareExtractorsCommand(CLI::App& program);

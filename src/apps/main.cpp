@@ -13,6 +13,7 @@ int main(int argc, char** argv) {
   program.require_subcommand(1);
   cca::apps::addExploreCommand(program);
   cca::apps::addExtractCommand(program);
+  cca::apps::addInfoCommand(program);
   cca::apps::addMapCommand(program);
   cca::apps::addGenerateWorldCommand(program);
   cca::apps::addCompareExtractorsCommand(program);

@@ -1,44 +1,154 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <chrono>
+#include <cstdio>
 #include <filesystem>
 #include <memory>
+#include <stdexcept>
 #include <string>
 
 #include "cca_mrpt/io/log_reader.hpp"
 #include "cca_mrpt/io/map_products.hpp"
+#include "cca_mrpt/io/pose_source.hpp"
 #include "cca_mrpt/io/scan_grid.hpp"
+#include "cca_mrpt/io/trajectory_error.hpp"
 #include "cca_mrpt/mapping/line_map.hpp"
 #include "commands.hpp"
+#include "interruption.hpp"
 #include "parameter_options.hpp"
+#include "progress.hpp"
 
 namespace cca::apps {
+namespace {
+
+struct MapOptions {
+  std::string log, out, pose = "log";
+  bool force = false, quiet = false;
+};
+
+/// What is kept of a log while it is mapped.
+struct MappedLog {
+  LineMap map;
+  ScanGrid grid;
+  std::vector<Pose2> trajectory;
+  std::vector<Pose2> judged, reference;  ///< poses for which a reference is known, and these
+  std::size_t beams = 0;
+  bool interrupted = false;
+};
+
+void insert(MappedLog& mapped, LogRecord record, const Pose2& T_map_robot) {
+  record.scan.T_map_sensor = T_map_robot * record.T_robot_sensor;
+  mapped.map.insert(record.scan);
+  mapped.grid.insert(record.scan);
+  mapped.beams += record.scan.size();
+  mapped.trajectory.push_back(T_map_robot);
+  if (const auto reference = referencePose(record)) {
+    mapped.judged.push_back(T_map_robot);
+    mapped.reference.push_back(*reference);
+  }
+}
+
+MappedLog mapLog(LogReader& log, PoseSource poses, const CcaParameters& parameters) {
+  MappedLog mapped{LineMap(parameters), {}, {}, {}, {}, 0, false};
+  const Interruption interruption;
+  Progress progress("map");
+  while (auto record = log.next()) {
+    const Pose2 T_map_robot = poses.locate(*record);
+    insert(mapped, std::move(*record), T_map_robot);
+    progress.show(log.progress(), std::to_string(mapped.trajectory.size()) + " scans");
+    mapped.interrupted = interruption.requested();
+    if (mapped.interrupted) break;
+  }
+  mapped.map.finishBatch();
+  return mapped;
+}
+
+double pathLength(const std::vector<Pose2>& trajectory) {
+  double length = 0.0;
+  for (std::size_t k = 1; k < trajectory.size(); ++k) {
+    length += (trajectory[k].position() - trajectory[k - 1].position()).norm();
+  }
+  return length;
+}
+
+MapProducts products(const MapOptions& options, const MappedLog& mapped, const LogReader& log) {
+  MapProducts products;
+  products.title = std::filesystem::path(options.log).filename().string();
+  products.lines = mapped.map.lines();
+  products.poly_lines = mapped.map.polyLines();
+  products.trajectory = mapped.trajectory;
+  products.grid = mapped.grid.grid();
+  auto& summary = products.summary;
+  summary["log"] = options.log;
+  summary["finished"] = !mapped.interrupted;
+  summary["pose"] = options.pose;
+  summary["scans"] = mapped.trajectory.size();
+  summary["beams"] = mapped.beams;
+  summary["distance_m"] = pathLength(mapped.trajectory);
+  if (const std::string warnings = log.warnings(); !warnings.empty())
+    summary["warnings"] = warnings;
+  // Poses taken from the log are their own reference, and would be called perfect.
+  if (options.pose != "log" && options.pose != "truth" && !mapped.reference.empty()) {
+    const TrajectoryError error = compareTrajectories(mapped.judged, mapped.reference);
+    summary["pose_error"] = {{"rms_m", error.rms_m},
+                             {"max_m", error.max_m},
+                             {"rms_deg", error.rms_deg},
+                             {"at_end_m", error.at_end_m}};
+  }
+  return products;
+}
+
+void report(const MapOptions& options, const MapProducts& products, double seconds) {
+  const auto& summary = products.summary;
+  std::printf("%zu lines from %zu scans over %.1f m in %.2f s\n", products.lines.size(),
+              summary["scans"].get<std::size_t>(), summary["distance_m"].get<double>(), seconds);
+  if (summary.contains("pose_error")) {
+    const auto& error = summary["pose_error"];
+    std::printf(
+        "poses by %s: %.3f m rms from the log's own after the best fit, %.2f m at the end\n",
+        options.pose.c_str(), error["rms_m"].get<double>(), error["at_end_m"].get<double>());
+  }
+  std::printf("%s holds the map: map.png to look at, lines.csv and others to use\n",
+              options.out.c_str());
+}
+
+void makeMap(const MapOptions& options, const Parameters& parameters) {
+  const auto begin = std::chrono::steady_clock::now();
+  const auto log = openLog(options.log);
+  prepareMapFolder(options.out, options.force);
+  const MappedLog mapped =
+      mapLog(*log, PoseSource(poseKind(options.pose), parameters.icp), parameters.mapping);
+  const std::string warnings = log->warnings();
+  if (!warnings.empty()) {
+    std::fprintf(stderr, "cca-mrpt: %s: %s\n", options.log.c_str(), warnings.c_str());
+  }
+  MapProducts map = products(options, mapped, *log);
+  const std::chrono::duration<double> mapping = std::chrono::steady_clock::now() - begin;
+  map.summary["mapping_s"] = mapping.count();
+  writeMapFolder(options.out, map);
+  const std::chrono::duration<double> all = std::chrono::steady_clock::now() - begin;
+  if (!options.quiet) report(options, map, all.count());
+  if (mapped.interrupted) {
+    throw std::runtime_error("interrupted after " + std::to_string(mapped.trajectory.size()) +
+                             " scans; the map so far is in " + options.out);
+  }
+}
+
+}  // namespace
 
 void addMapCommand(CLI::App& program) {
   auto* command = program.add_subcommand("map", "line map of a whole log");
-  auto log = std::make_shared<std::string>(), out = std::make_shared<std::string>();
-  auto force = std::make_shared<bool>(false);
-  command->add_option("LOG", *log, "laser log")->required();
-  command->add_option("--out", *out, "folder to write the map to")->required();
-  command->add_flag("--force", *force, "overwrite a map that is there");
-  auto options = std::make_shared<ParameterOptions>(*command, std::vector<std::string>{"mapping"});
-  command->callback([log, out, force, options] {
-    const Parameters parameters = options->resolve();
-    auto reader = openLog(*log);
-    prepareMapFolder(*out, *force);
-    MapProducts products;
-    products.title = std::filesystem::path(*log).filename().string();
-    LineMap map(parameters.mapping);
-    ScanGrid grid;
-    while (const auto record = reader->next()) {
-      map.insert(record->scan);
-      grid.insert(record->scan);
-      products.trajectory.push_back(record->scan.T_map_sensor * record->T_robot_sensor.inverse());
-    }
-    map.finishBatch();
-    products.lines = map.lines();
-    products.poly_lines = map.polyLines();
-    products.grid = grid.grid();
-    writeMapFolder(*out, products);
-  });
+  auto options = std::make_shared<MapOptions>();
+  command->add_option("LOG", options->log, "MRPT .rawlog or .simplemap, CARMEN .log, ROS .bag")
+      ->required();
+  command->add_option("--out", options->out, "folder to write the map to")->required();
+  command->add_option("--pose", options->pose, "where the poses come from")
+      ->check(CLI::IsMember({"log", "odometry", "icp", "truth"}))
+      ->capture_default_str();
+  command->add_flag("--force", options->force, "overwrite a map that is there");
+  command->add_flag("--quiet", options->quiet, "print nothing but errors");
+  auto parameters =
+      std::make_shared<ParameterOptions>(*command, std::vector<std::string>{"mapping", "icp"});
+  command->callback([options, parameters] { makeMap(*options, parameters->resolve()); });
 }
 
 }  // namespace cca::apps

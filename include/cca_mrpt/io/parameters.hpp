@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "cca_mrpt/io/icp_localizer.hpp"
 #include "cca_mrpt/mapping/parameters.hpp"
 #include "cca_mrpt/navigation/explorer.hpp"
 #include "cca_mrpt/navigation/robot.hpp"
@@ -18,6 +19,7 @@ struct Parameters {
   ExplorerParameters exploration;
   RobotParameters robot;
   LaserParameters laser;
+  IcpParameters icp;
 };
 
 /// Calls section(name, parameters of the module) for each: the sections of the .ini file.
@@ -27,6 +29,7 @@ void describeSections(Parameters& p, Section&& section) {
   section("exploration", p.exploration);
   section("robot", p.robot);
   section("laser", p.laser);
+  section("icp", p.icp);
 }
 
 /// One parameter as people write it. Made from the describe() beside each struct; .ini files,

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+namespace cca::apps {
+
+/// While one exists, Ctrl-C and SIGTERM do not end the program but are remembered, so that it can
+/// save what it has; a second one ends it at once.
+class Interruption {
+ public:
+  Interruption();
+  ~Interruption();
+  Interruption(const Interruption&) = delete;
+  Interruption& operator=(const Interruption&) = delete;
+
+  bool requested() const;
+};
+
+}  // namespace cca::apps
