@@ -41,7 +41,9 @@ bool moveBoundaries(const ScanPoints& points, const RunFitter& fitter, Runs* run
   bool moved = false;
   for (std::size_t k = 0; k + 1 < runs->size(); ++k) {
     FittedRun &a = (*runs)[k], &b = (*runs)[k + 1];
-    if ((!a.is_line && !b.is_line) || !areNeighbours(points, a, b)) continue;
+    if (a.settled_with == b.last || (!a.is_line && !b.is_line)) continue;
+    a.settled_with = b.last;
+    if (!areNeighbours(points, a, b)) continue;
     const int middle = bestParting(fitter, a.first, std::max(a.first, a.last - kReach),
                                    std::min(b.last, a.last + kReach), b.last, a.price + b.price);
     if (middle < 0) continue;
@@ -49,6 +51,7 @@ bool moveBoundaries(const ScanPoints& points, const RunFitter& fitter, Runs* run
     const int last = b.last;
     a = fitter.fit(a.first, middle);
     b = fitter.fit(middle, last);
+    if (k > 0) (*runs)[k - 1].settled_with = -1;
   }
   dropEmpty(runs);
   return moved;
@@ -74,11 +77,12 @@ bool shareOut(const ScanPoints& points, const RunFitter& fitter, Runs* runs) {
 
 bool splitLines(const RunFitter& fitter, Runs* runs) {
   Runs parted;
-  for (const FittedRun& run : *runs) {
-    const bool may_gain = run.is_line && 0.5 * run.chi_square > kLinePrice;
+  for (FittedRun& run : *runs) {
+    const bool may_gain = run.is_line && !run.is_searched && 0.5 * run.chi_square > kLinePrice;
     const int middle =
         may_gain ? bestParting(fitter, run.first, run.first + 1, run.last - 1, run.last, run.price)
                  : -1;
+    run.is_searched = true;
     if (middle < 0) {
       parted.push_back(run);
       continue;
@@ -112,6 +116,7 @@ void appendLinesAmong(const ScanPoints& points, const RunFitter& fitter, int fir
     FittedRun loose = fitter.fit(first, last);
     loose.is_line = false;
     loose.price = kPointPrice * loose.size();
+    loose.is_searched = true;
     runs->push_back(loose);
     return;
   }
@@ -132,6 +137,10 @@ bool tellLoosePoints(const ScanPoints& points, const RunFitter& fitter, Runs* ru
     while (end < runs->size() && !(*runs)[end].is_line &&
            points.silentBetween((*runs)[end - 1].last - 1, (*runs)[end].first) == 0) {
       ++end;
+    }
+    if (end == k + 1 && (*runs)[k].is_searched) {
+      told.push_back((*runs)[k++]);
+      continue;
     }
     const std::size_t before = told.size();
     appendLinesAmong(points, fitter, (*runs)[k].first, (*runs)[end - 1].last, &told);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "cca_mrpt/mapping/description_length.hpp"
 
+#include <algorithm>
+
 namespace cca {
 
 FittedSegment::FittedSegment(const PointMoments& points, const FittedLine& fitted,
@@ -27,11 +29,14 @@ FittedRun RunFitter::fit(int first, int last) const {
   return run;
 }
 
-double RunFitter::priceOfTwo(int first, int middle, int last) const {
-  double price = 0.0;
-  if (middle > first) price += fit(prefix_.run(first, middle)).price;
-  if (last > middle) price += fit(prefix_.run(middle, last)).price;
-  return price;
+double RunFitter::price(int first, int last) const {
+  const double alone = kPointPrice * std::max(0, last - first);
+  if (last - first < kFewestPoints) return alone;
+  const PointMoments moments = prefix_.run(first, last);
+  const PrincipalAxis axis = principalAxis(moments);
+  const double variance = noise_.lateralVariance(moments.mean, axis);
+  const double told = kLinePrice + 0.5 * axis.residual_sum_sq / variance;
+  return axis.spread_sum_sq > variance ? std::min(told, alone) : alone;
 }
 
 }  // namespace cca

@@ -37,6 +37,7 @@ void reopenAtCorner(const PointNoise& noise, ScanPoints* points, RunFitter* fitt
     const int shift = run.first >= corner ? -corner : n - corner;
     run.first += shift;
     run.last += shift;
+    run.settled_with = run.compared_with = -1;
   }
   reopen(corner, points);
   *fitter = RunFitter(points->positions, noise);

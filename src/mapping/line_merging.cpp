@@ -16,22 +16,33 @@ constexpr int kNeighbours = 3;
 /// 99.9 % of normal residuals lie within this many deviations.
 constexpr double kResidualGate = 3.29;
 
+/// Similarity of a run to the next one, remembered until either changes.
+double similarityToNext(const ScanPoints& points, const RunFitter& fitter, const FittedRun& next,
+                        FittedRun* run) {
+  if (run->compared_with == next.last) return run->similarity;
+  run->compared_with = next.last;
+  run->similarity = 0.0;
+  if (points.silentBetween(run->last - 1, next.first) > 0) return 0.0;
+  const FittedSegment joint = fitter.fit(fitter.prefix().run(run->first, next.last));
+  run->similarity = memberships(*run, next, joint, 0.0, 0.0).similarity();
+  return run->similarity;
+}
+
 SimilarityMatrix consecutiveSimilarity(const ScanPoints& points, const RunFitter& fitter,
-                                       double cut, const Runs& runs) {
-  const int n = static_cast<int>(runs.size());
+                                       double cut, Runs* runs) {
+  const int n = static_cast<int>(runs->size());
   SimilarityMatrix s(n);
-  for (int i = 0; i < n; ++i) {
-    PointMoments before = runs[i].moments;
-    for (int j = i + 1; j < std::min(n, i + 1 + kNeighbours); ++j) {
-      const int silent = points.silentBetween(runs[i].last - 1, runs[j].first);
-      if (silent > 0) break;
-      const FittedSegment joint = fitter.fit(fitter.prefix().run(runs[i].first, runs[j].last));
-      const FittedSegment rest = fitter.fit(before);
-      if (fitMembership(rest, runs[j], joint) < cut) break;
-      const double similarity = memberships(rest, runs[j], joint, silent, 0.0).similarity();
-      if (similarity < cut) break;
+  for (int i = 0; i + 1 < n; ++i) {
+    double similarity = similarityToNext(points, fitter, (*runs)[i + 1], &(*runs)[i]);
+    for (int j = i + 1; similarity >= cut; ++j) {
       s.set(i, j, similarity);
-      before.add(runs[j].moments);
+      const int next = j + 1;
+      if (next >= n || next > i + kNeighbours) break;
+      const FittedRun &last = (*runs)[j], &far = (*runs)[next];
+      if (points.silentBetween(last.last - 1, far.first) > 0) break;
+      const FittedSegment before = fitter.fit((*runs)[i].first, last.last);
+      const FittedSegment joint = fitter.fit((*runs)[i].first, far.last);
+      similarity = memberships(before, far, joint, 0.0, 0.0).similarity();
     }
   }
   return s;
@@ -127,19 +138,20 @@ bool mergeInterrupted(const ScanPoints& points, const RunFitter& fitter, double 
       s.set(i, j, memberships(a.fit, b.fit, joint, against, 0.0).similarity());
     }
   }
-  const auto groups = rankOrderGroups(s, cut);
-  if (groups.size() == lines->size()) return false;
-  std::vector<Interrupted> merged;
-  for (const auto& group : groups) {
-    Interrupted line;
-    for (const int k : group) {
-      const Interrupted& part = (*lines)[k];
-      line.runs.insert(line.runs.end(), part.runs.begin(), part.runs.end());
-      line.fit.moments.add(part.fit.moments);
-    }
+  if (s.entries().empty()) return false;
+  const std::vector<int> group_of = rankOrderGroups(s, cut);
+  std::vector<Interrupted> merged(lines->size());
+  for (int k = 0; k < n; ++k) {
+    const Interrupted& part = (*lines)[k];
+    Interrupted& line = merged[group_of[k]];
+    line.runs.insert(line.runs.end(), part.runs.begin(), part.runs.end());
+    line.fit.moments.add(part.fit.moments);
+  }
+  while (!merged.empty() && merged.back().runs.empty()) merged.pop_back();
+  if (merged.size() == lines->size()) return false;
+  for (Interrupted& line : merged) {
     orderAlong(points, runs, &line.runs);
     line.fit = fitter.fit(line.fit.moments);
-    merged.push_back(line);
   }
   std::sort(merged.begin(), merged.end(),
             [](const Interrupted& a, const Interrupted& b) { return a.runs < b.runs; });
@@ -150,12 +162,9 @@ bool mergeInterrupted(const ScanPoints& points, const RunFitter& fitter, double 
 }  // namespace
 
 bool mergeConsecutive(const ScanPoints& points, const RunFitter& fitter, double cut, Runs* runs) {
-  const auto groups = rankOrderGroups(consecutiveSimilarity(points, fitter, cut, *runs), cut);
-  if (groups.size() == runs->size()) return false;
-  std::vector<int> group_of(runs->size());
-  for (std::size_t g = 0; g < groups.size(); ++g) {
-    for (const int run : groups[g]) group_of[run] = static_cast<int>(g);
-  }
+  const SimilarityMatrix similarity = consecutiveSimilarity(points, fitter, cut, runs);
+  if (similarity.entries().empty()) return false;
+  const std::vector<int> group_of = rankOrderGroups(similarity, cut);
   std::size_t kept = 0;
   for (std::size_t i = 0; i < runs->size();) {
     std::size_t j = i + 1;

@@ -27,23 +27,18 @@ Eigen::Vector2d LineSegment::direction() const {
 }
 
 FittedLine fitLine(const PointMoments& moments) {
-  const double half_difference = 0.5 * (moments.scatter(0, 0) - moments.scatter(1, 1));
-  const double sxy = moments.scatter(0, 1);
-  const double mid = 0.5 * (moments.scatter(0, 0) + moments.scatter(1, 1));
-  const double swing = std::sqrt(half_difference * half_difference + sxy * sxy);
+  const PrincipalAxis axis = principalAxis(moments);
   FittedLine line;
   line.centroid = moments.mean;
-  line.residual_sum_sq = std::max(0.0, mid - swing);
-  line.spread_sum_sq = std::max(0.0, mid + swing);
-  if (swing <= 0.0) return line;
-  // Half of the angle whose cosine and sine are these, without trigonometry.
-  const double cos_2 = half_difference / swing, sin_2 = sxy / swing;
-  if (cos_2 >= 0.0) {
-    const double c = std::sqrt(0.5 * (1.0 + cos_2));
-    line.direction = {c, 0.5 * sin_2 / c};
+  line.residual_sum_sq = axis.residual_sum_sq;
+  line.spread_sum_sq = axis.spread_sum_sq;
+  // The half angle without trigonometry, by whichever of sine and cosine is the larger.
+  if (axis.cos_2 >= 0.0) {
+    const double c = std::sqrt(0.5 * (1.0 + axis.cos_2));
+    line.direction = {c, 0.5 * axis.sin_2 / c};
   } else {
-    const double s = std::sqrt(0.5 * (1.0 - cos_2));
-    line.direction = {0.5 * std::abs(sin_2) / s, sin_2 < 0.0 ? -s : s};
+    const double s = std::sqrt(0.5 * (1.0 - axis.cos_2));
+    line.direction = {0.5 * std::abs(axis.sin_2) / s, axis.sin_2 < 0.0 ? -s : s};
   }
   return line;
 }
@@ -63,19 +58,6 @@ PrefixMoments::PrefixMoments(const std::vector<Eigen::Vector2d>& points) {
     sums.yy += y * y;
     sums_.push_back(sums);
   }
-}
-
-PointMoments PrefixMoments::run(int first, int last) const {
-  PointMoments moments;
-  if (last <= first) return moments;
-  const Sums &a = sums_[first], &b = sums_[last];
-  const double n = last - first;
-  const double x = (b.x - a.x) / n, y = (b.y - a.y) / n;
-  const double xy = b.xy - a.xy - n * x * y;
-  moments.weight = n;
-  moments.mean = {origin_.x() + x, origin_.y() + y};
-  moments.scatter << b.xx - a.xx - n * x * x, xy, xy, b.yy - a.yy - n * y * y;
-  return moments;
 }
 
 }  // namespace cca

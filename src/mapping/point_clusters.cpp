@@ -10,7 +10,7 @@ namespace cca {
 namespace {
 
 /// K-means serves as a first cut that later steps refine: it need not have converged.
-constexpr int kLloydSweeps = 5;
+constexpr int kLloydSweeps = 3;
 /// Two-sided 99.9 % quantile of the normal distribution: gate of a single residual.
 constexpr double kResidualGate = 3.29;
 /// Centroids in cyclic order of bearing.

@@ -55,16 +55,6 @@ void lowerHalf(std::vector<Deviation>* all, Less less) {
 
 }  // namespace
 
-double PointNoise::lateralVariance(const Eigen::Vector2d& point,
-                                   const Eigen::Vector2d& direction) const {
-  const double range_sq = point.squaredNorm();
-  const double along = point.dot(direction);
-  const double across_sq = std::max(0.0, range_sq - along * along);
-  const double head_on = range_sq > 0.0 ? across_sq / range_sq : 1.0;
-  return range_sigma * range_sigma * head_on + bearing_sigma * bearing_sigma * along * along +
-         kFinestSigma * kFinestSigma;
-}
-
 PointNoise rangeNoise(const Scan& scan) {
   PointNoise noise{kFinestSigma, kBearingShare * std::abs(scan.angle_increment)};
   std::vector<Deviation> all = deviations(scan);

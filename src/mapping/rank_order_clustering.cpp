@@ -62,27 +62,29 @@ bool sortOnce(const Ones& ones, std::vector<int>* order, std::vector<int>* place
 
 }  // namespace
 
-std::vector<std::vector<int>> rankOrderGroups(const SimilarityMatrix& similarity, double cut) {
+std::vector<int> rankOrderGroups(const SimilarityMatrix& similarity, double cut) {
   const Ones ones = cutMatrix(similarity, cut);
-  std::vector<int> order(similarity.size());
+  std::vector<int> order(static_cast<std::size_t>(similarity.size()));
   std::iota(order.begin(), order.end(), 0);
   std::vector<int> place = order, words(ones.column.size());
   for (int sweep = 0; sweep < similarity.size(); ++sweep) {
     if (!sortOnce(ones, &order, &place, &words)) break;
   }
-  std::vector<std::vector<int>> groups;
-  std::vector<int> group_of(similarity.size(), -1);
+  std::vector<int> group_of(order.size(), -1);
+  int open = -1, members = 0;
   for (const int next : order) {
-    const int open = static_cast<int>(groups.size()) - 1;
     int alike = 0;
     for (int k = ones.begin[next]; k < ones.begin[next + 1]; ++k) {
       alike += group_of[ones.column[k]] == open ? 1 : 0;
     }
-    if (open < 0 || alike < static_cast<int>(groups[open].size())) groups.emplace_back();
-    group_of[next] = static_cast<int>(groups.size()) - 1;
-    groups.back().push_back(next);
+    if (open < 0 || alike < members) {
+      ++open;
+      members = 0;
+    }
+    group_of[next] = open;
+    ++members;
   }
-  return groups;
+  return group_of;
 }
 
 }  // namespace cca

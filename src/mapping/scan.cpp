@@ -36,19 +36,19 @@ std::size_t cutOfCircle(const std::vector<double>& ranges) {
 /// A wall seen at less than this angle cannot be told from a step in depth [Borges & Aldon 2004].
 constexpr double kGrazing = 5.0 * M_PI / 180.0;
 
-/// A step in depth between points i and i + 1, seen under `turn`.
-bool isStep(const Eigen::Vector2d& p, const Eigen::Vector2d& q, double turn) {
-  const double near = std::sqrt(std::min(p.squaredNorm(), q.squaredNorm()));
-  const double widest = near * std::sin(turn) / std::sin(kGrazing);
-  return (q - p).norm() > widest + 0.1;
-}
+/// Neighbours nearer than this [m] are on one surface, however it is seen.
+constexpr double kNoStep = 0.1;
 
+/// Counts a step where neighbours lie farther apart than any wall would place them.
 void countBreaks(ScanPoints* points) {
   points->breaks = points->silent;
+  const double widest = std::sin(points->beam_spacing) / std::sin(kGrazing);
   int steps = 0;
   for (std::size_t i = 1; i < points->size(); ++i) {
-    const double turn = points->beam_spacing * (points->beams[i] - points->beams[i - 1]);
-    if (isStep(points->positions[i - 1], points->positions[i], turn)) ++steps;
+    const Eigen::Vector2d &p = points->positions[i - 1], &q = points->positions[i];
+    const double beams = points->beams[i] - points->beams[i - 1];
+    const double reach = beams * widest * std::sqrt(std::min(p.squaredNorm(), q.squaredNorm()));
+    if ((q - p).squaredNorm() > (reach + kNoStep) * (reach + kNoStep)) ++steps;
     points->breaks[i] += steps;
   }
 }
@@ -88,6 +88,7 @@ ScanPoints scanPoints(const Scan& scan) {
 
   points.positions.reserve(n);
   points.beams.reserve(n);
+  points.silent.reserve(n);
   const double turn_cos = std::cos(points.beam_spacing), turn_sin = std::sin(points.beam_spacing);
   double c = 1.0, s = 0.0;
   int silent = 0;

@@ -40,6 +40,11 @@ struct FittedSegment {
 struct FittedRun : FittedSegment {
   int first = 0;
   int last = 0;
+  // What is known of the run as it stands, so that corner refinement asks nothing twice.
+  bool is_searched = false;  ///< no split, and no line among loose points, shortens the telling
+  int settled_with = -1;     ///< end of the next run, with which the boundary was found to be best
+  int compared_with = -1;    ///< end of the next run, to which this is the similarity:
+  double similarity = 0.0;
 
   int size() const { return last - first; }
 };
@@ -52,7 +57,11 @@ class RunFitter {
 
   FittedRun fit(int first, int last) const;
   /// The price alone, of two runs that share first <= i < last at `middle`.
-  double priceOfTwo(int first, int middle, int last) const;
+  double priceOfTwo(int first, int middle, int last) const {
+    return price(first, middle) + price(middle, last);
+  }
+  /// The price of a run alone: the same as fit(first, last).price, cheaper; 0 of an empty run.
+  double price(int first, int last) const;
   FittedSegment fit(const PointMoments& moments) const;
   const PrefixMoments& prefix() const { return prefix_; }
 

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
+#include <cmath>
 #include <vector>
 
 namespace cca {
@@ -40,6 +42,29 @@ struct FittedLine {
   double spread_sum_sq = 0.0;    ///< m^2, the same along the line
 };
 
+/// The eigenvalues of a scatter, and the double angle of its larger axis: no half angle is taken.
+struct PrincipalAxis {
+  double residual_sum_sq = 0.0;  ///< m^2, smaller eigenvalue, >= 0
+  double spread_sum_sq = 0.0;    ///< m^2, larger eigenvalue
+  double cos_2 = 1.0;            ///< of twice the angle from the x axis
+  double sin_2 = 0.0;
+};
+
+/// @param moments  any; where the scatter has no preferred axis, that is the x axis.
+inline PrincipalAxis principalAxis(const PointMoments& moments) {
+  const double half_difference = 0.5 * (moments.scatter(0, 0) - moments.scatter(1, 1));
+  const double mid = 0.5 * (moments.scatter(0, 0) + moments.scatter(1, 1));
+  const double sxy = moments.scatter(0, 1);
+  const double swing = std::sqrt(half_difference * half_difference + sxy * sxy);
+  PrincipalAxis axis;
+  axis.residual_sum_sq = std::max(0.0, mid - swing);
+  axis.spread_sum_sq = std::max(0.0, mid + swing);
+  if (swing <= 0.0) return axis;
+  axis.cos_2 = half_difference / swing;
+  axis.sin_2 = sxy / swing;
+  return axis;
+}
+
 /// Total least squares in closed form.
 /// @param moments  any; where the scatter has no preferred axis the direction is (1, 0).
 FittedLine fitLine(const PointMoments& moments);
@@ -50,7 +75,18 @@ class PrefixMoments {
   explicit PrefixMoments(const std::vector<Eigen::Vector2d>& points);
 
   /// Moments of points first <= i < last; empty where last <= first.
-  PointMoments run(int first, int last) const;
+  PointMoments run(int first, int last) const {
+    PointMoments moments;
+    if (last <= first) return moments;
+    const Sums &a = sums_[static_cast<std::size_t>(first)],
+               &b = sums_[static_cast<std::size_t>(last)];
+    const double n = last - first, x = (b.x - a.x) / n, y = (b.y - a.y) / n;
+    const double xy = b.xy - a.xy - n * x * y;
+    moments.weight = n;
+    moments.mean = {origin_.x() + x, origin_.y() + y};
+    moments.scatter << b.xx - a.xx - n * x * x, xy, xy, b.yy - a.yy - n * y * y;
+    return moments;
+  }
 
  private:
   struct Sums {

@@ -2,10 +2,15 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 
+#include "cca_mrpt/mapping/line_segment.hpp"
 #include "cca_mrpt/mapping/scan.hpp"
 
 namespace cca {
+
+/// No 2-D laser measures finer than this [m]; keeps noise-free simulations well posed.
+inline constexpr double kFinestSigma = 1e-3;
 
 /// What one laser point is worth: how far it may lie from the truth, along and across its beam.
 struct PointNoise {
@@ -15,7 +20,23 @@ struct PointNoise {
   /// Variance [m^2] of the distance of `point` (sensor frame) from a line of unit `direction`.
   ///
   /// A beam that grazes the line carries its range noise along the line, its bearing noise across.
-  double lateralVariance(const Eigen::Vector2d& point, const Eigen::Vector2d& direction) const;
+  double lateralVariance(const Eigen::Vector2d& point, const Eigen::Vector2d& direction) const {
+    const double along = point.dot(direction);
+    return lateralVariance(point.squaredNorm(), along * along);
+  }
+  /// The same for a direction given by its double angle.
+  double lateralVariance(const Eigen::Vector2d& point, const PrincipalAxis& axis) const {
+    const double xx = point.x() * point.x(), yy = point.y() * point.y();
+    const double turned = (xx - yy) * axis.cos_2 + 2.0 * point.x() * point.y() * axis.sin_2;
+    return lateralVariance(xx + yy, 0.5 * (xx + yy + turned));
+  }
+
+ private:
+  double lateralVariance(double range_sq, double along_sq) const {
+    const double head_on = range_sq > 0.0 ? std::max(0.0, 1.0 - along_sq / range_sq) : 1.0;
+    return range_sigma * range_sigma * head_on + bearing_sigma * bearing_sigma * along_sq +
+           kFinestSigma * kFinestSigma;
+  }
 };
 
 /// The noise of a scan, estimated from this scan alone: the program has no noise parameter.
@@ -38,8 +59,5 @@ inline constexpr double kStraightness = 0.035;
 
 /// The deviations of points from a wall: the larger of what sensor and wall themselves bring.
 PointNoise wallNoise(PointNoise sensor);
-
-/// No 2-D laser measures finer than this [m]; keeps noise-free simulations well posed.
-inline constexpr double kFinestSigma = 1e-3;
 
 }  // namespace cca

@@ -17,8 +17,8 @@ namespace cca {
 /// in which only neighbours are alike.
 ///
 /// @param cut  alpha-cut in (0, 1].
-/// @return     a partition of 0..n-1 in ROC order; members in ROC order; empty for n = 0.
+/// @return     the group of each segment; groups are numbered from 0 on, in ROC order.
 /// Cost: O(n^2) a sweep, at most n sweeps.
-std::vector<std::vector<int>> rankOrderGroups(const SimilarityMatrix& similarity, double cut);
+std::vector<int> rankOrderGroups(const SimilarityMatrix& similarity, double cut);
 
 }  // namespace cca
