@@ -7,6 +7,8 @@
 #include <cmath>
 #include <limits>
 
+#include "cca_mrpt/simulation/beam.hpp"
+
 namespace cca {
 
 namespace {
@@ -62,31 +64,7 @@ double withNoise(double range, const LaserParameters& parameters, Random& random
 
 double castBeam(const World& world, const Eigen::Vector2d& p_map, double bearing,
                 double max_range) {
-  const Eigen::Vector2d p = world.toCells(p_map);
-  const double dx = std::cos(bearing), dy = std::sin(bearing);
-  const double reach = max_range / world.resolution();
-  int ix = static_cast<int>(std::floor(p.x())), iy = static_cast<int>(std::floor(p.y()));
-  if (world.isObstacle(ix, iy)) return 0.0;
-  const int step_x = dx > 0.0 ? 1 : -1, step_y = dy > 0.0 ? 1 : -1;
-  // Travel between vertical (horizontal) cell edges, and to the first one.
-  const double every_x = dx != 0.0 ? std::abs(1.0 / dx) : kNoReturn;
-  const double every_y = dy != 0.0 ? std::abs(1.0 / dy) : kNoReturn;
-  double next_x = dx != 0.0 ? (dx > 0.0 ? ix + 1 - p.x() : p.x() - ix) * every_x : kNoReturn;
-  double next_y = dy != 0.0 ? (dy > 0.0 ? iy + 1 - p.y() : p.y() - iy) * every_y : kNoReturn;
-  for (;;) {
-    double travelled;
-    if (next_x < next_y) {
-      travelled = next_x;
-      next_x += every_x;
-      ix += step_x;
-    } else {
-      travelled = next_y;
-      next_y += every_y;
-      iy += step_y;
-    }
-    if (travelled > reach) return kNoReturn;
-    if (world.isObstacle(ix, iy)) return travelled * world.resolution();
-  }
+  return walkBeam(world, p_map, bearing, max_range, [](int) {});
 }
 
 Scan sweep(const World& world, const std::vector<Body>& bodies, const Pose2& T_map_sensor,

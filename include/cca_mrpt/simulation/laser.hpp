@@ -37,12 +37,10 @@ void describe(LaserParameters& p, Field&& field) {
         "how beams are traced: exact cell edges, or MRPT's simulator (sees 80 % of the range)");
 }
 
-/// Distance along one beam to the edge of the first obstacle cell (digital differential analyser,
-/// Amanatides & Woo 1987): exact for the grid, free of bias.
+/// Distance along one beam to the edge of the first obstacle cell, see walkBeam().
 /// @param bearing    rad, map frame.
 /// @param max_range  m.
 /// @return           m; +inf where nothing is met up to max_range; 0 inside an obstacle.
-/// Cost: cells crossed.
 double castBeam(const World& world, const Eigen::Vector2d& p_map, double bearing, double max_range);
 
 /// One sweep at T_map_sensor over the world and the bodies in it.

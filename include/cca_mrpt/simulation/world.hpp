@@ -35,6 +35,8 @@ class World {
   /// All cells are either 0 (obstacle) or 1 (free); placed at (0, 0), see above.
   const mrpt::maps::COccupancyGridMap2D& grid() const { return grid_; }
 
+  /// Row by row from the lowest y; non-zero: obstacle.
+  const std::vector<unsigned char>& obstacles() const { return cells_; }
   bool isObstacle(int ix, int iy) const {
     if (ix < 0 || iy < 0 || ix >= width_ || iy >= height_) return true;
     return cells_[static_cast<std::size_t>(iy) * width_ + ix] != 0;
