@@ -1,79 +1,145 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <chrono>
+#include <csignal>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
+#include "cca_mrpt/io/icp_localizer.hpp"
+#include "cca_mrpt/io/map_products.hpp"
 #include "cca_mrpt/navigation/explorer.hpp"
 #include "cca_mrpt/simulation/simulation.hpp"
 #include "commands.hpp"
+#include "exploration_record.hpp"
+#include "parameter_options.hpp"
+#include "progress_line.hpp"
 
 namespace cca::apps {
 
 namespace {
 
-constexpr double kControlPeriod = 0.1;  // s
+namespace fs = std::filesystem;
+using Clock = std::chrono::steady_clock;
 
 struct ExploreOptions {
-  std::string world, out = "out";
-  std::vector<double> start;  // x, y in m, heading in degrees
-  double longest_time = 7200.0;
-  CcaParameters mapping;
-  ExplorerParameters explorer;
-  SimulationParameters simulation;
+  std::string world, out;
+  std::vector<double> start;  // x, y in m, heading in degrees; empty: the world's own
+  bool quiet = false, force = false;
 };
 
-std::FILE* openFile(const std::filesystem::path& path) {
-  std::FILE* file = std::fopen(path.c_str(), "w");
-  if (!file) throw std::runtime_error(path.string() + ": cannot be written");
-  return file;
+volatile std::sig_atomic_t interrupted = 0;
+
+/// The first signal ends the run in good order, a second one the program.
+void onSignal(int signal) {
+  interrupted = 1;
+  std::signal(signal, SIG_DFL);
 }
 
-void writeResults(const ExploreOptions& options, const Simulation& simulation,
-                  const Explorer& explorer, const Action& last) {
-  const std::filesystem::path out(options.out);
-  std::filesystem::create_directories(out);
-  std::FILE* file = openFile(out / "trajectory.csv");
-  std::fprintf(file, "t,x,y,theta\n");
-  for (const auto& [t, T] : simulation.trajectory()) {
-    std::fprintf(file, "%.3f,%.6f,%.6f,%.6f\n", t, T.x, T.y, T.theta);
-  }
-  std::fclose(file);
-  const auto lines = explorer.lineMap().lines();
-  file = openFile(out / "lines.csv");
-  std::fprintf(file, "x1,y1,x2,y2\n");
-  for (const auto& [id, segment, support] : lines) {
-    std::fprintf(file, "%.6f,%.6f,%.6f,%.6f\n", segment.start.x(), segment.start.y(),
-                 segment.end.x(), segment.end.y());
-  }
-  std::fclose(file);
-  file = openFile(out / "summary.json");
-  std::fprintf(file,
-               "{\n  \"finished\": %s,\n  \"reason\": \"%s\",\n  \"distance_m\": %.3f,\n"
-               "  \"duration_s\": %.3f,\n  \"collisions\": %d,\n  \"map_lines\": %zu\n}\n",
-               last.status == ExplorationStatus::kFinished ? "true" : "false", last.reason.c_str(),
-               simulation.distance(), simulation.time(), simulation.collisions(), lines.size());
-  std::fclose(file);
+double secondsSince(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-void explore(const ExploreOptions& options) {
+Simulation makeSimulation(const ExploreOptions& options, const Parameters& parameters) {
   World world = loadWorld(options.world);
-  const double radius = options.simulation.robot.radius;
+  for (const auto& key : world.unknown_keys) {
+    std::fprintf(stderr, "cca-mrpt: %s: %s: is no known key and has no effect\n",
+                 options.world.c_str(), key.c_str());
+  }
   const auto& start = options.start;
   const Pose2 T_map_start = start.empty()
-                                ? defaultStart(world, radius)
+                                ? defaultStart(world, parameters.robot.radius)
                                 : Pose2{start[0], start[1], wrapAngle(start[2] * M_PI / 180.0)};
-  Simulation simulation(std::move(world), T_map_start, options.simulation);
-  Explorer explorer(options.mapping, options.simulation.robot, options.explorer);
-  Action action;
-  while (simulation.time() < options.longest_time) {
-    action = explorer.step(simulation.observe());
-    if (action.status == ExplorationStatus::kFinished) break;
-    simulation.drive(action.velocity, kControlPeriod);
+  SimulationParameters simulated;
+  simulated.robot = parameters.robot;
+  simulated.laser = parameters.laser;
+  simulated.odometry = parameters.odometry;
+  simulated.seed = static_cast<std::uint64_t>(parameters.run.seed);
+  return Simulation(std::move(world), T_map_start, simulated);
+}
+
+/// The folder that was asked for, else a fresh one: out/WORLD-001, -002, ...
+std::string makeFolder(const ExploreOptions& options, const std::string& world) {
+  std::string folder = options.out;
+  if (folder.empty()) {
+    fs::create_directories("out");
+    for (int number = 1; folder.empty(); ++number) {
+      char name[16];
+      std::snprintf(name, sizeof name, "-%03d", number);
+      if (fs::create_directory("out/" + world + name)) folder = "out/" + world + name;
+    }
   }
-  writeResults(options, simulation, explorer, action);
+  prepareMapFolder(folder, options.force);
+  return folder;
+}
+
+/// Replaces the true pose of an observation by what the robot believes.
+class Belief {
+ public:
+  Belief(const Parameters& parameters, const Pose2& T_map_start) : source_(parameters.run.pose) {
+    if (source_ == "icp") icp_.emplace(T_map_start, parameters.icp);
+  }
+
+  void replacePose(Observation& observation, const Pose2& T_odom_robot) {
+    if (source_ == "truth") return;
+    const Pose2 T_robot_sensor = observation.T_map_robot.inverse() * observation.scan.T_map_sensor;
+    observation.T_map_robot = icp_ ? icp_->locate(observation.scan, T_robot_sensor, T_odom_robot)
+                                   : T_odom_robot;  // the frames of map and odometry begin as one
+    observation.scan.T_map_sensor = observation.T_map_robot * T_robot_sensor;
+  }
+
+ private:
+  std::string source_;
+  std::optional<IcpLocalizer> icp_;
+};
+
+ExplorationRecord::End drive(Simulation& simulation, Explorer& explorer, ExplorationRecord& record,
+                             const Parameters& parameters, ProgressLine& progress_line) {
+  const RunParameters& run = parameters.run;
+  Belief belief(parameters, simulation.T_map_robot());
+  while (!interrupted && simulation.time() < run.longest_time) {
+    Observation observation = simulation.observe();
+    belief.replacePose(observation, simulation.T_odom_robot());
+    const auto start = Clock::now();
+    const Action action = explorer.step(observation);
+    record.add(simulation, observation, action, 1e6 * secondsSince(start));
+    if (action.status == ExplorationStatus::kFinished) return {true, action.reason, 0.0};
+    simulation.drive(action.velocity, run.control_period);
+    if (progress_line.isDue()) {
+      progress_line.show({record.coverage().sofar(), simulation.distance(), simulation.time(),
+                          action.goal, record.scans()});
+    }
+  }
+  return {false, interrupted ? "interrupted" : "the longest simulated time is over", 0.0};
+}
+
+void explore(const ExploreOptions& options, const Parameters& parameters) {
+  const auto start = Clock::now();
+  Simulation simulation = makeSimulation(options, parameters);
+  const std::string folder = makeFolder(options, simulation.world().name);
+  Explorer explorer(parameters.mapping, parameters.robot, parameters.exploration);
+  ExplorationRecord record(simulation, folder);
+  std::signal(SIGINT, onSignal);
+  std::signal(SIGTERM, onSignal);
+  ProgressLine progress_line(!options.quiet);
+  auto end = drive(simulation, explorer, record, parameters, progress_line);
+  progress_line.clear();
+  end.wall_s = secondsSince(start);
+  record.write(simulation, explorer, end);
+  if (!options.quiet) {
+    std::printf(
+        "%s: %s. %.1f %% seen, %.1f m driven in %.0f s, %d collisions, %.1f s of work\n"
+        "picture  %s/map.png\nmap      %s/lines.csv\n",
+        simulation.world().name.c_str(), end.reason.c_str(),
+        100.0 * record.coverage().sofar().value_or(0.0), simulation.distance(), simulation.time(),
+        simulation.collisions(), end.wall_s, folder.c_str(), folder.c_str());
+  }
+  if (!end.finished) {
+    throw std::runtime_error(end.reason + "; what was mapped so far is in " + folder);
+  }
 }
 
 }  // namespace
@@ -82,15 +148,21 @@ void addExploreCommand(CLI::App& program) {
   auto* command = program.add_subcommand("explore", "simulated exploration of a world");
   auto options = std::make_shared<ExploreOptions>();
   command->add_option("WORLD", options->world, "world, a map_server YAML file")->required();
-  command->add_option("--out", options->out, "folder for the results");
   command->add_option("--start", options->start, "X,Y,DEG: start pose, m and degrees")
       ->delimiter(',')
       ->expected(3);
-  command->add_option("--strategy", options->explorer.strategy, "how goals are chosen");
-  command->add_option("--seed", options->simulation.seed, "seed of all noise");
-  command->add_option("--laser-range", options->simulation.laser.range, "m");
-  command->add_option("--range-noise", options->simulation.laser.range_noise, "m, sigma");
-  command->callback([options] { explore(*options); });
+  command->add_option("--out", options->out, "folder for the results; else out/WORLD-001, ...");
+  command->add_flag("--force", options->force, "overwrite results that are in the folder");
+  command->add_flag("--quiet", options->quiet, "print nothing but errors");
+  auto parameters = std::make_shared<ParameterOptions>(
+      *command, std::vector<std::string>{"run", "mapping", "exploration", "robot", "laser",
+                                         "odometry", "icp"});
+  parameters->addAlias("--strategy", "exploration.strategy");
+  parameters->addAlias("--seed", "run.seed");
+  parameters->addAlias("--pose", "run.pose");
+  parameters->addAlias("--laser-range", "laser.range");
+  parameters->addAlias("--range-noise", "laser.range_noise");
+  command->callback([options, parameters] { explore(*options, parameters->resolve()); });
 }
 
 }  // namespace cca::apps

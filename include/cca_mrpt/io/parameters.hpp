@@ -10,6 +10,8 @@
 #include "cca_mrpt/navigation/explorer.hpp"
 #include "cca_mrpt/navigation/robot.hpp"
 #include "cca_mrpt/simulation/laser.hpp"
+#include "cca_mrpt/simulation/robot.hpp"
+#include "cca_mrpt/simulation/run.hpp"
 
 namespace cca {
 
@@ -20,6 +22,8 @@ struct Parameters {
   RobotParameters robot;
   LaserParameters laser;
   IcpParameters icp;
+  OdometryParameters odometry;
+  RunParameters run;
 };
 
 /// Calls section(name, parameters of the module) for each: the sections of the .ini file.
@@ -30,6 +34,8 @@ void describeSections(Parameters& p, Section&& section) {
   section("robot", p.robot);
   section("laser", p.laser);
   section("icp", p.icp);
+  section("odometry", p.odometry);
+  section("run", p.run);
 }
 
 /// One parameter as people write it. Made from the describe() beside each struct; .ini files,

@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "exploration_record.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "cca_mrpt/io/atomic_file.hpp"
+
+namespace cca::apps {
+
+namespace {
+
+constexpr double kEveryDistance = 0.1, kEveryTurn = 0.25;  // m, rad, between kept scans
+
+bool hasMoved(std::optional<Pose2>& last, const Pose2& now) {
+  if (last && (now.position() - last->position()).norm() < kEveryDistance &&
+      std::abs(wrapAngle(now.theta - last->theta)) < kEveryTurn) {
+    return false;
+  }
+  last = now;
+  return true;
+}
+
+/// The value below which a share of all values lies; 0 of none.
+double quantile(std::vector<double> values, double share) {
+  if (values.empty()) return 0.0;
+  const auto nth = values.begin() + static_cast<std::ptrdiff_t>(share * (values.size() - 1.0));
+  std::nth_element(values.begin(), nth, values.end());
+  return *nth;
+}
+
+double rounded(double value, double unit) { return std::round(value / unit) * unit; }
+
+}  // namespace
+
+ExplorationRecord::ExplorationRecord(const Simulation& simulation, const std::string& folder)
+    : folder_(folder),
+      rawlog_(folder + "/run.rawlog", simulation.parameters().laser.range),
+      coverage_(simulation.world(), simulation.T_map_robot().position(),
+                simulation.parameters().robot.radius, simulation.parameters().laser.range) {}
+
+void ExplorationRecord::add(const Simulation& simulation, const Observation& believed,
+                            const Action& action, double step_us) {
+  rawlog_.insert(believed.scan, believed.T_map_robot.inverse() * believed.scan.T_map_sensor,
+                 simulation.T_odom_robot(), believed.time);
+  if (hasMoved(last_insertion_, believed.T_map_robot)) {
+    grid_.insert(believed.scan);
+    believed_way_.push_back(believed.T_map_robot);
+  }
+  if (hasMoved(last_look_, simulation.T_map_robot())) look(simulation);
+  if (action.goal && (!goal_ || *goal_ != *action.goal)) ++goals_;
+  goal_ = action.goal;
+  step_us_.push_back(step_us);
+}
+
+void ExplorationRecord::look(const Simulation& simulation) {
+  coverage_.look(simulation.T_map_robot());
+  looks_.push_back({simulation.time(), simulation.distance()});
+}
+
+void ExplorationRecord::writeTrajectory(const Simulation& simulation) const {
+  std::string text = "t,x,y,theta\n";
+  for (const auto& [time, T_map_robot] : simulation.trajectory()) {
+    char line[120];
+    std::snprintf(line, sizeof line, "%.4f,%.6f,%.6f,%.6f\n", time, T_map_robot.x, T_map_robot.y,
+                  T_map_robot.theta);
+    text += line;
+  }
+  writeFile(folder_ + "/trajectory.csv", text);
+}
+
+void ExplorationRecord::writeCoverage() {
+  const std::vector<double> curve = coverage_.curve();
+  std::string text = "t,distance,coverage\n";
+  for (std::size_t i = 0; i < curve.size(); ++i) {
+    char line[120];
+    std::snprintf(line, sizeof line, "%.3f,%.4f,%.6f\n", looks_[i].time, looks_[i].distance,
+                  curve[i]);
+    text += line;
+  }
+  writeFile(folder_ + "/coverage.csv", text);
+}
+
+nlohmann::ordered_json ExplorationRecord::summary(const Simulation& simulation, const End& end) {
+  nlohmann::ordered_json summary;
+  summary["world"] = simulation.world().name;
+  summary["finished"] = end.finished;
+  summary["reason"] = end.reason;
+  summary["distance_m"] = rounded(simulation.distance(), 1e-4);
+  summary["duration_s"] = rounded(simulation.time(), 1e-4);
+  summary["wall_s"] = rounded(end.wall_s, 1e-3);
+  summary["coverage"] = rounded(coverage_.sofar().value_or(0.0), 1e-6);
+  summary["goals"] = goals_;
+  summary["collisions"] = simulation.collisions();
+  summary["scans"] = scans();
+  summary["scan_us_median"] = rounded(quantile(step_us_, 0.5), 0.1);
+  summary["scan_us_p99"] = rounded(quantile(step_us_, 0.99), 0.1);
+  return summary;
+}
+
+MapProducts ExplorationRecord::products(const Simulation& simulation,
+                                        const Explorer& explorer) const {
+  MapProducts products;
+  products.title = simulation.world().name;
+  products.lines = explorer.lineMap().lines();
+  products.poly_lines = explorer.lineMap().polyLines();
+  products.trajectory = believed_way_;
+  products.grid = grid_.grid();
+  return products;
+}
+
+void ExplorationRecord::write(const Simulation& simulation, const Explorer& explorer,
+                              const End& end) {
+  look(simulation);
+  rawlog_.commit();
+  writeTrajectory(simulation);
+  writeCoverage();
+  MapProducts all = products(simulation, explorer);
+  all.summary = summary(simulation, end);
+  writeMapFolder(folder_, all);
+}
+
+}  // namespace cca::apps
