@@ -14,6 +14,7 @@ constexpr int kBeamsAcross = 3;    // invalid beams in a row that a surface may 
 struct Return {
   std::size_t beam;
   double range;
+  bool moving;
   Eigen::Vector2d p_map;
 };
 
@@ -28,7 +29,13 @@ double largestSpacing(double near_range, double angle) {
   return near_range * std::sin(angle) / std::sin(kGrazingAngle - angle);
 }
 
-void add(const Eigen::Vector2d& p_map, LocalView& view) {
+// What moves is no obstacle to plan around, and ends the surfaces that it hides.
+void add(const Eigen::Vector2d& p_map, bool moving, LocalView& view) {
+  if (moving) {
+    view.movers.push_back(p_map);
+    if (!view.ends_here.empty()) view.ends_here.back() = true;
+    return;
+  }
   view.obstacles.push_back(p_map);
   view.ends_here.push_back(false);
 }
@@ -41,13 +48,14 @@ void addPair(const Scan& scan, const Return& a, const Return& b, std::size_t bea
   const double spacing = largestSpacing(std::min(a.range, b.range), angle);
   const bool together = static_cast<int>(beams_apart) <= kBeamsAcross && !open_between;
   if (!together || gap > std::max(spacing, passable_gap)) {
-    if (view.obstacles.back() != a.p_map) add(a.p_map, view);
-    view.ends_here.back() = true;
-    add(b.p_map, view);
+    if (!a.moving && view.obstacles.back() != a.p_map) add(a.p_map, false, view);
+    if (!view.ends_here.empty()) view.ends_here.back() = true;
+    add(b.p_map, b.moving, view);
     return;
   }
   const int pieces = static_cast<int>(std::ceil(gap / kSpacing));
-  for (int i = 1; i < pieces; ++i) add(a.p_map + (b.p_map - a.p_map) * i / pieces, view);
+  for (int i = 1; i < pieces; ++i)
+    add(a.p_map + (b.p_map - a.p_map) * i / pieces, a.moving || b.moving, view);
 }
 
 // Beams that run clockwise give points that do.
@@ -72,7 +80,8 @@ double LocalView::seenDistanceTowards(const Eigen::Vector2d& p_map) const {
   return index == seen.size() && turn - beam < 1.0 ? seen.front() : 0.0;
 }
 
-LocalView makeLocalView(const Scan& scan, const Pose2& T_map_robot, double passable_gap) {
+LocalView makeLocalView(const Scan& scan, const std::vector<bool>& moving, const Pose2& T_map_robot,
+                        double passable_gap) {
   LocalView view;
   view.T_map_robot = T_map_robot;
   view.T_map_sensor = scan.T_map_sensor;
@@ -84,10 +93,10 @@ LocalView makeLocalView(const Scan& scan, const Pose2& T_map_robot, double passa
   for (std::size_t i = 0; i < scan.size(); ++i) {
     const double range = scan.ranges[i];
     if (isReturn(range)) {
-      const double bearing = scan.bearing(i);
-      returns.push_back({i, range,
-                         scan.T_map_sensor * Eigen::Vector2d(range * std::cos(bearing),
-                                                             range * std::sin(bearing))});
+      const double bearing = scan.T_map_sensor.theta + scan.bearing(i);
+      returns.push_back({i, range, !moving.empty() && moving[i],
+                         scan.T_map_sensor.position() +
+                             range * Eigen::Vector2d(std::cos(bearing), std::sin(bearing))});
     }
     view.seen[i] = isReturn(range)     ? range
                    : isNoReturn(range) ? scan.free_range_without_return
@@ -97,8 +106,9 @@ LocalView makeLocalView(const Scan& scan, const Pose2& T_map_robot, double passa
   const std::size_t n = returns.size();
   for (std::size_t k = 0; k < n; ++k) {
     const Return& a = returns[k];
-    if (view.obstacles.empty() || (view.obstacles.back() - a.p_map).norm() >= 0.5 * kSpacing) {
-      add(a.p_map, view);
+    if (a.moving || view.obstacles.empty() ||
+        (view.obstacles.back() - a.p_map).norm() >= 0.5 * kSpacing) {
+      add(a.p_map, a.moving, view);
     }
     if (k + 1 == n && !coversFullTurn(scan)) break;
     const Return& b = returns[(k + 1) % n];
@@ -109,7 +119,7 @@ LocalView makeLocalView(const Scan& scan, const Pose2& T_map_robot, double passa
     }
     addPair(scan, a, b, apart, open_between, passable_gap, view);
   }
-  if (n > 0 && !coversFullTurn(scan)) view.ends_here.back() = true;
+  if (!view.ends_here.empty() && !coversFullTurn(scan)) view.ends_here.back() = true;
   if (scan.angle_increment < 0.0) reverse(view);
   return view;
 }

@@ -12,6 +12,7 @@ namespace cca {
 namespace {
 
 constexpr double kStep = 0.05;    // s, of the predicted motion
+constexpr double kStill = 1e-9;   // m/s, rad/s
 constexpr double kDeeper = 1e-4;  // m, by which a hazard inside may seem to come nearer (rounding)
 
 double towards(double from, double to, double step) {
@@ -45,7 +46,7 @@ std::vector<Predicted> stoppingPath(const Velocity& present, const Velocity& com
   const Velocity first{std::max(present.linear, command.linear), command.angular};
   while (time < period - 1e-9) advance(first);
   velocity = {std::max(present.linear, command.linear), command.angular};
-  while (velocity.linear > 1e-9) {
+  while (velocity.linear > kStill || std::abs(velocity.angular) > kStill) {
     advance({towards(velocity.linear, 0.0, robot.max_linear_acceleration * kStep),
              towards(velocity.angular, 0.0, robot.max_angular_acceleration * kStep)});
   }

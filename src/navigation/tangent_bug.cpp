@@ -7,6 +7,7 @@
 
 #include "cca_mrpt/navigation/motion_control.hpp"
 #include "cca_mrpt/navigation/safe_velocity.hpp"
+#include "cca_mrpt/navigation/scan_smoothing.hpp"
 
 namespace cca {
 namespace {
@@ -18,6 +19,9 @@ constexpr double kInVain = 0.4;           // m
 constexpr double kSlack = 0.4;            // of the margin, given up on the way
 constexpr double kTraceSlack = 0.1;       // of the margin, given up along a boundary
 constexpr double kOnTheBoundary = 0.001;  // m
+constexpr double kWalkingSpeed = 1.0;     // m/s, of what moves, in any direction
+constexpr double kAmongMovers = 0.45;     // m/s, where somebody may come around the corner
+constexpr double kWaitFor = 2.5;          // m
 constexpr int kBearings = 360;
 constexpr double kControlPeriod = 0.1;  // s
 
@@ -35,7 +39,7 @@ void TangentBug::setGoal(const Eigen::Vector2d& goal_map) {
 
 Velocity TangentBug::step(const Scan& scan, const Pose2& T_map_robot, const Velocity& velocity,
                           double time) {
-  observe(scan, T_map_robot);
+  observe(scan, T_map_robot, time);
   target_.reset();
   const bool under_way =
       state_ == TangentBugState::kMotionToGoal || state_ == TangentBugState::kBoundaryFollowing;
@@ -52,10 +56,16 @@ Velocity TangentBug::step(const Scan& scan, const Pose2& T_map_robot, const Velo
   }
   const bool still =
       state_ == TangentBugState::kMotionToGoal || state_ == TangentBugState::kBoundaryFollowing;
-  if (still && progress_.stuck(T_map_robot.position(), follower_.length(), time, false)) {
+  if (still && progress_.stuck(T_map_robot.position(), follower_.length(), time, moverIsNear())) {
     shutWhatIsTooNarrow();
   }
-  return drive(velocity);
+  return drive(velocity, time);
+}
+
+bool TangentBug::moverIsNear() const {
+  const Eigen::Vector2d x = view_.T_map_robot.position();
+  return std::any_of(view_.movers.begin(), view_.movers.end(),
+                     [&](const Eigen::Vector2d& p) { return (p - x).norm() < kWaitFor; });
 }
 
 // A gap as wide as the robot may look open from afar and shut from nearby: it is shut for good.
@@ -69,10 +79,11 @@ void TangentBug::shutWhatIsTooNarrow() {
   }
 }
 
-void TangentBug::observe(const Scan& scan, const Pose2& T_map_robot) {
+void TangentBug::observe(const Scan& raw_scan, const Pose2& T_map_robot, double time) {
   const double radius = robot_.radius + robot_.safety_margin;
   const Eigen::Vector2d x = T_map_robot.position();
-  view_ = makeLocalView(scan, T_map_robot, 2.0 * radius);
+  const Scan scan = smoothScan(raw_scan);
+  view_ = makeLocalView(scan, moving_points_.update(scan, time), T_map_robot, 2.0 * radius);
   view_.obstacles.insert(view_.obstacles.end(), shut_map_.begin(), shut_map_.end());
   view_.ends_here.resize(view_.obstacles.size(), false);
   way_space_ = {view_.obstacles, radius};
@@ -162,14 +173,20 @@ std::optional<Eigen::Vector2d> TangentBug::followBoundary() {
   return target;
 }
 
-Velocity TangentBug::drive(const Velocity& velocity) const {
+Velocity TangentBug::drive(const Velocity& velocity, double time) const {
   const Pose2 T_robot_map = view_.T_map_robot.inverse();
   Velocity wanted;
   if (target_) wanted = velocityTowards(T_robot_map * *target_, *target_ == goal_map_, robot_);
+  if (moving_points_.areAround(time)) wanted.linear = std::min(wanted.linear, kAmongMovers);
+  const double c = std::cos(T_robot_map.theta), s = std::sin(T_robot_map.theta);
+  const auto inRobot = [&](const Eigen::Vector2d& p) -> Eigen::Vector2d {
+    return {T_robot_map.x + c * p.x() - s * p.y(), T_robot_map.y + s * p.x() + c * p.y()};
+  };
   std::vector<Hazard> hazards;
-  hazards.reserve(view_.obstacles.size());
-  for (const Eigen::Vector2d& p_map : view_.obstacles) {
-    hazards.push_back({T_robot_map * p_map, 0.0});
+  hazards.reserve(view_.obstacles.size() + view_.movers.size());
+  for (const Eigen::Vector2d& p_map : view_.obstacles) hazards.push_back({inRobot(p_map), 0.0});
+  for (const Eigen::Vector2d& p_map : view_.movers) {
+    hazards.push_back({inRobot(p_map), kWalkingSpeed});
   }
   return safeVelocity(wanted, velocity, hazards, robot_,
                       robot_.radius + kSlack * robot_.safety_margin, kControlPeriod);

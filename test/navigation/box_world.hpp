@@ -40,9 +40,28 @@ struct Box {
   }
 };
 
+/// A round person, m.
+struct Disc {
+  Eigen::Vector2d center;
+  double radius;
+
+  double distance(const Eigen::Vector2d& p) const {
+    return std::max(0.0, (p - center).norm() - radius);
+  }
+
+  double enter(const Eigen::Vector2d& from, const Eigen::Vector2d& direction) const {
+    const Eigen::Vector2d to = center - from;
+    const double ahead = to.dot(direction);
+    const double inside = radius * radius - (to.squaredNorm() - ahead * ahead);
+    if (to.norm() <= radius) return 0.0;
+    return ahead > 0.0 && inside >= 0.0 ? ahead - std::sqrt(inside) : INFINITY;
+  }
+};
+
 /// An exact world of boxes, with its laser: the truth that the planner is held against.
 struct BoxWorld {
   std::vector<Box> boxes;
+  std::vector<Disc> discs;  ///< not counted in clearance(): they move
 
   void add(double x1, double y1, double x2, double y2) {
     boxes.push_back({{std::min(x1, x2), std::min(y1, y2)}, {std::max(x1, x2), std::max(y1, y2)}});
@@ -75,6 +94,9 @@ struct BoxWorld {
       double hit = INFINITY;
       for (const Box& box : boxes) {
         hit = std::min(hit, box.enter(T_map_sensor.position(), direction));
+      }
+      for (const Disc& disc : discs) {
+        hit = std::min(hit, disc.enter(T_map_sensor.position(), direction));
       }
       scan.ranges.push_back(hit <= range ? std::max(hit, 1e-6) : INFINITY);
     }

@@ -15,7 +15,8 @@ struct LocalView {
   std::vector<Eigen::Vector2d> obstacles;  ///< m, map frame, counter-clockwise around the sensor;
                                            ///< walls are sampled without holes
   std::vector<bool> ends_here;  ///< by obstacle: the surface ends between it and the next one
-  std::vector<double> seen;     ///< m, beam by beam: seen free up to here; 0 for an invalid beam
+  std::vector<Eigen::Vector2d> movers;  ///< m, map frame, points of what moves
+  std::vector<double> seen;  ///< m, beam by beam: seen free up to here; 0 for an invalid beam
   double angle_min = 0.0;
   double angle_increment = 0.0;
   double horizon = 0.0;  ///< m, the farthest that any beam sees
@@ -36,8 +37,10 @@ struct LocalView {
 /// `passable_gap`, through which no robot fits. Surfaces are sampled at most `spacing` apart.
 ///
 /// @param scan          invalid beams are passed over; a scan without any valid beam sees nothing.
+/// @param moving        by beam; empty where nothing moves.
 /// @param passable_gap  m, the robot's diameter with its margins.
 /// Cost: O(beams + samples).
-LocalView makeLocalView(const Scan& scan, const Pose2& T_map_robot, double passable_gap);
+LocalView makeLocalView(const Scan& scan, const std::vector<bool>& moving, const Pose2& T_map_robot,
+                        double passable_gap);
 
 }  // namespace cca

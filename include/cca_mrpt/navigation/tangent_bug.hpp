@@ -10,6 +10,7 @@
 #include "cca_mrpt/navigation/configuration_space.hpp"
 #include "cca_mrpt/navigation/local_view.hpp"
 #include "cca_mrpt/navigation/motion_to_goal.hpp"
+#include "cca_mrpt/navigation/moving_points.hpp"
 #include "cca_mrpt/navigation/progress_watch.hpp"
 #include "cca_mrpt/navigation/robot.hpp"
 #include "cca_mrpt/navigation/tangent_graph.hpp"
@@ -46,20 +47,22 @@ class TangentBug {
   double reachDistance() const { return d_reach_; }  ///< d_reach, m
 
  private:
+  bool moverIsNear() const;
   void shutWhatIsTooNarrow();
-  void observe(const Scan& scan, const Pose2& T_map_robot);
+  void observe(const Scan& scan, const Pose2& T_map_robot, double time);
   void findReach();
   bool isInVain(const Eigen::Vector2d& p_map) const;
   std::optional<Eigen::Vector2d> moveToGoal();
   std::optional<Eigen::Vector2d> startFollowing();
   std::optional<Eigen::Vector2d> followBoundary();
-  Velocity drive(const Velocity& velocity) const;
+  Velocity drive(const Velocity& velocity, double time) const;
 
   RobotParameters robot_;
   Eigen::Vector2d goal_map_ = Eigen::Vector2d::Zero();
   TangentBugState state_ = TangentBugState::kReached;
   ProgressWatch progress_;
   std::vector<Eigen::Vector2d> shut_map_;  ///< places in gaps that proved too narrow
+  MovingPoints moving_points_;
   LocalView view_;
   ConfigurationSpace way_space_, trace_space_;
   std::vector<FreeRange> free_ranges_;

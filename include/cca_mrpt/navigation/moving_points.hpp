@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Core>
+#include <deque>
+#include <vector>
+
+#include "cca_mrpt/mapping/scan.hpp"
+
+namespace cca {
+
+/// Tells which returns come from something that moves: they lie where an earlier scan saw free
+/// space.
+///
+/// A scan of about half a second ago is looked up in the direction of each return; the return is
+/// suspicious where all beams around that direction saw clearly farther. Three suspicious
+/// neighbours are a mover, with all that is joined to them; a mover that pauses stays one for
+/// kMemory. Beyond kFarthest beams are too sparse to tell a thin pole from somebody.
+class MovingPoints {
+ public:
+  /// @param scan  smoothed. @param time  s, never falling.
+  /// @return      by beam.
+  std::vector<bool> update(const Scan& scan, double time);
+
+  /// Whether movers have been seen within the last minute: there may be more around the corner.
+  bool areAround(double time) const { return time - last_seen_ < 60.0; }
+
+  static constexpr double kFarthest = 6.0;  ///< m
+  static constexpr double kMemory = 1.5;    ///< s
+
+ private:
+  struct Past {
+    Scan scan;
+    double time;
+  };
+  struct Seen {
+    Eigen::Vector2d p_map;
+    double time;
+  };
+  std::deque<Past> past_;
+  std::vector<Seen> seen_;
+  double last_seen_ = -1e9;
+};
+
+}  // namespace cca
