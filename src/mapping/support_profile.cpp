@@ -11,8 +11,26 @@ constexpr double kMostHits = 200.0;  // per bin; more only makes the past heavie
 constexpr int kWindow = 2;           // bins on either side that speak for a place
 constexpr double kHitsOfHalfWeight = 8.0;
 
-double binWeight(const SupportBin& bin) {
-  return bin.hits / (bin.hits + kHitsOfHalfWeight);
+double binWeight(const SupportBin& bin) { return bin.hits / (bin.hits + kHitsOfHalfWeight); }
+
+/// A share of the bin's hits, those between t_min and t_max, on the bin's own lateral line.
+SupportBin part(const SupportBin& bin, double share, double t_min, double t_max) {
+  const double n = bin.hits, t = bin.t / n, d = bin.d / n;
+  const double var_t = bin.tt / n - t * t, cov = bin.td / n - t * d, var_d = bin.dd / n - d * d;
+  const double slope = var_t > 1e-9 ? cov / var_t : 0.0;
+  const double t_part = 0.5 * (t_min + t_max), d_part = d + slope * (t_part - t);
+  const double spread = (t_max - t_min) * (t_max - t_min) / 12.0;
+  SupportBin r;
+  r.hits = share * n;
+  r.passed = share * bin.passed;
+  r.t = r.hits * t_part;
+  r.d = r.hits * d_part;
+  r.tt = r.hits * (t_part * t_part + spread);
+  r.td = r.hits * (t_part * d_part + slope * spread);
+  r.dd = r.hits * (d_part * d_part + std::max(0.0, var_d - slope * slope * (var_t - spread)));
+  r.t_min = t_min;
+  r.t_max = t_max;
+  return r;
 }
 
 }  // namespace
@@ -30,6 +48,11 @@ void SupportBin::hit(double t_hit, double d_hit) {
 }
 
 void SupportBin::add(const SupportBin& other) {
+  gather(other);
+  if (hits > kMostHits) scale(kMostHits / hits);
+}
+
+void SupportBin::gather(const SupportBin& other) {
   if (other.hits > 0.0) {
     t_min = hits > 0.0 ? std::min(t_min, other.t_min) : other.t_min;
     t_max = hits > 0.0 ? std::max(t_max, other.t_max) : other.t_max;
@@ -41,7 +64,6 @@ void SupportBin::add(const SupportBin& other) {
   tt += other.tt;
   td += other.td;
   dd += other.dd;
-  if (hits > kMostHits) scale(kMostHits / hits);
 }
 
 void SupportBin::scale(double factor) {
@@ -69,9 +91,7 @@ double BinSums::residual() const {
   return std::max(0.0, var_d - cov * cov / var_t);
 }
 
-int SupportProfile::binOf(double t) {
-  return static_cast<int>(std::floor(t / kBinLength));
-}
+int SupportProfile::binOf(double t) { return static_cast<int>(std::floor(t / kBinLength)); }
 
 void SupportProfile::grow(int i) {
   if (bins_.empty()) first_ = i;
@@ -88,16 +108,22 @@ void SupportProfile::hit(double t, double d) {
   bin(i).hit(t, d);
 }
 
-void SupportProfile::pass(double t) {
+void SupportProfile::pass(double t, double rays) {
   const int i = binOf(t);
-  if (contains(i)) bin(i).passed += 1.0;
+  if (contains(i)) bin(i).passed = std::min(bin(i).passed + rays, kMostHits);
 }
 
 void SupportProfile::add(const SupportBin& other) {
   if (other.hits <= 0.0) return;
-  const int i = binOf(other.t / other.hits);
+  const int i = binOf(other.t_min), j = binOf(other.t_max);
   grow(i);
-  bin(i).add(other);
+  grow(j);
+  if (i == j) return bin(i).add(other);
+  // The hits straddle two bins: they are shared out as if they were spread evenly.
+  const double border = j * kBinLength;
+  const double share = (border - other.t_min) / (other.t_max - other.t_min);
+  bin(i).add(part(other, share, other.t_min, border));
+  bin(j).add(part(other, 1.0 - share, border, other.t_max));
 }
 
 SupportProfile SupportProfile::cutFrom(int from) {
@@ -111,7 +137,11 @@ SupportProfile SupportProfile::cutFrom(int from) {
 
 bool SupportProfile::prune() {
   for (SupportBin& bin : bins_) {
-    if (bin.passed > 4.0 && bin.passed > 2.0 * bin.hits) bin = SupportBin{};
+    if (bin.hits > 0.0 && bin.passed > 4.0 && bin.passed > 2.0 * bin.hits) {
+      const double passed = bin.passed;
+      bin = SupportBin{};
+      bin.passed = passed;
+    }
   }
   const auto stands = [](const SupportBin& bin) { return bin.hits > 0.0; };
   const auto begin = std::find_if(bins_.begin(), bins_.end(), stands);

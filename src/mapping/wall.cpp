@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "cca_mrpt/mapping/wall.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -54,6 +55,57 @@ struct FrameChange {
   }
 };
 
+constexpr double kDrift = 0.1;  // m
+constexpr int kBridgedBins = 5;
+
+constexpr double kShortestLine = 0.3;
+constexpr double kFewestHits = 10.0;
+
+LineSegment segmentOf(const Wall& wall, const BinRange& range, const MapNoise& noise) {
+  SupportBin sum;
+  double across = 0.0;
+  for (int i = range.first; i < range.last; ++i) sum.gather(wall.profile.bin(i));
+  const double n = sum.hits, visits = std::max(1.0, wall.visits);
+  (void)across;
+  LineSegment s;
+  if (n <= 0.0) return s;
+  const double t = sum.t / n, d = sum.d / n;
+  const double tt = sum.tt - n * t * t, td = sum.td - n * t * d, dd = sum.dd - n * d * d;
+  s.start = wall.onLine(wall.profile.bin(range.first).t_min);
+  s.end = wall.onLine(wall.profile.bin(range.last - 1).t_max);
+  s.moments.weight = n;
+  s.moments.mean = wall.toMap(t, d);
+  Eigen::Matrix2d axes, scatter;
+  axes << wall.direction, wall.normal();
+  scatter << tt, td, td, dd;
+  s.moments.scatter = axes * scatter * axes.transpose();
+  // Returns of one scan share its pose error: only new scans make the line better.
+  s.covariance(0, 0) = noise.offsetVariance() / visits + noise.rangeVariance() / n;
+  s.covariance(1, 1) =
+      noise.angleVariance() / visits + (tt > 0.0 ? std::min(1.0, noise.rangeVariance() / tt) : 1.0);
+  return s;
+}
+
+/// The id of the old piece that the segment covers most, if no new piece has it yet; otherwise 0.
+std::uint64_t takeId(const std::vector<MapLine>& old, const LineSegment& segment,
+                     const std::vector<MapLine>& taken) {
+  const Eigen::Vector2d u = segment.direction();
+  const double length = segment.length();
+  double most = 0.0;
+  std::uint64_t id = 0;
+  for (const MapLine& line : old) {
+    const double a = u.dot(line.segment.start - segment.start);
+    const double b = u.dot(line.segment.end - segment.start);
+    const double common = std::min(length, std::max(a, b)) - std::max(0.0, std::min(a, b));
+    const bool used =
+        std::any_of(taken.begin(), taken.end(), [&](const MapLine& t) { return t.id == line.id; });
+    if (used || common <= most) continue;
+    most = common;
+    id = line.id;
+  }
+  return id;
+}
+
 }  // namespace
 
 Eigen::Vector2d Wall::fittedDirection() const {
@@ -66,28 +118,55 @@ void absorb(Wall& wall, const Wall& other) {
     const SupportBin& bin = other.profile.bin(i);
     if (bin.hits > 0.0) wall.profile.add(change(bin));
   }
+  // A doorway has rays but no hits: it stands where it stood.
+  for (int i = other.profile.first(); i < other.profile.last(); ++i) {
+    const SupportBin& bin = other.profile.bin(i);
+    const double t = (i + 0.5) * SupportProfile::kBinLength;
+    if (bin.hits <= 0.0 && bin.passed > 0.0) {
+      wall.profile.pass(wall.toWall(other.toMap(t, 0.0)).x(), bin.passed);
+    }
+  }
 }
 
 BinSums sumsInFrameOf(const Wall& wall, const Wall& other) {
   return FrameChange(wall, other)(other.profile.sums());
 }
 
-void reanchor(Wall& wall, double tolerance) {
+void refit(Wall& wall) {
+  wall.fit = wall.profile.fit();
   if (wall.profile.empty()) return;
   const double t_first = wall.profile.first() * SupportProfile::kBinLength;
   const double t_last = wall.profile.last() * SupportProfile::kBinLength;
-  if (std::abs(wall.fit.at(t_first)) < tolerance && std::abs(wall.fit.at(t_last)) < tolerance) {
-    return;
-  }
+  const double drift = std::max(std::abs(wall.fit.at(t_first)), std::abs(wall.fit.at(t_last)));
+  if (drift < kDrift) return;
+  // The origin stays at t = 0, so that the bins keep their numbers.
   Wall moved;
   moved.direction = wall.fittedDirection();
-  const double t_mid = 0.5 * (t_first + t_last);
-  moved.origin = wall.toMap(t_mid, wall.fit.at(t_mid));
+  moved.origin = wall.onLine(0.0);
   absorb(moved, wall);
   wall.origin = moved.origin;
   wall.direction = moved.direction;
   wall.profile = std::move(moved.profile);
   wall.fit = wall.profile.fit();
+}
+
+void recut(Wall& wall, const MapNoise& noise, std::uint64_t& next_id) {
+  std::vector<BinRange> ranges;
+  wall.profile.supportedRanges(kBridgedBins, ranges);
+  std::vector<MapLine> pieces;
+  for (const BinRange& range : ranges) {
+    MapLine line;
+    line.segment = segmentOf(wall, range, noise);
+    line.support = line.segment.moments.weight;
+    if (line.segment.length() < kShortestLine || line.support < kFewestHits) continue;
+    line.id = takeId(wall.pieces, line.segment, pieces);
+    pieces.push_back(line);
+  }
+  for (MapLine& line : pieces) {
+    if (line.id == 0) line.id = next_id++;
+  }
+  wall.pieces = std::move(pieces);
+  wall.whole = segmentOf(wall, {wall.profile.first(), wall.profile.last()}, noise);
 }
 
 }  // namespace cca

@@ -5,10 +5,11 @@
 #include <vector>
 
 #include "cca_mrpt/mapping/line_segment.hpp"
+#include "cca_mrpt/mapping/map_clusters.hpp"
+#include "cca_mrpt/mapping/map_noise.hpp"
 #include "cca_mrpt/mapping/parameters.hpp"
 #include "cca_mrpt/mapping/scan.hpp"
-#include "cca_mrpt/mapping/wall.hpp"
-#include "cca_mrpt/mapping/wall_index.hpp"
+#include "cca_mrpt/mapping/walls.hpp"
 
 namespace cca {
 
@@ -26,6 +27,8 @@ class LineMap {
   /// Takes a scan at its T_map_sensor. Cost does not depend on the size of the map.
   /// @return  false where the pose is not finite: the scan is then left out.
   bool insert(const Scan& scan);
+  /// The same with lines (sensor frame, by bearing) that were extracted elsewhere.
+  bool insert(const Scan& scan, std::vector<LineSegment> lines);
   /// Merges scans that still wait for their batch to fill.
   void finishBatch();
 
@@ -33,51 +36,23 @@ class LineMap {
   std::vector<MapLine> lines() const;
   std::vector<PolyLine> polyLines() const;
 
-  /// Standard deviation of a scan's lateral misplacement against the map, learned from it.
-  double poseSigma() const { return pose_sigma_; }
+  /// What the map has learned about the noise and the pose error of its scans.
+  const MapNoise& noise() const { return noise_; }
+  const Walls& walls() const { return walls_; }
 
  private:
-  using Slot = WallIndex::Slot;
-  /// A segment of a new scan, in the map frame.
-  struct NewLine {
-    LineSegment segment;
-    Eigen::Vector2d viewpoint;
-    std::size_t scan = 0;  ///< in the batch
-    Slot wall = -1;        ///< where it went
+  struct Waiting {
+    Scan scan;
+    std::vector<LineSegment> lines;
   };
-
-  void mergeBatch();
-  void neighbours(const Eigen::Vector2d& from, const Eigen::Vector2d& to, std::vector<Slot>& found);
-  double likeness(const NewLine& line, const Wall& wall) const;
-  void place(NewLine& line);
-  void depositScan(const Scan& scan, std::size_t scan_index);
-  void castRays(const Scan& scan);
-  Slot wallAt(const Eigen::Vector2d& p_map, const Eigen::Vector2d& viewpoint) const;
-  void maintain(Slot slot);
-  bool splitWhereBent(Slot slot);
-  void mergeWithNeighbours(Slot slot);
-  bool oneWall(const Wall& wall, const Wall& other) const;
-  void recut(Wall& wall);
-  void reindex(Slot slot);
-  Slot newWall();
-  void removeWall(Slot slot);
-  void touch(Slot slot);
-  void learnPoseError(double innovation, double expected_variance);
+  std::vector<NewLine> newLines();
+  void learn(const std::vector<NewLine>& lines);
 
   CcaParameters parameters_;
-  std::vector<Wall> walls_;
-  std::vector<Slot> free_slots_;
-  WallIndex index_;
+  std::vector<Waiting> batch_;
+  Walls walls_;
+  MapNoise noise_;
   std::uint64_t next_id_ = 1;
-  std::uint64_t stamp_ = 0;
-  double pose_sigma_ = 0.04;
-  double pose_samples_ = 0.0;
-  double range_sigma_ = 0.015;
-
-  std::vector<Scan> batch_;
-  std::vector<NewLine> new_lines_;
-  std::vector<Slot> touched_;
-  std::vector<Slot> found_;
 };
 
 }  // namespace cca

@@ -17,6 +17,7 @@ struct SupportBin {
 
   void hit(double t_hit, double d_hit);
   void add(const SupportBin& other);
+  void gather(const SupportBin& other);  ///< the same, unbounded
   void scale(double factor);
 };
 
@@ -58,7 +59,7 @@ class SupportProfile {
   /// A return at (t, d); the profile grows to hold it.
   void hit(double t, double d);
   /// A ray went through at t; outside the profile this says nothing and costs nothing.
-  void pass(double t);
+  void pass(double t, double rays = 1.0);
   /// Another profile's bin, already in this frame.
   void add(const SupportBin& bin);
   /// Cuts [from, last()) off and returns it.

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "cca_mrpt/mapping/line_segment.hpp"
+#include "cca_mrpt/mapping/map_noise.hpp"
 #include "cca_mrpt/mapping/support_profile.hpp"
 #include "cca_mrpt/mapping/wall_index.hpp"
 
@@ -25,16 +26,17 @@ struct Wall {
   bool two_sided = false;  ///< seen from both sides, too thin to tell its faces apart
   SupportProfile profile;
   LateralFit fit;
-  std::vector<BinRange> ranges;  ///< what of the profile is occupied
-  std::vector<MapLine> pieces;   ///< the same as segments; parallel to `ranges`
+  double visits = 0.0;          ///< new lines that it took in, bounded
+  LineSegment whole;            ///< from first to last bin, for comparisons; map frame
+  std::vector<MapLine> pieces;  ///< its occupied stretches
 
   std::vector<WallIndex::Cell> cells;  ///< where the index names this wall
-  BinRange indexed;                    ///< the bins that those cells cover
-  double hits_at_check = 0.0;          ///< returns when it was last compared with its neighbours
-  double hits = 0.0;
-  std::uint64_t stamp = 0;
-  std::uint64_t ray_stamp = 0;
-  bool alive = false;
+  BinRange indexed;                    ///< the bins that those cells reach
+  double hits = 0.0;                   ///< returns ever taken in
+  double hits_at_check = 0.0;          ///< the same when it was last compared with its neighbours
+  int length_at_check = 0;             ///< bins
+  std::uint64_t ray = 0;               ///< the last ray that was tested against it
+  bool alive = false, touched = false;
 
   Eigen::Vector2d normal() const { return {-direction.y(), direction.x()}; }
   /// (t, d) of a point of the map frame.
@@ -43,9 +45,16 @@ struct Wall {
     return {direction.dot(v), direction.x() * v.y() - direction.y() * v.x()};
   }
   Eigen::Vector2d toMap(double t, double d) const { return origin + t * direction + d * normal(); }
+  /// The point of the fitted line at t.
+  Eigen::Vector2d onLine(double t) const { return toMap(t, fit.at(t)); }
   /// Unit vector of the fitted line in the map frame.
   Eigen::Vector2d fittedDirection() const;
-  /// Lateral distance of (t, d) from the fitted line.
+  /// True where the bin beside the point holds hits.
+  bool hitNear(const Eigen::Vector2d& p_map) const {
+    const int i = SupportProfile::binOf(toWall(p_map).x());
+    return profile.contains(i) && profile.bin(i).hits > 0.0;
+  }
+  /// Signed distance of (t, d) from the fitted line, m.
   double offLine(const Eigen::Vector2d& td) const { return td.y() - fit.at(td.x()); }
 };
 
@@ -53,7 +62,10 @@ struct Wall {
 void absorb(Wall& wall, const Wall& other);
 /// The other wall's bin sums in this wall's frame.
 BinSums sumsInFrameOf(const Wall& wall, const Wall& other);
-/// Moves the frame onto the fitted line where it has drifted from it by more than `tolerance` [m].
-void reanchor(Wall& wall, double tolerance);
+/// Fits the line, and moves the frame onto it where the two have drifted apart.
+void refit(Wall& wall);
+/// Renews `whole` and `pieces`; a piece keeps the id of the old piece that it covers most, others
+/// take new ones.
+void recut(Wall& wall, const MapNoise& noise, std::uint64_t& next_id);
 
 }  // namespace cca

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <vector>
+
+#include "cca_mrpt/mapping/map_clusters.hpp"
+#include "cca_mrpt/mapping/scan.hpp"
+
+namespace cca {
+
+/// Enters each return of the scan as a hit of the wall that it came from: the wall of the new line
+/// that it lies on, else the nearest wall that was hit there before, else none.
+///
+/// @param lines  those of this scan, by bearing.
+void depositReturns(const Scan& scan, const std::vector<NewLine>& lines, std::size_t scan_in_batch,
+                    const MapNoise& noise, Walls& walls);
+
+/// Counts each ray against the bins of the walls that it went clearly through: further behind them
+/// than noise and pose error could feign. A ray without return counts up to
+/// scan.free_range_without_return.
+///
+/// Cost: O(beams x cells of a ray), whatever the size of the map.
+void passRays(const Scan& scan, const MapNoise& noise, Walls& walls);
+
+}  // namespace cca

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+namespace cca {
+
+/// What misplaces a new line against the map, learned from the lines themselves.
+///
+/// The median of the magnitude of a normal variable is 0.6745 sigma: each innovation moves the
+/// estimate a small step towards the side that it fell on. No outlier can pull it further than that
+/// step, and nothing has to be stored. Deviation: the paper tunes its widths "dynamically" without
+/// saying how; this is ours.
+class MapNoise {
+ public:
+  /// @param offset       m, lateral distance of a line from the wall it belongs to.
+  /// @param own_variance m^2, what range noise alone explains of it.
+  void learnOffset(double offset, double own_variance);
+  /// @param angle  rad, between the two; variance in rad^2.
+  void learnAngle(double angle, double own_variance);
+  /// @param variance  m^2, of one return across its line.
+  void learnRange(double variance);
+
+  double offsetVariance() const { return offset_ * offset_; }
+  double angleVariance() const { return angle_ * angle_; }
+  double rangeVariance() const { return range_variance_; }
+  /// Standard deviation [m] of one return across the wall it belongs to.
+  double lateralSigma() const;
+
+ private:
+  double offset_ = 0.03, angle_ = 0.01;  // a usual localisation, until the data speak
+  double range_variance_ = 0.0;
+  double offsets_ = 0.0, angles_ = 0.0, ranges_ = 0.0;
+};
+
+}  // namespace cca

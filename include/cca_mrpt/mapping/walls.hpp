@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "cca_mrpt/mapping/wall.hpp"
+#include "cca_mrpt/mapping/wall_index.hpp"
+
+namespace cca {
+
+/// The walls of a map in slots that are reused, with the index that finds them.
+class Walls {
+ public:
+  using Slot = WallIndex::Slot;
+
+  Wall& operator[](Slot slot) { return walls_[static_cast<std::size_t>(slot)]; }
+  const Wall& operator[](Slot slot) const { return walls_[static_cast<std::size_t>(slot)]; }
+  const std::vector<Wall>& all() const { return walls_; }
+
+  /// A new, empty wall; invalidates references.
+  Slot create();
+  void remove(Slot slot);
+  /// Gives the slots of removed walls free, when nobody holds their numbers any more.
+  void recycle();
+  /// Tells the index where the wall lies now.
+  void place(Slot slot);
+
+  const std::vector<Slot>& at(const WallIndex::Cell& cell) const { return index_.at(cell); }
+  /// Walls near a stretch, each once, in the order of the stretch.
+  void near(const Eigen::Vector2d& from, const Eigen::Vector2d& to, std::vector<Slot>& found) const;
+  /// The wall that a return at `p` most likely came from: the nearest within `gate` [m] of its
+  /// fitted line that was hit near there before and shows its face to the viewer; -1 where there is
+  /// none.
+  Slot hitBy(const Eigen::Vector2d& p, const Eigen::Vector2d& viewpoint, double gate) const;
+
+  /// Walls that changed since they were last seen to, in order of their first change.
+  void touch(Slot slot);
+  std::vector<Slot>& touched() { return touched_; }
+  /// A number that no wall has seen a ray under.
+  std::uint64_t nextRay() { return ++ray_; }
+
+ private:
+  std::vector<Wall> walls_;
+  std::vector<Slot> free_, dead_, touched_;
+  WallIndex index_;
+  std::uint64_t ray_ = 0;
+};
+
+}  // namespace cca

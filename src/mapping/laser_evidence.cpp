@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "cca_mrpt/mapping/laser_evidence.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace cca {
+namespace {
+
+using Slot = Walls::Slot;
+constexpr double kGates = 3.0;
+constexpr double kLongestRay = 30.0;  // m; further out a beam is wider than a door
+constexpr double kClear = 0.1;        // m, two bins: the least that counts as "behind"
+constexpr double kBlind = 0.05;       // m, before the sensor
+
+/// Walks the cells of the index along a ray [Amanatides & Woo 1987].
+class CellWalk {
+ public:
+  CellWalk(const Eigen::Vector2d& origin, const Eigen::Vector2d& direction)
+      : cell_(WallIndex::cellOf(origin)) {
+    for (int k = 0; k < 2; ++k) {
+      step_[k] = direction[k] < 0.0 ? -1 : 1;
+      const double edge = (cell_[k] + (step_[k] > 0 ? 1 : 0)) * WallIndex::kCellSize;
+      const bool moves = direction[k] != 0.0;
+      next_[k] =
+          moves ? (edge - origin[k]) / direction[k] : std::numeric_limits<double>::infinity();
+      stride_[k] = moves ? WallIndex::kCellSize / std::abs(direction[k]) : 0.0;
+    }
+  }
+  const WallIndex::Cell& cell() const { return cell_; }
+  double entered() const { return entered_; }
+  void advance() {
+    const int k = next_[0] < next_[1] ? 0 : 1;
+    entered_ = next_[k];
+    next_[k] += stride_[k];
+    cell_[k] += step_[k];
+  }
+
+ private:
+  WallIndex::Cell cell_;
+  int step_[2] = {0, 0};
+  double next_[2] = {0.0, 0.0}, stride_[2] = {0.0, 0.0}, entered_ = 0.0;
+};
+
+struct Ray {
+  Eigen::Vector2d origin, direction;
+  double reach, clear;
+};
+
+/// Where along the wall the ray went clearly through its line; false where it did not.
+bool passes(const Ray& ray, const Wall& wall, double* t_cross) {
+  const Eigen::Vector2d o = wall.toWall(ray.origin);
+  const double along = wall.direction.dot(ray.direction);
+  const double across =
+      wall.direction.x() * ray.direction.y() - wall.direction.y() * ray.direction.x();
+  const double closing = wall.fit.slope * along - across;
+  const double off = wall.offLine(o);
+  // off / closing is the distance along the ray; it has to be positive and well before its end.
+  if (off * closing <= 0.0) return false;
+  const double at = off / closing;
+  if (at <= kBlind || at >= ray.reach - 2.0 * ray.clear) return false;
+  if ((ray.reach - at) * std::abs(closing) < ray.clear) return false;
+  *t_cross = o.x() + at * along;
+  return wall.profile.contains(SupportProfile::binOf(*t_cross));
+}
+
+}  // namespace
+
+void depositReturns(const Scan& scan, const std::vector<NewLine>& lines, std::size_t scan_in_batch,
+                    const MapNoise& noise, Walls& walls) {
+  const Pose2& T = scan.T_map_sensor;
+  const Eigen::Vector2d viewpoint = T.position();
+  std::vector<const NewLine*> mine;
+  for (const NewLine& line : lines) {
+    if (line.scan == scan_in_batch) mine.push_back(&line);
+  }
+  const double on_line = kGates * std::sqrt(noise.rangeVariance()) + 0.01;
+  const double on_wall = kGates * noise.lateralSigma();
+  std::size_t next = 0;
+  for (std::size_t beam = 0; beam < scan.size(); ++beam) {
+    if (!isReturn(scan.ranges[beam]) || scan.ranges[beam] > kLongestRay * 3.0) continue;
+    const double bearing = T.theta + scan.bearing(beam);
+    const Eigen::Vector2d p =
+        viewpoint + scan.ranges[beam] * Eigen::Vector2d(std::cos(bearing), std::sin(bearing));
+    Slot slot = -1;
+    // Lines come by bearing: a return lies on the current one or on one of the next.
+    for (std::size_t k = next; k < std::min(next + 3, mine.size()); ++k) {
+      const LineSegment& s = mine[k]->segment;
+      const Eigen::Vector2d u = s.direction(), v = p - s.start;
+      const double t = u.dot(v), d = std::abs(u.x() * v.y() - u.y() * v.x());
+      if (t < -1e-6 || t > s.length() + 1e-6 || d > on_line) continue;
+      slot = mine[k]->wall;
+      next = k;
+      break;
+    }
+    // A wall grows only where no other wall stands.
+    if (slot < 0 || !walls[slot].hitNear(p)) {
+      const Slot known = walls.hitBy(p, viewpoint, on_wall);
+      if (known >= 0) slot = known;
+    }
+    if (slot < 0) continue;
+    Wall& wall = walls[slot];
+    const Eigen::Vector2d td = wall.toWall(p);
+    wall.profile.hit(td.x(), td.y());
+    wall.hits += 1.0;
+    walls.touch(slot);
+  }
+}
+
+void passRays(const Scan& scan, const MapNoise& noise, Walls& walls) {
+  const Pose2& T = scan.T_map_sensor;
+  Ray ray;
+  ray.origin = T.position();
+  ray.clear = std::max(kClear, kGates * noise.lateralSigma());
+  for (std::size_t beam = 0; beam < scan.size(); ++beam) {
+    const double range = scan.ranges[beam];
+    ray.reach = isReturn(range) ? range : isNoReturn(range) ? scan.free_range_without_return : 0.0;
+    ray.reach = std::min(ray.reach, kLongestRay);
+    if (!(ray.reach > 2.0 * ray.clear)) continue;
+    const double bearing = T.theta + scan.bearing(beam);
+    ray.direction = {std::cos(bearing), std::sin(bearing)};
+    const std::uint64_t number = walls.nextRay();
+    for (CellWalk walk(ray.origin, ray.direction); walk.entered() < ray.reach; walk.advance()) {
+      for (const Slot slot : walls.at(walk.cell())) {
+        Wall& wall = walls[slot];
+        double t = 0.0;
+        if (wall.ray == number) continue;
+        wall.ray = number;
+        if (!passes(ray, wall, &t)) continue;
+        wall.profile.pass(t);
+        walls.touch(slot);
+      }
+    }
+  }
+}
+
+}  // namespace cca

@@ -1,0 +1,227 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "cca_mrpt/mapping/map_clusters.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "cca_mrpt/mapping/rank_order_clustering.hpp"
+#include "cca_mrpt/mapping/similarity.hpp"
+
+namespace cca {
+namespace {
+
+using Slot = Walls::Slot;
+
+constexpr double kLargestGap = 0.4;  // m, across which a wall is still the same to even odds
+constexpr double kNewLength = 0.15;  // m
+constexpr double kSteepest =
+    0.2;  // rad, deviation of orientation up to which a line can found a wall
+constexpr double kGates = 3.0;
+constexpr double kOffGate = 3.3;
+constexpr double kSameDirection = 0.8;
+
+/// A new line and a wall that resemble each other.
+struct Resemblance {
+  int line;
+  Slot wall;
+  double similarity;
+};
+
+double gapBetween(const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Wall& wall) {
+  const double first = wall.profile.first() * SupportProfile::kBinLength;
+  const double last = wall.profile.last() * SupportProfile::kBinLength;
+  return std::max({first - std::max(a.x(), b.x()), std::min(a.x(), b.x()) - last, 0.0});
+}
+
+double similarityOf(const NewLine& line, const Wall& wall, const MapNoise& noise) {
+  const double cosine = line.segment.direction().dot(wall.fittedDirection());
+  if ((wall.two_sided ? std::abs(cosine) : cosine) < kSameDirection) return 0.0;
+  const Eigen::Vector2d a = wall.toWall(line.segment.start), b = wall.toWall(line.segment.end);
+  const double off = 0.5 * (wall.offLine(a) + wall.offLine(b));
+  if (std::abs(off) > kOffGate * noise.lateralSigma()) return 0.0;
+  // Rays between the two do not arise here: the gap alone speaks, against the widest that is
+  // closed.
+  const double evidence = 1.5 * gapBetween(a, b, wall) / kLargestGap;
+  Memberships mu = memberships(line.segment, wall.whole, evidence);
+  mu.overlap = 1.0;  // it is the same face: lying side by side is what a second look does
+  return mu.similarity();
+}
+
+double similarityOf(const NewLine& a, const NewLine& b) {
+  if (a.scan == b.scan) return 0.0;  // the extraction has parted them
+  const Eigen::Vector2d u = a.segment.direction();
+  if (u.dot(b.segment.direction()) < kSameDirection) return 0.0;
+  const double b0 = u.dot(b.segment.start - a.segment.start);
+  const double b1 = u.dot(b.segment.end - a.segment.start);
+  const double gap = std::max({std::min(b0, b1) - a.segment.length(), -std::max(b0, b1), 0.0});
+  if (gap > kLargestGap) return 0.0;
+  Memberships mu = memberships(a.segment, b.segment, 1.5 * gap / kLargestGap);
+  mu.overlap = 1.0;
+  return mu.similarity();
+}
+
+/// Disjoint sets over the lines.
+class Neighbourhoods {
+ public:
+  explicit Neighbourhoods(std::size_t size) : parent_(size) {
+    std::iota(parent_.begin(), parent_.end(), 0);
+  }
+  int root(int i) {
+    while (parent_[static_cast<std::size_t>(i)] != i) {
+      int& up = parent_[static_cast<std::size_t>(i)];
+      i = up = parent_[static_cast<std::size_t>(up)];
+    }
+    return i;
+  }
+  void join(int i, int j) {
+    const int a = root(i), b = root(j);
+    parent_[static_cast<std::size_t>(std::max(a, b))] = std::min(a, b);
+  }
+
+ private:
+  std::vector<int> parent_;
+};
+
+double unexplainedLength(const NewLine& line, const MapNoise& noise, const Walls& walls) {
+  const double length = line.segment.length();
+  const int steps = 1 + static_cast<int>(length / SupportProfile::kBinLength);
+  int open = 0;
+  for (int i = 0; i < steps; ++i) {
+    const double share = (i + 0.5) / steps;
+    const Eigen::Vector2d p = line.segment.start + share * (line.segment.end - line.segment.start);
+    if (walls.hitBy(p, line.viewpoint, kGates * noise.lateralSigma()) < 0) ++open;
+  }
+  return length * open / steps;
+}
+
+void found(NewLine& line, const MapNoise& noise, Walls& walls) {
+  if (std::sqrt(line.own_angle_variance) > kSteepest) return;
+  if (unexplainedLength(line, noise, walls) < kNewLength) return;
+  line.wall = walls.create();
+  Wall& wall = walls[line.wall];
+  wall.origin = line.segment.moments.mean;
+  wall.direction = line.segment.direction();
+  wall.whole = line.segment;
+}
+
+/// One neighbourhood: its lines, the walls that they resemble, and how much.
+class Neighbourhood {
+ public:
+  Neighbourhood(std::vector<int> members, const std::vector<Resemblance>& resemblances)
+      : members_(std::move(members)) {
+    for (const Resemblance& r : resemblances) {
+      if (std::find(members_.begin(), members_.end(), r.line) == members_.end()) continue;
+      if (std::find(walls_.begin(), walls_.end(), r.wall) == walls_.end()) walls_.push_back(r.wall);
+    }
+  }
+
+  /// Walls first, then lines.
+  SimilarityMatrix matrix(const std::vector<NewLine>& lines,
+                          const std::vector<Resemblance>& resemblances, const Walls& walls) const {
+    const int w = static_cast<int>(walls_.size()), n = w + static_cast<int>(members_.size());
+    SimilarityMatrix s(n);
+    for (int i = 0; i < w; ++i) {
+      for (int j = i + 1; j < w; ++j) {
+        s.set(
+            i, j,
+            memberships(walls[walls_[at(i)]].whole, walls[walls_[at(j)]].whole, 0.0).similarity());
+      }
+    }
+    for (const Resemblance& r : resemblances) {
+      const auto member = std::find(members_.begin(), members_.end(), r.line);
+      if (member == members_.end()) continue;
+      const auto wall = std::find(walls_.begin(), walls_.end(), r.wall);
+      s.set(static_cast<int>(wall - walls_.begin()),
+            w + static_cast<int>(member - members_.begin()), r.similarity);
+    }
+    for (int i = w; i < n; ++i) {
+      for (int j = i + 1; j < n; ++j) {
+        double alike = similarityOf(lines[at(members_[at(i - w)])], lines[at(members_[at(j - w)])]);
+        // A wall that both are alike speaks for what lies between them.
+        for (int k = 0; k < w; ++k) alike = std::max(alike, std::min(s(i, k), s(j, k)));
+        s.set(i, j, alike);
+      }
+    }
+    return s;
+  }
+
+  void assign(const std::vector<int>& group, const SimilarityMatrix& s, std::vector<NewLine>& lines,
+              const MapNoise& noise, Walls& walls) const {
+    const int w = static_cast<int>(walls_.size());
+    std::vector<int> of_map, fresh;
+    for (const int k : group) (k < w ? of_map : fresh).push_back(k);
+    if (of_map.size() > 1) {
+      for (const int k : of_map) walls[walls_[at(k)]].hits_at_check = 0.0;
+    }
+    Slot founded = -1;
+    for (const int k : fresh) {
+      NewLine& line = lines[at(members_[at(k - w)])];
+      double best = 0.0;
+      for (const int m : of_map) {
+        if (s(k, m) <= best) continue;
+        best = s(k, m);
+        line.wall = walls_[at(m)];
+      }
+      if (!of_map.empty()) continue;
+      if (founded < 0) {
+        found(line, noise, walls);
+        founded = line.wall;
+      } else {
+        line.wall = founded;
+      }
+    }
+  }
+
+ private:
+  static std::size_t at(int i) { return static_cast<std::size_t>(i); }
+  std::vector<int> members_;
+  std::vector<Slot> walls_;
+};
+
+std::vector<Resemblance> resemblances(const std::vector<NewLine>& lines, double cut,
+                                      const MapNoise& noise, const Walls& walls) {
+  std::vector<Resemblance> all;
+  std::vector<Slot> near;
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    const Eigen::Vector2d reach = lines[i].segment.direction() * kLargestGap;
+    walls.near(lines[i].segment.start - reach, lines[i].segment.end + reach, near);
+    for (const Slot slot : near) {
+      const double s = similarityOf(lines[i], walls[slot], noise);
+      if (s >= cut) all.push_back({static_cast<int>(i), slot, s});
+    }
+  }
+  return all;
+}
+
+}  // namespace
+
+void clusterIntoMap(std::vector<NewLine>& lines, double cut, const MapNoise& noise, Walls& walls) {
+  const std::vector<Resemblance> alike = resemblances(lines, cut, noise, walls);
+  Neighbourhoods sets(lines.size());
+  for (std::size_t i = 0; i < alike.size(); ++i) {
+    for (std::size_t j = i + 1; j < alike.size(); ++j) {
+      if (alike[i].wall == alike[j].wall) sets.join(alike[i].line, alike[j].line);
+    }
+  }
+  const int n = static_cast<int>(lines.size());
+  for (int i = 0; i < n; ++i) {
+    for (int j = i + 1; j < n; ++j) {
+      const NewLine &a = lines[static_cast<std::size_t>(i)],
+                    &b = lines[static_cast<std::size_t>(j)];
+      if (a.scan != b.scan && similarityOf(a, b) >= cut) sets.join(i, j);
+    }
+  }
+  std::vector<std::vector<int>> members(lines.size());
+  for (int i = 0; i < n; ++i) members[static_cast<std::size_t>(sets.root(i))].push_back(i);
+  for (std::vector<int>& m : members) {
+    if (m.empty()) continue;
+    const Neighbourhood neighbourhood(std::move(m), alike);
+    const SimilarityMatrix s = neighbourhood.matrix(lines, alike, walls);
+    for (const std::vector<int>& group : rankOrderGroups(s, cut)) {
+      neighbourhood.assign(group, s, lines, noise, walls);
+    }
+  }
+}
+
+}  // namespace cca

@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "cca_mrpt/mapping/wall_upkeep.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace cca {
+namespace {
+
+using Slot = Walls::Slot;
+
+constexpr double kLineCost = 8.0;  // nat, four coordinates of 20 m at 2 cm
+const double kLargestGap = 1.0;    // m
+constexpr double kCheckHits = 100;
+constexpr double kDuplicate = 1.42;
+constexpr double kThinWall = 0.85;
+constexpr double kThinFloor = 0.07;
+constexpr double kDupFloor = 0.11;
+constexpr double kAnneal = 0.6;
+
+struct Extent {
+  double first, last;  // m, along a wall
+  double length() const { return last - first; }
+};
+
+Extent extentOf(const Wall& wall) {
+  return {wall.profile.first() * SupportProfile::kBinLength,
+          wall.profile.last() * SupportProfile::kBinLength};
+}
+
+Extent extentOf(const Wall& other, const Wall& frame) {
+  const Extent e = extentOf(other);
+  const double a = frame.toWall(other.toMap(e.first, 0.0)).x();
+  const double b = frame.toWall(other.toMap(e.last, 0.0)).x();
+  return {std::min(a, b), std::max(a, b)};
+}
+
+bool oneWall(const Wall& wall, const Wall& other, const MapNoise& noise) {
+  const double cosine = wall.fittedDirection().dot(other.fittedDirection());
+  if (std::abs(cosine) < 0.9) return false;
+  const Extent mine = extentOf(wall), theirs = extentOf(other, wall);
+  const double overlap = std::min(mine.last, theirs.last) - std::max(mine.first, theirs.first);
+  if (-overlap > kLargestGap) return false;
+  const BinSums a = wall.profile.sums(), b = sumsInFrameOf(wall, other);
+  if (a.w <= 0.0 || b.w <= 0.0) return false;
+  const bool same_side = cosine > 0.0 || wall.two_sided || other.two_sided;
+  const double sigma = noise.lateralSigma();
+  BinSums joint = a;
+  joint.add(b);
+  const double loss = std::max(0.0, joint.residual() - a.residual() - b.residual());
+  if (overlap > 0.5 * std::min(mine.length(), theirs.length())) {
+    // Of two faces with one front only one can be seen; of two with opposite fronts both can, where
+    // they lie far enough apart to be told apart. Parallels h apart lose h^2 w_a w_b / (w_a + w_b).
+    const double gate = same_side ? std::max(kDupFloor, 3.0 * sigma * kDuplicate)
+                                  : std::max(kThinFloor, 3.0 * sigma * kThinWall);
+    return loss * joint.w < gate * gate * a.w * b.w;
+  }
+  return same_side && loss < 2.0 * sigma * sigma * kAnneal * kLineCost;
+}
+
+void mergeWithNeighbours(Slot slot, Walls& walls, const MapNoise& noise) {
+  const Extent extent = extentOf(walls[slot]);
+  std::vector<Slot> near;
+  walls.near(walls[slot].onLine(extent.first - 0.5), walls[slot].onLine(extent.last + 0.5), near);
+  for (const Slot other_slot : near) {
+    Wall& wall = walls[slot];
+    Wall& other = walls[other_slot];
+    if (other_slot == slot || other.profile.empty() || !oneWall(wall, other, noise)) continue;
+    const bool opposed = wall.fittedDirection().dot(other.fittedDirection()) < 0.0;
+    wall.two_sided = wall.two_sided || other.two_sided || opposed;
+    absorb(wall, other);
+    wall.hits += other.hits;
+    wall.visits = std::max(wall.visits, other.visits);
+    wall.pieces.insert(wall.pieces.end(), other.pieces.begin(), other.pieces.end());
+    refit(wall);
+    walls.remove(other_slot);
+  }
+}
+
+/// Cuts the wall at its strongest bend; the part behind the bend becomes a wall of its own.
+void splitWhereBent(Slot slot, Walls& walls, const MapNoise& noise) {
+  const SupportProfile::Cut cut = walls[slot].profile.bestCut();
+  const double sigma = noise.lateralSigma();
+  if (cut.gain / (2.0 * sigma * sigma) < kLineCost) return;
+  const Slot tail_slot = walls.create();
+  Wall &wall = walls[slot], &tail = walls[tail_slot];
+  tail.origin = wall.origin;
+  tail.direction = wall.direction;
+  tail.two_sided = wall.two_sided;
+  tail.visits = wall.visits;
+  const double length = wall.profile.last() - wall.profile.first();
+  tail.profile = wall.profile.cutFrom(cut.at);
+  const double share = (tail.profile.last() - tail.profile.first()) / length;
+  tail.hits = share * wall.hits;
+  wall.hits -= tail.hits;
+  // Ids stay with the half that they lie on.
+  for (const MapLine& piece : wall.pieces) {
+    const Eigen::Vector2d middle = 0.5 * (piece.segment.start + piece.segment.end);
+    if (wall.toWall(middle).x() >= cut.at * SupportProfile::kBinLength)
+      tail.pieces.push_back(piece);
+  }
+  for (const MapLine& piece : tail.pieces) {
+    wall.pieces.erase(std::find_if(wall.pieces.begin(), wall.pieces.end(),
+                                   [&](const MapLine& p) { return p.id == piece.id; }));
+  }
+  wall.profile.prune();
+  refit(wall);
+  walls.touch(tail_slot);
+}
+
+bool changedMuch(const Wall& wall) {
+  const int length = wall.profile.last() - wall.profile.first();
+  const double new_hits = std::clamp(0.2 * wall.hits_at_check, 5.0, kCheckHits);
+  return wall.hits > wall.hits_at_check + new_hits || length > wall.length_at_check + 2;
+}
+
+}  // namespace
+
+void seeToTouched(Walls& walls, const MapNoise& noise, std::uint64_t& next_id) {
+  std::vector<Slot>& touched = walls.touched();
+  for (std::size_t i = 0; i < touched.size(); ++i) {
+    const Slot slot = touched[i];
+    walls[slot].touched = false;
+    if (!walls[slot].alive) continue;
+    walls[slot].profile.prune();
+    if (walls[slot].profile.empty()) {
+      walls.remove(slot);
+      continue;
+    }
+    refit(walls[slot]);
+    if (changedMuch(walls[slot])) {
+      splitWhereBent(slot, walls, noise);
+      mergeWithNeighbours(slot, walls, noise);
+      Wall& wall = walls[slot];
+      wall.hits_at_check = wall.hits;
+      wall.length_at_check = wall.profile.last() - wall.profile.first();
+    }
+    recut(walls[slot], noise, next_id);
+    walls.place(slot);
+  }
+  touched.clear();
+  walls.recycle();
+}
+
+}  // namespace cca

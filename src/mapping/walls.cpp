@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "cca_mrpt/mapping/walls.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace cca {
+namespace {
+
+constexpr double kReach = 0.3;  // m, a wall is found from this far away
+constexpr int kSlack = 10;      // bins that a wall may grow before it is indexed anew
+
+}  // namespace
+
+Walls::Slot Walls::create() {
+  Slot slot;
+  if (free_.empty()) {
+    slot = static_cast<Slot>(walls_.size());
+    walls_.emplace_back();
+  } else {
+    slot = free_.back();
+    free_.pop_back();
+    (*this)[slot] = Wall{};
+  }
+  (*this)[slot].alive = true;
+  return slot;
+}
+
+void Walls::remove(Slot slot) {
+  Wall& wall = (*this)[slot];
+  index_.remove(slot, wall.cells);
+  wall = Wall{};
+  dead_.push_back(slot);
+}
+
+void Walls::recycle() {
+  free_.insert(free_.end(), dead_.begin(), dead_.end());
+  dead_.clear();
+}
+
+void Walls::place(Slot slot) {
+  Wall& wall = (*this)[slot];
+  const BinRange now{wall.profile.first(), wall.profile.last()};
+  if (!wall.cells.empty() && now.first >= wall.indexed.first && now.last <= wall.indexed.last)
+    return;
+  index_.remove(slot, wall.cells);
+  wall.cells.clear();
+  wall.indexed = {now.first - kSlack, now.last + kSlack};
+  const double b = SupportProfile::kBinLength;
+  index_.insert(slot, wall.onLine(now.first * b - 0.2), wall.onLine(now.last * b + 0.2), kReach,
+                wall.cells);
+}
+
+void Walls::near(const Eigen::Vector2d& from, const Eigen::Vector2d& to,
+                 std::vector<Slot>& found) const {
+  found.clear();
+  const int steps = 1 + static_cast<int>((to - from).norm() / WallIndex::kCellSize * 2.0);
+  WallIndex::Cell before = WallIndex::cellOf(from) - WallIndex::Cell(1, 1);
+  for (int i = 0; i <= steps; ++i) {
+    const Eigen::Vector2d p = from + (to - from) * (static_cast<double>(i) / steps);
+    const WallIndex::Cell cell = WallIndex::cellOf(p);
+    if (cell == before) continue;
+    before = cell;
+    for (const Slot slot : index_.at(cell)) {
+      if (std::find(found.begin(), found.end(), slot) == found.end()) found.push_back(slot);
+    }
+  }
+}
+
+Walls::Slot Walls::hitBy(const Eigen::Vector2d& p, const Eigen::Vector2d& viewpoint,
+                         double gate) const {
+  double nearest = gate;
+  Slot best = -1;
+  for (const Slot slot : index_.at(WallIndex::cellOf(p))) {
+    const Wall& wall = (*this)[slot];
+    const Eigen::Vector2d td = wall.toWall(p);
+    const double off = std::abs(wall.offLine(td));
+    if (off >= nearest) continue;
+    const int i = SupportProfile::binOf(td.x());
+    if (!wall.profile.contains(i) || wall.profile.bin(i).hits <= 0.0) continue;
+    if (!wall.two_sided && wall.toWall(viewpoint).y() < 0.0) continue;
+    nearest = off;
+    best = slot;
+  }
+  return best;
+}
+
+void Walls::touch(Slot slot) {
+  Wall& wall = (*this)[slot];
+  if (wall.touched) return;
+  wall.touched = true;
+  touched_.push_back(slot);
+}
+
+}  // namespace cca
