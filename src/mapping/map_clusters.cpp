@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "cca_mrpt/mapping/map_similarity.hpp"
 #include "cca_mrpt/mapping/rank_order_clustering.hpp"
 #include "cca_mrpt/mapping/similarity.hpp"
 
@@ -40,12 +41,8 @@ double similarityOf(const NewLine& line, const Wall& wall, const MapNoise& noise
   const Eigen::Vector2d a = wall.toWall(line.segment.start), b = wall.toWall(line.segment.end);
   const double off = 0.5 * (wall.offLine(a) + wall.offLine(b));
   if (std::abs(off) > kOffGate * noise.lateralSigma()) return 0.0;
-  // Rays between the two do not arise here: the gap alone speaks, against the widest that is
-  // closed.
-  const double evidence = 1.5 * gapBetween(a, b, wall) / kLargestGap;
-  Memberships mu = memberships(line.segment, wall.whole, evidence);
-  mu.overlap = 1.0;  // it is the same face: lying side by side is what a second look does
-  return mu.similarity();
+  return mapMemberships(line.segment, wall.whole, gapBetween(a, b, wall) / kLargestGap, true)
+      .similarity();
 }
 
 double similarityOf(const NewLine& a, const NewLine& b) {
@@ -56,9 +53,13 @@ double similarityOf(const NewLine& a, const NewLine& b) {
   const double b1 = u.dot(b.segment.end - a.segment.start);
   const double gap = std::max({std::min(b0, b1) - a.segment.length(), -std::max(b0, b1), 0.0});
   if (gap > kLargestGap) return 0.0;
-  Memberships mu = memberships(a.segment, b.segment, 1.5 * gap / kLargestGap);
-  mu.overlap = 1.0;
-  return mu.similarity();
+  return mapMemberships(a.segment, b.segment, gap / kLargestGap, true).similarity();
+}
+
+double similarityOf(const Wall& a, const Wall& b) {
+  const bool same_facing =
+      a.two_sided || b.two_sided || a.fittedDirection().dot(b.fittedDirection()) > 0.0;
+  return mapMemberships(a.whole, b.whole, 0.0, same_facing).similarity();
 }
 
 /// Disjoint sets over the lines.
@@ -117,36 +118,35 @@ class Neighbourhood {
   }
 
   /// Walls first, then lines.
-  SimilarityMatrix matrix(const std::vector<NewLine>& lines,
-                          const std::vector<Resemblance>& resemblances, const Walls& walls) const {
+  Eigen::MatrixXd matrix(const std::vector<NewLine>& lines,
+                         const std::vector<Resemblance>& resemblances, const Walls& walls) const {
     const int w = static_cast<int>(walls_.size()), n = w + static_cast<int>(members_.size());
-    SimilarityMatrix s(n);
+    Eigen::MatrixXd s = Eigen::MatrixXd::Identity(n, n);
+    const auto set = [&s](int i, int j, double value) { s(i, j) = s(j, i) = value; };
     for (int i = 0; i < w; ++i) {
       for (int j = i + 1; j < w; ++j) {
-        s.set(
-            i, j,
-            memberships(walls[walls_[at(i)]].whole, walls[walls_[at(j)]].whole, 0.0).similarity());
+        set(i, j, similarityOf(walls[walls_[at(i)]], walls[walls_[at(j)]]));
       }
     }
     for (const Resemblance& r : resemblances) {
       const auto member = std::find(members_.begin(), members_.end(), r.line);
       if (member == members_.end()) continue;
       const auto wall = std::find(walls_.begin(), walls_.end(), r.wall);
-      s.set(static_cast<int>(wall - walls_.begin()),
-            w + static_cast<int>(member - members_.begin()), r.similarity);
+      set(static_cast<int>(wall - walls_.begin()), w + static_cast<int>(member - members_.begin()),
+          r.similarity);
     }
     for (int i = w; i < n; ++i) {
       for (int j = i + 1; j < n; ++j) {
         double alike = similarityOf(lines[at(members_[at(i - w)])], lines[at(members_[at(j - w)])]);
         // A wall that both are alike speaks for what lies between them.
         for (int k = 0; k < w; ++k) alike = std::max(alike, std::min(s(i, k), s(j, k)));
-        s.set(i, j, alike);
+        set(i, j, alike);
       }
     }
     return s;
   }
 
-  void assign(const std::vector<int>& group, const SimilarityMatrix& s, std::vector<NewLine>& lines,
+  void assign(const std::vector<int>& group, const Eigen::MatrixXd& s, std::vector<NewLine>& lines,
               const MapNoise& noise, Walls& walls) const {
     const int w = static_cast<int>(walls_.size());
     std::vector<int> of_map, fresh;
@@ -217,8 +217,12 @@ void clusterIntoMap(std::vector<NewLine>& lines, double cut, const MapNoise& noi
   for (std::vector<int>& m : members) {
     if (m.empty()) continue;
     const Neighbourhood neighbourhood(std::move(m), alike);
-    const SimilarityMatrix s = neighbourhood.matrix(lines, alike, walls);
-    for (const std::vector<int>& group : rankOrderGroups(s, cut)) {
+    const Eigen::MatrixXd s = neighbourhood.matrix(lines, alike, walls);
+    SimilarityMatrix sim(static_cast<int>(s.rows()));
+    for (int i = 0; i < s.rows(); ++i) {
+      for (int j = i + 1; j < s.cols(); ++j) sim.set(i, j, s(i, j));
+    }
+    for (const std::vector<int>& group : rankOrderGroups(sim, cut)) {
       neighbourhood.assign(group, s, lines, noise, walls);
     }
   }
