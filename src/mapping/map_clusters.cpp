@@ -222,8 +222,13 @@ void clusterIntoMap(std::vector<NewLine>& lines, double cut, const MapNoise& noi
     for (int i = 0; i < s.rows(); ++i) {
       for (int j = i + 1; j < s.cols(); ++j) sim.set(i, j, s(i, j));
     }
-    for (const std::vector<int>& group : rankOrderGroups(sim, cut)) {
-      neighbourhood.assign(group, s, lines, noise, walls);
+    const std::vector<int> group_of = rankOrderGroups(sim, cut);
+    std::vector<std::vector<int>> groups(group_of.size());
+    for (std::size_t i = 0; i < group_of.size(); ++i) {
+      groups[static_cast<std::size_t>(group_of[i])].push_back(static_cast<int>(i));
+    }
+    for (const std::vector<int>& group : groups) {
+      if (!group.empty()) neighbourhood.assign(group, s, lines, noise, walls);
     }
   }
 }
