@@ -16,7 +16,7 @@ namespace cca {
 namespace {
 
 constexpr double kRadiansPerDegree = M_PI / 180.0;
-constexpr double kLongestRange = 1000.0;  // m; the points' own limit: what is no return is unknown
+constexpr double kMatchedRange = 1000.0;  // m; the points' own limit: what is no return is unknown
 
 void configure(mrpt::slam::CMetricMapBuilderICP& icp, const IcpParameters& p) {
   icp.setVerbosityLevel(mrpt::system::LVL_ERROR);
@@ -78,7 +78,7 @@ Pose2 IcpLocalizer::locate(const Scan& scan, const Pose2& T_robot_sensor,
   actions.insert(movement);
   mrpt::obs::CSensoryFrame frame;
   frame.insert(std::make_shared<mrpt::obs::CObservation2DRangeScan>(
-      toMrpt(scan, T_robot_sensor, kLongestRange, 0.0)));
+      toMrpt(scan, T_robot_sensor, kMatchedRange, 0.0)));
   builder_->icp.processActionObservation(actions, frame);
   const mrpt::poses::CPose2D pose(builder_->icp.getCurrentPoseEstimation()->getMeanVal());
   return builder_->T_map_start * Pose2{pose.x(), pose.y(), wrapAngle(pose.phi())};
