@@ -9,12 +9,11 @@ namespace {
 
 constexpr double kAhead = 4.0;  // m, traced in front of the robot
 constexpr double kAheadClosely = 0.6;
-constexpr double kBeside = 0.15;  // m
-constexpr double kNearer = 0.02;  // m
-constexpr double kSensed = 8.0;   // m, traced each way for the first d_followed
-constexpr double kLost = 0.3;     // m, how far the boundary may move between two steps
-constexpr double kNarrow = 0.3;   // m, ahead
-constexpr double kHidden = 0.1;   // m, beyond what a beam sees
+constexpr double kLookedAt = 0.15;  // m
+constexpr double kSensed = 8.0;     // m, traced each way for the first d_followed
+constexpr double kLost = 0.3;       // m, how far the boundary may move between two steps
+constexpr double kNarrow = 0.3;     // m, ahead
+constexpr double kHidden = 0.1;     // m, beyond what a beam sees
 
 bool isInSight(const LocalView& view, const Eigen::Vector2d& p_map) {
   const double distance = (p_map - view.T_map_sensor.position()).norm();
@@ -29,7 +28,7 @@ void BoundaryFollower::start(const Eigen::Vector2d& start_map, bool on_the_right
   *this = {};
   on_the_right_ = on_the_right;
   d_followed_ = INFINITY;
-  nearest_map_.setConstant(INFINITY);
+  least_reach_ = INFINITY;
   const auto seen = [&](const Eigen::Vector2d& p_map) { return isInSight(view, p_map); };
   include(traceBoundary(space, start_map, !on_the_right, kSensed, seen), goal_map);
   trace_ = traceBoundary(space, start_map, on_the_right, kSensed, seen);
@@ -41,7 +40,8 @@ void BoundaryFollower::start(const Eigen::Vector2d& start_map, bool on_the_right
 std::optional<Eigen::Vector2d> BoundaryFollower::step(const Eigen::Vector2d& goal_map,
                                                       const LocalView& view,
                                                       const ConfigurationSpace& trace_space,
-                                                      const ConfigurationSpace& way_space) {
+                                                      const ConfigurationSpace& way_space,
+                                                      double d_reach) {
   if (!findAnchor(view, trace_space)) return std::nullopt;
   const auto seen = [&](const Eigen::Vector2d& p_map) { return isInSight(view, p_map); };
   auto trace = traceBoundary(trace_space, trace_[anchor_].center_map, on_the_right_,
@@ -54,8 +54,8 @@ std::optional<Eigen::Vector2d> BoundaryFollower::step(const Eigen::Vector2d& goa
   std::size_t target = trace_.size() - 1;
   while (target > 0 && !way_space.isFree(x, trace_[target].center_map)) --target;
   moveAnchor(x, goal_map, target);
-  passed_nearest_ = passed_nearest_ || (x - nearest_map_).norm() < kBeside;
-  if (circling_.closed() && !passed_nearest_ && !closely_) {
+  least_reach_ = std::min(least_reach_, d_reach);
+  if (circling_.closed() && !lookedAtNearest() && !closely_) {
     closely_ = true;
     circling_.reset();
   }
@@ -87,6 +87,12 @@ void BoundaryFollower::noteNarrowPlace() {
   }
 }
 
+bool BoundaryFollower::lookedAtNearest() const { return least_reach_ < d_followed_ + kLookedAt; }
+
+bool BoundaryFollower::circled() const {
+  return circling_.closed() && (lookedAtNearest() || closely_);
+}
+
 std::optional<Eigen::Vector2d> BoundaryFollower::takeNarrowPlace() {
   const auto place = narrow_map_;
   narrow_map_.reset();
@@ -104,9 +110,6 @@ void BoundaryFollower::include(const std::vector<BoundaryPoint>& trace,
 void BoundaryFollower::include(const Eigen::Vector2d& p_map, const Eigen::Vector2d& goal_map) {
   const double distance = (p_map - goal_map).norm();
   d_followed_ = std::min(d_followed_, distance);
-  if (distance >= (nearest_map_ - goal_map).norm() - kNearer) return;
-  nearest_map_ = p_map;
-  passed_nearest_ = false;
 }
 
 // To the trace's place nearest to the robot, up to the target.

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "cca_mrpt/mapping/range_noise.hpp"
 
@@ -11,11 +12,11 @@ namespace {
 
 constexpr double kAge = 0.45;  // s, of the scan to compare with: a walker has gone its own depth
 constexpr double kClearly = 0.12;  // m, beyond the noise
-constexpr int kBeamsAround = 2;    // of the earlier scan, to each side
+constexpr int kBeamsAround = 2;    // of the other scan, to each side
 constexpr int kLeastBeams = 3;     // of a mover
 constexpr double kJoined = 0.2;    // m, between neighbouring returns of a mover
-constexpr int kMostJoined = 60;    // beams: not along a whole wall
-constexpr double kNearby = 0.4;    // m, of where a mover was
+constexpr double kBody = 0.8;      // m, how far a mover reaches from its suspicious part
+constexpr double kNearby = 0.5;    // m, around a place where a mover was
 
 // The shortest free distance that the scan saw around the direction of a point; 0 where unknown.
 double seenAround(const Scan& scan, const Eigen::Vector2d& p_sensor) {
@@ -35,68 +36,85 @@ double seenAround(const Scan& scan, const Eigen::Vector2d& p_sensor) {
   return least;
 }
 
+// Map frame, by beam; the origin where there is no return.
+std::vector<Eigen::Vector2d> pointsOf(const Scan& scan) {
+  std::vector<Eigen::Vector2d> points(scan.size(), Eigen::Vector2d::Zero());
+  for (std::size_t i = 0; i < scan.size(); ++i) {
+    if (!isReturn(scan.ranges[i])) continue;
+    const double bearing = scan.T_map_sensor.theta + scan.bearing(i);
+    points[i] = scan.T_map_sensor.position() +
+                scan.ranges[i] * Eigen::Vector2d(std::cos(bearing), std::sin(bearing));
+  }
+  return points;
+}
+
+// First and last beam of each run of returns of `scan` that lie where `other` saw free space.
+std::vector<std::pair<std::size_t, std::size_t>> runsInFreeSpace(
+    const Scan& scan, const std::vector<Eigen::Vector2d>& points, const Scan& other,
+    double clearly) {
+  const Pose2 T = other.T_map_sensor.inverse();
+  const double c = std::cos(T.theta), s = std::sin(T.theta);
+  std::vector<std::pair<std::size_t, std::size_t>> runs;
+  std::size_t length = 0;
+  for (std::size_t i = 0; i <= scan.size(); ++i) {
+    bool in_free_space = false;
+    if (i < scan.size() && isReturn(scan.ranges[i]) && scan.ranges[i] <= MovingPoints::kFarthest) {
+      const Eigen::Vector2d p(T.x + c * points[i].x() - s * points[i].y(),
+                              T.y + s * points[i].x() + c * points[i].y());
+      in_free_space = p.norm() < seenAround(other, p) - clearly;
+    }
+    const bool goes_on =
+        in_free_space && length > 0 && (points[i] - points[i - 1]).norm() < kJoined;
+    if (!goes_on) {
+      if (length >= kLeastBeams) runs.emplace_back(i - length, i - 1);
+      length = 0;
+    }
+    if (in_free_space) ++length;
+  }
+  return runs;
+}
+
 }  // namespace
 
 std::vector<bool> MovingPoints::update(const Scan& scan, double time) {
-  const std::size_t n = scan.size();
-  std::vector<bool> moving(n, false);
-  std::vector<Eigen::Vector2d> points(n, Eigen::Vector2d::Zero());
-  const double c = std::cos(scan.T_map_sensor.theta), s = std::sin(scan.T_map_sensor.theta);
-  for (std::size_t i = 0; i < n; ++i) {
-    if (!isReturn(scan.ranges[i])) continue;
-    const double x = scan.ranges[i] * std::cos(scan.bearing(i));
-    const double y = scan.ranges[i] * std::sin(scan.bearing(i));
-    points[i] = scan.T_map_sensor.position() + Eigen::Vector2d(c * x - s * y, s * x + c * y);
-  }
-  const auto joined = [&](std::size_t i, std::size_t j) {
-    return isReturn(scan.ranges[i]) && isReturn(scan.ranges[j]) &&
-           (points[i] - points[j]).squaredNorm() < kJoined * kJoined;
-  };
-  std::vector<bool> suspicious(n, false);
+  std::vector<bool> moving(scan.size(), false);
+  const std::vector<Eigen::Vector2d> points = pointsOf(scan);
   while (past_.size() > 1 && past_[1].time <= time - kAge) past_.pop_front();
+  places_.erase(std::remove_if(places_.begin(), places_.end(),
+                               [&](const Place& place) { return time - place.time > kMemory; }),
+                places_.end());
   if (!past_.empty() && past_.front().time < time) {
-    const Scan& earlier = past_.front().scan;
+    const Past& earlier = past_.front();
     const double clearly = kClearly + 4.0 * rangeNoise(scan).range_sigma;
-    const Pose2 T_sensor_map = earlier.T_map_sensor.inverse();
-    const double ce = std::cos(T_sensor_map.theta), se = std::sin(T_sensor_map.theta);
-    for (std::size_t i = 0; i < n; ++i) {
-      if (!isReturn(scan.ranges[i]) || scan.ranges[i] > kFarthest) continue;
-      const Eigen::Vector2d p(T_sensor_map.x + ce * points[i].x() - se * points[i].y(),
-                              T_sensor_map.y + se * points[i].x() + ce * points[i].y());
-      suspicious[i] = p.norm() < seenAround(earlier, p) - clearly;
+    for (const auto& [first, last] : runsInFreeSpace(scan, points, earlier.scan, clearly)) {
+      markBody(points, first, last, moving);
+      places_.push_back({points[(first + last) / 2], time});
+    }
+    for (const auto& [first, last] : runsInFreeSpace(earlier.scan, earlier.points, scan, clearly)) {
+      places_.push_back({earlier.points[(first + last) / 2], time});
     }
   }
-  seen_.erase(std::remove_if(seen_.begin(), seen_.end(),
-                             [&](const Seen& seen) { return time - seen.time > kMemory; }),
-              seen_.end());
-  std::vector<Seen> now;
-  for (std::size_t i = 0; i < n;) {
-    std::size_t end = i;
-    while (end < n && suspicious[end] && (end == i || joined(end - 1, end))) ++end;
-    if (end - i < kLeastBeams) {
-      i = std::max(end, i + 1);
-      continue;
-    }
-    std::size_t first = i, last = end - 1;
-    for (int k = 0; k < kMostJoined && first > 0 && joined(first - 1, first); ++k) --first;
-    for (int k = 0; k < kMostJoined && last + 1 < n && joined(last, last + 1); ++k) ++last;
-    const Eigen::Vector2d middle = points[(i + end - 1) / 2];
-    for (std::size_t j = first; j <= last; ++j) {
-      if ((points[j] - middle).norm() < 2.0 * kNearby) moving[j] = true;
-    }
-    now.push_back({middle, time});
-    i = end;
-  }
-  for (std::size_t i = 0; i < n; ++i) {
+  for (std::size_t i = 0; i < scan.size(); ++i) {
     if (moving[i] || !isReturn(scan.ranges[i])) continue;
-    moving[i] = std::any_of(seen_.begin(), seen_.end(), [&](const Seen& seen) {
-      return (seen.p_map - points[i]).squaredNorm() < kNearby * kNearby;
+    moving[i] = std::any_of(places_.begin(), places_.end(), [&](const Place& place) {
+      return (place.p_map - points[i]).squaredNorm() < kNearby * kNearby;
     });
   }
-  seen_.insert(seen_.end(), now.begin(), now.end());
-  if (!now.empty()) last_seen_ = time;
-  past_.push_back({scan, time});
+  if (!places_.empty() && places_.back().time == time) last_seen_ = time;
+  past_.push_back({scan, points, time});
   return moving;
+}
+
+// All that is joined to the suspicious run, as far as a body reaches.
+void MovingPoints::markBody(const std::vector<Eigen::Vector2d>& points, std::size_t first,
+                            std::size_t last, std::vector<bool>& moving) {
+  const Eigen::Vector2d middle = points[(first + last) / 2];
+  const auto joined = [&](std::size_t i, std::size_t j) {
+    return (points[i] - points[j]).norm() < kJoined && (points[j] - middle).norm() < kBody;
+  };
+  while (first > 0 && joined(first, first - 1)) --first;
+  while (last + 1 < points.size() && joined(last, last + 1)) ++last;
+  for (std::size_t i = first; i <= last; ++i) moving[i] = true;
 }
 
 }  // namespace cca

@@ -19,6 +19,8 @@ constexpr double kInVain = 0.4;           // m
 constexpr double kSlack = 0.4;            // of the margin, given up on the way
 constexpr double kTraceSlack = 0.1;       // of the margin, given up along a boundary
 constexpr double kOnTheBoundary = 0.001;  // m
+constexpr double kSameArea = 1.0;         // m
+constexpr int kMostTimesStuck = 8;        // there, before it gives up
 constexpr double kWalkingSpeed = 1.0;     // m/s, of what moves, in any direction
 constexpr double kAmongMovers = 0.45;     // m/s, where somebody may come around the corner
 constexpr double kWaitFor = 2.5;          // m
@@ -34,6 +36,7 @@ void TangentBug::setGoal(const Eigen::Vector2d& goal_map) {
   motion_to_goal_.start();
   in_vain_map_.clear();
   shut_map_.clear();
+  stuck_at_map_.reset();
   progress_ = {};
 }
 
@@ -71,7 +74,11 @@ bool TangentBug::moverIsNear() const {
 // A gap as wide as the robot may look open from afar and shut from nearby: it is shut for good.
 void TangentBug::shutWhatIsTooNarrow() {
   const Eigen::Vector2d x = view_.T_map_robot.position();
-  if (state_ == TangentBugState::kBoundaryFollowing) {
+  times_stuck_ = stuck_at_map_ && (x - *stuck_at_map_).norm() < kSameArea ? times_stuck_ + 1 : 1;
+  if (times_stuck_ == 1) stuck_at_map_ = x;
+  if (times_stuck_ > kMostTimesStuck) {
+    state_ = TangentBugState::kUnreachable;
+  } else if (state_ == TangentBugState::kBoundaryFollowing) {
     if (const auto place = follower_.takeNarrowPlace()) shut_map_.push_back(*place);
   } else if (target_ && *target_ != x) {
     const double ahead = std::min((*target_ - x).norm(), way_space_.radius);
@@ -148,12 +155,15 @@ std::optional<Eigen::Vector2d> TangentBug::startFollowing() {
       motion_to_goal_.lastDirection().value_or(view_.T_map_robot.heading());
   const bool on_the_right = towards_goal.x() * last.y() - towards_goal.y() * last.x() > 0.0;
   follower_.start(hit, on_the_right, goal_map_, view_, trace_space_);
+  if (follower_.trace().empty()) {  // out of sight: the boundary beside the robot then
+    follower_.start(x, on_the_right, goal_map_, view_, trace_space_);
+  }
   state_ = TangentBugState::kBoundaryFollowing;
   return followBoundary();
 }
 
 std::optional<Eigen::Vector2d> TangentBug::followBoundary() {
-  const auto target = follower_.step(goal_map_, view_, trace_space_, way_space_);
+  const auto target = follower_.step(goal_map_, view_, trace_space_, way_space_, d_reach_);
   const double unsure = kUnsure * (reach_map_ - view_.T_map_robot.position()).norm();
   if (d_reach_ < follower_.followedDistance() - kLeave - unsure ||
       d_reach_ < 0.9 * kGoalTolerance) {

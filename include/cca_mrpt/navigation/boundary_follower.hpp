@@ -27,16 +27,18 @@ class BoundaryFollower {
              const LocalView& view, const ConfigurationSpace& space);
 
   /// @param trace_space  for tracing; @param way_space  with a slightly smaller radius, for ways.
+  /// @param d_reach  m, at this step.
   /// @return the place to head for; none where the boundary is no longer in sight.
   std::optional<Eigen::Vector2d> step(const Eigen::Vector2d& goal_map, const LocalView& view,
                                       const ConfigurationSpace& trace_space,
-                                      const ConfigurationSpace& way_space);
+                                      const ConfigurationSpace& way_space, double d_reach);
 
   bool onTheRight() const { return on_the_right_; }
   double followedDistance() const { return d_followed_; }  ///< d_followed, m
-  /// Whether the boundary has been circled and its place nearest to the goal been visited. Where a
-  /// short cut passed that place by, a second round keeps close to the boundary.
-  bool circled() const { return circling_.closed() && (passed_nearest_ || closely_); }
+  /// Whether the boundary has been circled, and its place nearest to the goal been looked at:
+  /// d_reach has come close to d_followed. Where a short cut passed that place by, a second round
+  /// keeps close to the boundary.
+  bool circled() const;
   double length() const { return length_; }                           ///< m, followed so far
   const std::vector<BoundaryPoint>& trace() const { return trace_; }  ///< in sight, from the robot
 
@@ -47,6 +49,7 @@ class BoundaryFollower {
  private:
   void include(const std::vector<BoundaryPoint>& trace, const Eigen::Vector2d& goal_map);
   void include(const Eigen::Vector2d& p_map, const Eigen::Vector2d& goal_map);
+  bool lookedAtNearest() const;
   bool findAnchor(const LocalView& view, const ConfigurationSpace& space);
   void noteNarrowPlace();
   void moveAnchor(const Eigen::Vector2d& x_map, const Eigen::Vector2d& goal_map, std::size_t last);
@@ -54,8 +57,8 @@ class BoundaryFollower {
   bool on_the_right_ = true;
   double length_ = 0.0, heading_ = 0.0;  ///< of the walk, at the anchor
   double d_followed_ = 0.0;
-  Eigen::Vector2d nearest_map_ = Eigen::Vector2d::Zero();  ///< the place of d_followed
-  bool passed_nearest_ = false, closely_ = false;
+  double least_reach_ = 0.0;  ///< m, the least d_reach of this following
+  bool closely_ = false;
   Circling circling_;
   std::vector<BoundaryPoint> trace_;
   std::size_t anchor_ = 0;  ///< of the trace

@@ -10,12 +10,12 @@
 namespace cca {
 
 /// Tells which returns come from something that moves: they lie where an earlier scan saw free
-/// space.
+/// space, or beside a place that an earlier scan saw taken and this one sees free.
 ///
-/// A scan of about half a second ago is looked up in the direction of each return; the return is
-/// suspicious where all beams around that direction saw clearly farther. Three suspicious
-/// neighbours are a mover, with all that is joined to them; a mover that pauses stays one for
-/// kMemory. Beyond kFarthest beams are too sparse to tell a thin pole from somebody.
+/// The scan of about half a second ago is looked up in the direction of each return, and the other
+/// way round; a return is suspicious where all beams around that direction saw clearly farther.
+/// Three suspicious neighbours are a mover, with all that is joined to them; a mover that pauses
+/// stays one for kMemory. Beyond kFarthest beams are too sparse to tell a thin pole from somebody.
 class MovingPoints {
  public:
   /// @param scan  smoothed. @param time  s, never falling.
@@ -26,19 +26,23 @@ class MovingPoints {
   bool areAround(double time) const { return time - last_seen_ < 60.0; }
 
   static constexpr double kFarthest = 6.0;  ///< m
-  static constexpr double kMemory = 1.5;    ///< s
+  static constexpr double kMemory = 2.0;    ///< s
 
  private:
   struct Past {
     Scan scan;
+    std::vector<Eigen::Vector2d> points;  ///< m, map frame, by beam
     double time;
   };
-  struct Seen {
+  struct Place {
     Eigen::Vector2d p_map;
     double time;
   };
+  static void markBody(const std::vector<Eigen::Vector2d>& points, std::size_t first,
+                       std::size_t last, std::vector<bool>& moving);
+
   std::deque<Past> past_;
-  std::vector<Seen> seen_;
+  std::vector<Place> places_;  ///< where movers were
   double last_seen_ = -1e9;
 };
 

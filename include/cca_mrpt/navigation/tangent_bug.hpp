@@ -21,7 +21,7 @@ enum class TangentBugState {
   kMotionToGoal,
   kBoundaryFollowing,
   kReached,
-  kUnreachable,  ///< proven: the boundary has been circled
+  kUnreachable,  ///< the boundary has been circled, or the robot can move nowhere
 };
 
 /// The local planner [Kamon, Rimon & Rivlin 1998], for a finite-range laser, in configuration
@@ -62,6 +62,8 @@ class TangentBug {
   TangentBugState state_ = TangentBugState::kReached;
   ProgressWatch progress_;
   std::vector<Eigen::Vector2d> shut_map_;  ///< places in gaps that proved too narrow
+  std::optional<Eigen::Vector2d> stuck_at_map_;
+  int times_stuck_ = 0;
   MovingPoints moving_points_;
   LocalView view_;
   ConfigurationSpace way_space_, trace_space_;
