@@ -68,16 +68,22 @@ void reverse(LocalView& view) {
 
 }  // namespace
 
-double LocalView::seenDistanceTowards(const Eigen::Vector2d& p_map) const {
-  if (seen.empty() || angle_increment == 0.0) return 0.0;
-  const Eigen::Vector2d p_sensor = T_map_sensor.inverse() * p_map;
-  const double bearing = std::atan2(p_sensor.y(), p_sensor.x());
+int LocalView::beamTowards(const Eigen::Vector2d& p_map) const {
+  if (seen.empty() || angle_increment == 0.0) return -1;
+  const Eigen::Vector2d to = p_map - T_map_sensor.position();
   const double turn = 2.0 * M_PI / std::abs(angle_increment);
-  double beam = std::fmod((bearing - angle_min) / angle_increment, turn);
+  double beam = std::fmod(
+      (std::atan2(to.y(), to.x()) - T_map_sensor.theta - angle_min) / angle_increment, turn);
   if (beam < -0.5) beam += turn;
-  const auto index = static_cast<std::size_t>(std::lround(std::max(beam, 0.0)));
-  if (index < seen.size()) return seen[index];
-  return index == seen.size() && turn - beam < 1.0 ? seen.front() : 0.0;
+  const auto n = static_cast<int>(seen.size());
+  const int index = static_cast<int>(std::lround(std::max(beam, 0.0)));
+  if (index < n) return index;
+  return index == n && turn - beam < 1.0 ? 0 : -1;
+}
+
+double LocalView::seenDistanceTowards(const Eigen::Vector2d& p_map) const {
+  const int beam = beamTowards(p_map);
+  return beam < 0 ? 0.0 : seen[static_cast<std::size_t>(beam)];
 }
 
 LocalView makeLocalView(const Scan& scan, const std::vector<bool>& moving, const Pose2& T_map_robot,

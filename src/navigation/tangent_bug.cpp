@@ -2,6 +2,7 @@
 #include "cca_mrpt/navigation/tangent_bug.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -24,6 +25,7 @@ constexpr int kMostTimesStuck = 8;        // there, before it gives up
 constexpr double kWalkingSpeed = 1.0;     // m/s, of what moves, in any direction
 constexpr double kAmongMovers = 0.45;     // m/s, where somebody may come around the corner
 constexpr double kWaitFor = 2.5;          // m
+constexpr std::array<double, 3> kLookAhead{-0.2, 0.0, 0.2};  // rad
 constexpr int kBearings = 360;
 constexpr double kControlPeriod = 0.1;  // s
 
@@ -90,8 +92,13 @@ void TangentBug::observe(const Scan& raw_scan, const Pose2& T_map_robot, double 
   const double radius = robot_.radius + robot_.safety_margin;
   const Eigen::Vector2d x = T_map_robot.position();
   const Scan scan = smoothScan(raw_scan);
-  view_ = makeLocalView(scan, moving_points_.update(scan, time), T_map_robot, 2.0 * radius);
-  view_.obstacles.insert(view_.obstacles.end(), shut_map_.begin(), shut_map_.end());
+  LocalView view =
+      makeLocalView(scan, moving_points_.update(scan, time), T_map_robot, 2.0 * radius);
+  memory_.update(view_, view, time);
+  view_ = std::move(view);
+  for (const auto& points : {memory_.points(), shut_map_}) {
+    view_.obstacles.insert(view_.obstacles.end(), points.begin(), points.end());
+  }
   view_.ends_here.resize(view_.obstacles.size(), false);
   way_space_ = {view_.obstacles, radius};
   // Pressed to an obstacle, the robot still sees the ways along it.
@@ -183,10 +190,21 @@ std::optional<Eigen::Vector2d> TangentBug::followBoundary() {
   return target;
 }
 
+// Whether at least one of three beams around the heading is valid.
+bool TangentBug::seesWhereItGoes() const {
+  const Pose2& T = view_.T_map_robot;
+  return std::any_of(kLookAhead.begin(), kLookAhead.end(), [&](double bearing) {
+    const Eigen::Vector2d ahead(std::cos(T.theta + bearing), std::sin(T.theta + bearing));
+    return view_.seenDistanceTowards(T.position() + 2.0 * ahead) > 0.0;
+  });
+}
+
 Velocity TangentBug::drive(const Velocity& velocity, double time) const {
   const Pose2 T_robot_map = view_.T_map_robot.inverse();
   Velocity wanted;
   if (target_) wanted = velocityTowards(T_robot_map * *target_, *target_ == goal_map_, robot_);
+  if (!seesWhereItGoes()) wanted.linear = 0.0;
+  if (view_.horizon == 0.0) wanted = {};
   if (moving_points_.areAround(time)) wanted.linear = std::min(wanted.linear, kAmongMovers);
   const double c = std::cos(T_robot_map.theta), s = std::sin(T_robot_map.theta);
   const auto inRobot = [&](const Eigen::Vector2d& p) -> Eigen::Vector2d {

@@ -21,6 +21,10 @@ struct LocalView {
   double angle_increment = 0.0;
   double horizon = 0.0;  ///< m, the farthest that any beam sees
 
+  /// @return the beam next to the point's bearing; -1 outside the field of view.
+  int beamTowards(const Eigen::Vector2d& p_map) const;
+  bool inFieldOfView(const Eigen::Vector2d& p_map) const { return beamTowards(p_map) >= 0; }
+
   /// @return m, how far the beam next to the point's bearing sees, measured from the sensor; 0
   ///         outside the field of view.
   double seenDistanceTowards(const Eigen::Vector2d& p_map) const;

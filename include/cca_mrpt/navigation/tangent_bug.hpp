@@ -13,6 +13,7 @@
 #include "cca_mrpt/navigation/moving_points.hpp"
 #include "cca_mrpt/navigation/progress_watch.hpp"
 #include "cca_mrpt/navigation/robot.hpp"
+#include "cca_mrpt/navigation/short_memory.hpp"
 #include "cca_mrpt/navigation/tangent_graph.hpp"
 
 namespace cca {
@@ -55,6 +56,7 @@ class TangentBug {
   std::optional<Eigen::Vector2d> moveToGoal();
   std::optional<Eigen::Vector2d> startFollowing();
   std::optional<Eigen::Vector2d> followBoundary();
+  bool seesWhereItGoes() const;
   Velocity drive(const Velocity& velocity, double time) const;
 
   RobotParameters robot_;
@@ -65,6 +67,7 @@ class TangentBug {
   std::optional<Eigen::Vector2d> stuck_at_map_;
   int times_stuck_ = 0;
   MovingPoints moving_points_;
+  ShortMemory memory_;
   LocalView view_;
   ConfigurationSpace way_space_, trace_space_;
   std::vector<FreeRange> free_ranges_;
