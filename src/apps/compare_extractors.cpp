@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
@@ -20,10 +21,23 @@ using namespace evidence;
 struct Options {
   std::vector<std::string> inputs;
   std::vector<double> noises;
+  std::vector<std::string> extractors;
   int polygons = 0, scans = 100, fit = 0;
   std::uint64_t seed = 1;
   std::string out;
 };
+
+bool isChosen(const Options& options, const std::string& name) {
+  return options.extractors.empty() ||
+         std::find(options.extractors.begin(), options.extractors.end(), name) !=
+             options.extractors.end();
+}
+
+std::vector<std::string> allNames() {
+  std::vector<std::string> names{"cca"};
+  for (const baselines::Baseline& baseline : baselines::all()) names.push_back(baseline.name);
+  return names;
+}
 
 bool isWorld(const std::string& path) { return std::filesystem::path(path).extension() == ".yaml"; }
 
@@ -103,6 +117,7 @@ void compare(const Options& options, const Parameters& parameters) {
   for (const ScanGroup& group : gather(options, parameters.laser)) {
     std::printf("\n### %s\n\n%s\n", title(group).c_str(), tableHead().c_str());
     for (const Contender& contender : contenders(parameters.mapping)) {
+      if (!isChosen(options, contender.name)) continue;
       const std::vector<Trial> trials = run(contender, group.scans);
       std::vector<std::optional<Estimate>> estimates;
       for (const Figure& figure : figures()) {
@@ -130,6 +145,7 @@ void fit(const Options& options, const Parameters& parameters) {
   if (scans.empty())
     throw std::runtime_error("--fit needs worlds or --polygons: logs have no truth");
   for (const baselines::Baseline& baseline : baselines::all()) {
+    if (!isChosen(options, baseline.name)) continue;
     const Fit best = fitParameters(baseline, scans, options.fit, options.seed);
     std::printf("%s: F1 %.4f with %s\n", baseline.name.c_str(), best.f1, best.parameters.c_str());
     std::fflush(stdout);
@@ -154,6 +170,9 @@ void addCompareExtractorsCommand(CLI::App& program) {
                    "range noises of the simulated scans [m], separated by commas")
       ->delimiter(',')
       ->check(CLI::Range(0.0, 1.0));
+  command->add_option("--extractors", options->extractors, "only these, separated by commas")
+      ->delimiter(',')
+      ->check(CLI::IsMember(allNames()));
   command->add_option("--seed", options->seed, "of places, noise and draws")->capture_default_str();
   command
       ->add_option("--fit", options->fit,

@@ -14,6 +14,15 @@ std::size_t inBlock(const WallIndex::Cell& cell, int bits) {
 
 }  // namespace
 
+WallIndex::WallIndex(const WallIndex& other) {
+  for (const auto& [key, block] : other.blocks_) blocks_[key] = std::make_unique<Block>(*block);
+}
+
+WallIndex& WallIndex::operator=(const WallIndex& other) {
+  WallIndex copy(other);
+  return *this = std::move(copy);
+}
+
 WallIndex::Cell WallIndex::cellOf(const Eigen::Vector2d& point) {
   return {static_cast<int>(std::floor(point.x() / kCellSize)),
           static_cast<int>(std::floor(point.y() / kCellSize))};

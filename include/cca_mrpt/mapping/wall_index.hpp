@@ -17,6 +17,12 @@ class WallIndex {
   using Cell = Eigen::Vector2i;
   static constexpr double kCellSize = 0.5;  ///< m
 
+  WallIndex() = default;
+  WallIndex(const WallIndex& other);
+  WallIndex& operator=(const WallIndex& other);
+  WallIndex(WallIndex&&) = default;
+  WallIndex& operator=(WallIndex&&) = default;
+
   static Cell cellOf(const Eigen::Vector2d& point);
 
   /// The walls of a cell, in order of insertion; empty where nothing is.

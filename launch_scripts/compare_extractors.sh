@@ -1,0 +1,24 @@
+#!/usr/bin/env bash
+# Regenerates docs/comparison.md: compare_extractors.sh [LOG...]
+# Without logs: the one that mrpt-common installs, and CARMEN logs in $CCA_SHARED_DATA/logs.
+set -eu
+cd "$(dirname "$0")/.."
+export PATH=/usr/bin:/bin:/usr/sbin:/sbin:$PATH
+./launch_scripts/install_dependencies.sh --tests
+cmake -S . -B build -DPYTHON_EXECUTABLE=/usr/bin/python3 >/dev/null
+cmake --build build --target cca-mrpt -j"$(nproc)"
+program=$(find build -name cca-mrpt -type f -perm -u+x | head -1)
+
+logs=("$@")
+if [ ${#logs[@]} -eq 0 ]; then
+  shared=${CCA_SHARED_DATA:-../shared/data}
+  for log in "/usr/share/mrpt/datasets/2006-01ENE-21-SENA_Telecom Faculty_one_loop_only.rawlog" \
+    "$shared"/logs/*.log.gz; do
+    [ -f "$log" ] && logs+=("$log")
+  done
+fi
+out=$(mktemp -d)
+trap 'rm -rf "$out"' EXIT
+"$program" compare-extractors maps/*.yaml ${logs[@]+"${logs[@]}"} --scans 20 --polygons 60 \
+  --noise 0,0.01,0.03,0.1 --out "$out"
+python3 launch_scripts/comparison_report.py "$out" docs/comparison.md docs/images
