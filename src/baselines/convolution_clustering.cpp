@@ -91,7 +91,7 @@ void extract(const Points& points, Run run, const ConvolutionClusteringParameter
 }  // namespace
 
 ConvolutionClusteringParameters ConvolutionClusteringParameters::tuned() {
-  return {};
+  return {4, 0.2, {0.54, 0.011}, 0.066, 8, {4, 0.45}};
 }
 
 std::vector<LineSegment> convolutionClustering(const Scan& scan,

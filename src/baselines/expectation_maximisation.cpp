@@ -59,7 +59,7 @@ Supported bestLine(const Pool& pool, const std::vector<std::size_t>& left,
 }  // namespace
 
 ExpectationMaximisationParameters ExpectationMaximisationParameters::tuned() {
-  return {};
+  return {{0.056, 0.91, {5, 0.14}}, 0.02, 50, 200, 1};
 }
 
 std::vector<LineSegment> expectationMaximisation(const Scan& scan,

@@ -6,7 +6,7 @@
 namespace cca::baselines {
 
 HoughTransformParameters HoughTransformParameters::tuned() {
-  return {};
+  return {{0.54, 0.011}, {0.066, 0.99, {4, 0.45}}};
 }
 
 std::vector<Points> houghPieces(const Points& points, const HoughTransformParameters& p) {

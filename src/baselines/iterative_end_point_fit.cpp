@@ -34,7 +34,7 @@ void split(const Points& points, Run run, const IterativeEndPointFitParameters& 
 }  // namespace
 
 IterativeEndPointFitParameters IterativeEndPointFitParameters::tuned() {
-  return {};
+  return {{{0.46, 11.5}, {7, 0.08}}, 0.146};
 }
 
 std::vector<LineSegment> iterativeEndPointFit(const Scan& scan,

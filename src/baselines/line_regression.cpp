@@ -78,7 +78,7 @@ void joinLike(const Points& points, std::vector<Run>& runs, const LineRegression
 }  // namespace
 
 LineRegressionParameters LineRegressionParameters::tuned() {
-  return {};
+  return {{{0.145, 17.0}, {8, 0.18}}, 3, 0.042, 0.57, 10.9};
 }
 
 std::vector<LineSegment> lineRegression(const Scan& scan, const LineRegressionParameters& p) {

@@ -28,9 +28,7 @@ FittedLine drawLine(const Pool& pool, const std::vector<std::size_t>& left,
 
 }  // namespace
 
-RansacParameters RansacParameters::tuned() {
-  return {};
-}
+RansacParameters RansacParameters::tuned() { return {{0.056, 0.91, {5, 0.14}}, 340, 1}; }
 
 std::vector<LineSegment> ransac(const Scan& scan, const RansacParameters& p) {
   Pool pool(returnedPoints(scan));

@@ -35,7 +35,7 @@ void split(const Points& points, Run run, double tolerance, std::vector<Run>& ou
 }  // namespace
 
 SplitAndMergeParameters SplitAndMergeParameters::tuned() {
-  return {};
+  return {{{0.67, 84.0}, {6, 0.14}}, 0.076};
 }
 
 std::vector<LineSegment> splitAndMerge(const Scan& scan, const SplitAndMergeParameters& p) {
