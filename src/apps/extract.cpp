@@ -1,14 +1,32 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <array>
+#include <cmath>
 #include <cstdio>
 #include <memory>
 #include <string>
 
+#include "cca_mrpt/io/atomic_file.hpp"
 #include "cca_mrpt/io/log_reader.hpp"
 #include "cca_mrpt/mapping/line_extraction.hpp"
 #include "commands.hpp"
 #include "parameter_options.hpp"
 
 namespace cca::apps {
+
+namespace {
+
+constexpr char kHeader[] = "scan_id,x1,y1,x2,y2,returns,sigma_lateral,sigma_angle\n";
+
+std::string row(int scan_id, const LineSegment& line) {
+  std::array<char, 256> text{};
+  const int length =
+      std::snprintf(text.data(), text.size(), "%d,%.6f,%.6f,%.6f,%.6f,%.0f,%.6f,%.6f\n", scan_id,
+                    line.start.x(), line.start.y(), line.end.x(), line.end.y(), line.moments.weight,
+                    std::sqrt(line.covariance(0, 0)), std::sqrt(line.covariance(1, 1)));
+  return {text.data(), static_cast<std::size_t>(length)};
+}
+
+}  // namespace
 
 void addExtractCommand(CLI::App& program) {
   auto* command = program.add_subcommand("extract", "lines of each single scan, sensor frame");
@@ -19,16 +37,13 @@ void addExtractCommand(CLI::App& program) {
   command->callback([log, out, options] {
     const Parameters parameters = options->resolve();
     auto reader = openLog(*log);
-    std::FILE* file = std::fopen(out->c_str(), "w");
-    if (!file) throw std::runtime_error(*out + ": cannot be written");
-    std::fprintf(file, "scan_id,x1,y1,x2,y2\n");
+    std::string csv = kHeader;
     for (int id = 0; auto record = reader->next(); ++id) {
-      for (const auto& line : extractLines(record->scan, parameters.mapping)) {
-        std::fprintf(file, "%d,%.6f,%.6f,%.6f,%.6f\n", id, line.start.x(), line.start.y(),
-                     line.end.x(), line.end.y());
+      for (const LineSegment& line : extractLines(record->scan, parameters.mapping)) {
+        csv += row(id, line);
       }
     }
-    std::fclose(file);
+    writeFile(*out, csv);
   });
 }
 

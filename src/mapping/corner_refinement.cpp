@@ -78,11 +78,11 @@ bool shareOut(const ScanPoints& points, const RunFitter& fitter, Runs* runs) {
 bool splitLines(const RunFitter& fitter, Runs* runs) {
   Runs parted;
   for (FittedRun& run : *runs) {
-    const bool may_gain = run.is_line && !run.is_searched && 0.5 * run.chi_square > kLinePrice;
+    const bool may_gain = !run.is_searched && (!run.is_line || 0.5 * run.chi_square > kLinePrice);
     const int middle =
         may_gain ? bestParting(fitter, run.first, run.first + 1, run.last - 1, run.last, run.price)
                  : -1;
-    run.is_searched = true;
+    if (run.is_line) run.is_searched = true;
     if (middle < 0) {
       parted.push_back(run);
       continue;

@@ -6,19 +6,20 @@
 namespace cca {
 
 FittedSegment::FittedSegment(const PointMoments& points, const FittedLine& fitted,
-                             double point_variance)
+                             const LineNoise& noise)
     : moments(points),
       line(fitted),
-      variance(point_variance),
-      chi_square(fitted.residual_sum_sq / point_variance) {
+      variance(noise.across),
+      chi_square(fitted.residual_sum_sq / noise.across) {
   const double told = kLinePrice + 0.5 * chi_square, alone = kPointPrice * points.weight;
-  is_line = points.weight >= kFewestPoints && told < alone && fitted.spread_sum_sq > point_variance;
+  is_line = points.weight >= kFewestPoints && told < alone &&
+            isDrawnOut(points.weight, fitted.spread_sum_sq, noise);
   price = is_line ? told : alone;
 }
 
 FittedSegment RunFitter::fit(const PointMoments& moments) const {
   const FittedLine line = fitLine(moments);
-  return {moments, line, noise_.lateralVariance(line.centroid, line.direction)};
+  return {moments, line, noise_.onLine(line.centroid, line.direction)};
 }
 
 FittedRun RunFitter::fit(int first, int last) const {
@@ -34,9 +35,9 @@ double RunFitter::price(int first, int last) const {
   if (last - first < kFewestPoints) return alone;
   const PointMoments moments = prefix_.run(first, last);
   const PrincipalAxis axis = principalAxis(moments);
-  const double variance = noise_.lateralVariance(moments.mean, axis);
-  const double told = kLinePrice + 0.5 * axis.residual_sum_sq / variance;
-  return axis.spread_sum_sq > variance ? std::min(told, alone) : alone;
+  const LineNoise noise = noise_.onLine(moments.mean, axis);
+  if (!isDrawnOut(moments.weight, axis.spread_sum_sq, noise)) return alone;
+  return std::min(alone, kLinePrice + 0.5 * axis.residual_sum_sq / noise.across);
 }
 
 }  // namespace cca

@@ -46,7 +46,7 @@ void reopenAtCorner(const PointNoise& noise, ScanPoints* points, RunFitter* fitt
 }  // namespace
 
 std::vector<LineSegment> extractLines(const Scan& scan, const CcaParameters& parameters) {
-  const PointNoise noise = wallNoise(rangeNoise(scan));
+  const PointNoise noise = rangeNoise(scan);
   ScanPoints points = scanPoints(scan);
   RunFitter fitter(points.positions, noise);
   Runs runs = fittedClusters(points, fitter, noise, parameters.points_per_cluster);

@@ -89,7 +89,7 @@ bool isLinear(const ScanPoints& points, const PrefixMoments& prefix, const Point
   if (run.size() <= 2) return true;
   const FittedLine line = fitLine(prefix.run(run.first, run.last));
   const Eigen::Vector2d normal(-line.direction.y(), line.direction.x());
-  const double variance = noise.lateralVariance(line.centroid, line.direction);
+  const double variance = noise.onLine(line.centroid, line.direction).across;
   const double gate_sq = kResidualGate * kResidualGate * variance;
   if (line.residual_sum_sq <= gate_sq) return true;
   for (int i = run.first; i < run.last; ++i) {

@@ -56,7 +56,9 @@ void lowerHalf(std::vector<Deviation>* all, Less less) {
 }  // namespace
 
 PointNoise rangeNoise(const Scan& scan) {
-  PointNoise noise{kFinestSigma, kBearingShare * std::abs(scan.angle_increment)};
+  PointNoise noise;
+  noise.range_sigma = kFinestSigma;
+  noise.bearing_sigma = kBearingShare * std::abs(scan.angle_increment);
   std::vector<Deviation> all = deviations(scan);
   if (all.empty()) return noise;
   lowerHalf(&all, [](const Deviation& a, const Deviation& b) { return a.slope < b.slope; });
@@ -64,11 +66,6 @@ PointNoise rangeNoise(const Scan& scan) {
   noise.range_sigma = std::max({kFinestSigma, kMedianToSigma * all.back().value / kSecondDifference,
                                 kUniformToSigma * rangeQuantum(scan.ranges)});
   return noise;
-}
-
-PointNoise wallNoise(PointNoise sensor) {
-  sensor.range_sigma = std::max(sensor.range_sigma, kStraightness);
-  return sensor;
 }
 
 }  // namespace cca

@@ -11,8 +11,8 @@ namespace {
 constexpr double kLineGate = 2.0 * kLinePrice;
 /// One ray that speaks against a wall is as much as the wall can bear.
 constexpr double kGapGate = 1.0;
-/// Two that share half of the shorter one lie side by side.
-constexpr double kOverlapGate = 0.5;
+/// 99.9 % quantile of chi-square, one degree of freedom.
+constexpr double kSideBySideGate = 10.83;
 
 double bell(double evidence, double gate) { return gate / (gate + evidence); }  // 0 for infinity
 
@@ -55,12 +55,12 @@ Memberships memberships(const FittedSegment& a, const FittedSegment& b, const Fi
                         double gap_evidence, double overlap) {
   Memberships mu;
   mu.fit = fitMembership(a, b, joint);
+  const double offset =
+      std::max(offsetStatistic(a, b, joint.variance), offsetStatistic(b, a, joint.variance));
   mu.orientation = bell(orientationStatistic(a, b, joint.variance), kLineGate);
-  mu.offset =
-      bell(std::max(offsetStatistic(a, b, joint.variance), offsetStatistic(b, a, joint.variance)),
-           kLineGate);
+  mu.offset = bell(offset, kLineGate);
   mu.gap = bell(gap_evidence, kGapGate);
-  mu.overlap = bell(overlap, kOverlapGate);
+  mu.overlap = bell(overlap * offset, kSideBySideGate);
   return mu;
 }
 

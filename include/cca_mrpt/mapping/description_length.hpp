@@ -22,18 +22,25 @@ inline constexpr double kPointPrice = 10.0;
 /// Two points always fit a line: three are the fewest that can speak against it.
 inline constexpr int kFewestPoints = 3;
 
+/// Whether points spread over more than their noise: a line has a direction only where twice the
+/// noise along it, and once the noise across, do not explain its extent. (The many returns of one
+/// spot are a streak along the beam, and would else make a line of it.)
+inline bool isDrawnOut(double points, double spread_sum_sq, const LineNoise& noise) {
+  constexpr double kSigmas = 2.0;
+  return spread_sum_sq > noise.across && spread_sum_sq > points * kSigmas * kSigmas * noise.along;
+}
+
 /// Points, the line through them, and which of the two tells the scan more briefly.
 struct FittedSegment {
   PointMoments moments;
   FittedLine line;
-  double variance = 0.0;    ///< m^2, of one point's distance from the line
+  double variance = 0.0;    ///< m^2, > 0, of one point's distance from the line
   double chi_square = 0.0;  ///< sum of the squared residuals over their variance
   double price = 0.0;       ///< nats, of the briefer telling
   bool is_line = false;     ///< the line is the briefer
 
-  /// @param point_variance  m^2, > 0.
-  FittedSegment(const PointMoments& points, const FittedLine& fitted, double point_variance);
   FittedSegment() = default;
+  FittedSegment(const PointMoments& points, const FittedLine& fitted, const LineNoise& noise);
 };
 
 /// A run of neighbouring points of a scan, first <= i < last.

@@ -12,30 +12,45 @@ namespace cca {
 /// No 2-D laser measures finer than this [m]; keeps noise-free simulations well posed.
 inline constexpr double kFinestSigma = 1e-3;
 
+/// A wall, plastered and furnished, is straight to about this [m]: finer detail is no line's
+/// concern.
+inline constexpr double kStraightness = 0.035;
+
+/// Variances [m^2] of a point that stands for a place on a line.
+struct LineNoise {
+  double across = 0.0;  ///< > 0, of its distance from the line
+  double along = 0.0;   ///< of its place on the line
+};
+
 /// What one laser point is worth: how far it may lie from the truth, along and across its beam.
 struct PointNoise {
   double range_sigma = 0.0;    ///< m, along the beam
   double bearing_sigma = 0.0;  ///< rad, of the beam's direction
+  double straightness =
+      kStraightness;  ///< m, of what the beam meets; counts where it is the larger
 
-  /// Variance [m^2] of the distance of `point` (sensor frame) from a line of unit `direction`.
+  /// Noise of `point` (sensor frame) as seen from a line of unit `direction`.
   ///
   /// A beam that grazes the line carries its range noise along the line, its bearing noise across.
-  double lateralVariance(const Eigen::Vector2d& point, const Eigen::Vector2d& direction) const {
+  LineNoise onLine(const Eigen::Vector2d& point, const Eigen::Vector2d& direction) const {
     const double along = point.dot(direction);
-    return lateralVariance(point.squaredNorm(), along * along);
+    return onLine(point.squaredNorm(), along * along);
   }
   /// The same for a direction given by its double angle.
-  double lateralVariance(const Eigen::Vector2d& point, const PrincipalAxis& axis) const {
+  LineNoise onLine(const Eigen::Vector2d& point, const PrincipalAxis& axis) const {
     const double xx = point.x() * point.x(), yy = point.y() * point.y();
     const double turned = (xx - yy) * axis.cos_2 + 2.0 * point.x() * point.y() * axis.sin_2;
-    return lateralVariance(xx + yy, 0.5 * (xx + yy + turned));
+    return onLine(xx + yy, 0.5 * (xx + yy + turned));
   }
 
  private:
-  double lateralVariance(double range_sq, double along_sq) const {
-    const double head_on = range_sq > 0.0 ? std::max(0.0, 1.0 - along_sq / range_sq) : 1.0;
-    return range_sigma * range_sigma * head_on + bearing_sigma * bearing_sigma * along_sq +
-           kFinestSigma * kFinestSigma;
+  LineNoise onLine(double range_sq, double along_sq) const {
+    const double grazing = range_sq > 0.0 ? std::clamp(along_sq / range_sq, 0.0, 1.0) : 0.0;
+    const double range_variance = range_sigma * range_sigma;
+    const double wall_variance = std::max(range_variance, straightness * straightness);
+    return {wall_variance * (1.0 - grazing) + bearing_sigma * bearing_sigma * along_sq +
+                kFinestSigma * kFinestSigma,
+            range_variance * grazing};
   }
 };
 
@@ -52,12 +67,5 @@ struct PointNoise {
 /// @return  sigma of at least kFinestSigma; that floor where no three neighbours have returns.
 /// Cost: O(N).
 PointNoise rangeNoise(const Scan& scan);
-
-/// A wall, plastered and furnished, is straight to about this [m]: finer detail is no line's
-/// concern.
-inline constexpr double kStraightness = 0.035;
-
-/// The deviations of points from a wall: the larger of what sensor and wall themselves bring.
-PointNoise wallNoise(PointNoise sensor);
 
 }  // namespace cca

@@ -18,7 +18,8 @@ struct Memberships {
   double offset = 0.0;       ///< mu_2: centroids off the other's extended line, likewise
   double gap = 0.0;          ///< mu_3: rays that speak against a wall between the two
   double fit = 0.0;          ///< mu_4: growth of the residuals when one line replaces the two
-  double overlap = 0.0;      ///< mu_5: they follow one another and do not lie side by side
+  double overlap = 0.0;      ///< mu_5: where they lie side by side, they lie on each other: the
+                             ///< two faces of a thin wall stay two
 
   /// The t-norm of the five, min.
   double similarity() const;

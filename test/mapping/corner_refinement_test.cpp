@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "cca_mrpt/mapping/corner_refinement.hpp"
+
+#include <gtest/gtest.h>
+
+#include "polygon_room.hpp"
+
+namespace cca {
+namespace {
+
+double price(const Runs& runs) {
+  double sum = 0.0;
+  for (const FittedRun& run : runs) sum += run.price;
+  return sum;
+}
+
+/// The shortest telling there is, by dynamic programming over all partings: O(N^2) fits.
+double shortestTelling(const RunFitter& fitter, int n) {
+  std::vector<double> least(n + 1, 0.0);
+  for (int j = 1; j <= n; ++j) {
+    least[j] = least[j - 1] + kPointPrice;
+    for (int i = 0; i < j; ++i) least[j] = std::min(least[j], least[i] + fitter.price(i, j));
+  }
+  return least[n];
+}
+
+struct Corner {
+  ScanPoints points;
+  PointNoise noise{0.03, 0.001, 0.0};
+  RunFitter fitter{points.positions, noise};
+
+  explicit Corner(unsigned seed) {
+    std::mt19937 random(seed);
+    points = scanPoints(scanOf(rectangle(-5.0, -5.0, 3.0, 3.0), 0.3, 0.01, 100, 0.03, &random));
+    fitter = RunFitter(points.positions, noise);
+  }
+};
+
+TEST(RefineCorners, MovesABoundaryToTheCorner) {
+  const Corner corner(1);
+  for (const int wrong : {40, 45, 52, 56}) {
+    Runs runs = {corner.fitter.fit(0, wrong), corner.fitter.fit(wrong, 100)};
+    while (refineCorners(corner.points, corner.fitter, &runs)) {
+    }
+    ASSERT_EQ(runs.size(), 2u) << wrong;
+    EXPECT_NEAR(runs[0].last, (M_PI / 4.0 - 0.3) / 0.01, 3.0);
+  }
+}
+
+TEST(RefineCorners, SplitsALineThatRunsThroughACorner) {
+  const Corner corner(2);
+  Runs runs = {corner.fitter.fit(0, 100)};
+  while (refineCorners(corner.points, corner.fitter, &runs)) {
+  }
+  EXPECT_EQ(runs.size(), 2u);
+}
+
+TEST(RefineCorners, FindsTheLineAmongLoosePoints) {
+  const Corner corner(3);
+  Runs runs;
+  for (int i = 0; i < 8; ++i) runs.push_back(corner.fitter.fit(i, i + 1));
+  EXPECT_TRUE(refineCorners(corner.points, corner.fitter, &runs));
+  EXPECT_EQ(runs.size(), 1u);
+  EXPECT_TRUE(runs[0].is_line);
+}
+
+TEST(RefineCorners, NeverLengthensTheTellingAndEnds) {
+  for (unsigned seed = 0; seed < 20; ++seed) {
+    const Corner corner(seed);
+    Runs runs;
+    const int step = 3 + static_cast<int>(seed);
+    for (int i = 0; i < 100; i += step) {
+      runs.push_back(corner.fitter.fit(i, std::min(100, i + step)));
+    }
+    double before = price(runs);
+    int rounds = 0;
+    while (refineCorners(corner.points, corner.fitter, &runs)) {
+      EXPECT_LE(price(runs), before + 1e-9);
+      before = price(runs);
+      ASSERT_LT(++rounds, 100);
+      int next = 0;
+      for (const FittedRun& run : runs) {
+        EXPECT_EQ(run.first, next);
+        next = run.last;
+      }
+      EXPECT_EQ(next, 100);
+    }
+  }
+}
+
+TEST(RefineCorners, WithMergingComesCloseToTheShortestTellingThereIs) {
+  double excess = 0.0;
+  for (unsigned seed = 0; seed < 10; ++seed) {
+    const Corner corner(seed);
+    Runs runs;
+    for (int i = 0; i < 100; i += 5) runs.push_back(corner.fitter.fit(i, i + 5));
+    for (bool changed = true; changed;) {
+      changed = false;
+      while (mergeConsecutive(corner.points, corner.fitter, 0.5, &runs)) changed = true;
+      if (refineCorners(corner.points, corner.fitter, &runs)) changed = true;
+    }
+    const double least = shortestTelling(corner.fitter, 100);
+    EXPECT_GE(price(runs), least - 1e-6);
+    excess += price(runs) - least;
+  }
+  EXPECT_LT(excess / 10.0, 0.1 * kLinePrice);
+}
+
+}  // namespace
+}  // namespace cca

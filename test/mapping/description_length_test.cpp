@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "cca_mrpt/mapping/description_length.hpp"
+
+#include <gtest/gtest.h>
+
+#include "polygon_room.hpp"
+
+namespace cca {
+namespace {
+
+TEST(RunFitter, PricesARunAsItsFitDoes) {
+  std::mt19937 random(4);
+  const ScanPoints points = scanPoints(turnIn(rectangle(-2.0, -1.0, 3.0, 2.0), 0.03, &random));
+  const RunFitter fitter(points.positions, {0.035, 0.001, 0.0});
+  for (int first = 0; first < 360; first += 11) {
+    for (int last = first + 1; last <= 360; last += 13) {
+      EXPECT_NEAR(fitter.price(first, last), fitter.fit(first, last).price, 1e-6);
+    }
+  }
+  EXPECT_EQ(fitter.price(5, 5), 0.0);
+}
+
+TEST(RunFitter, TakesNoTwoPointsAndNoHeapForALine) {
+  const std::vector<Eigen::Vector2d> points = {{1, 0}, {1, 1}, {2, 2}, {2, 2}, {2, 2}, {2, 2}};
+  const RunFitter fitter(points, {0.01, 0.001, 0.0});
+  EXPECT_FALSE(fitter.fit(0, 2).is_line);
+  EXPECT_FALSE(fitter.fit(2, 6).is_line);
+}
+
+TEST(RunFitter, TellsThreePointsOfAWallByALineAndThreeScatteredOnesAlone) {
+  const RunFitter wall({{1, 0}, {1, 1}, {1, 2}}, {0.01, 0.001, 0.0});
+  EXPECT_TRUE(wall.fit(0, 3).is_line);
+  EXPECT_NEAR(wall.fit(0, 3).price, kLinePrice, 1e-9);
+  const RunFitter clutter({{1, 0}, {1.5, 1}, {1, 2}}, {0.01, 0.001, 0.0});
+  EXPECT_FALSE(clutter.fit(0, 3).is_line);
+  EXPECT_NEAR(clutter.fit(0, 3).price, 3.0 * kPointPrice, 1e-9);
+}
+
+}  // namespace
+}  // namespace cca
