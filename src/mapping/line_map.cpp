@@ -19,8 +19,9 @@ constexpr double kMostVisits = 200.0;
 NewLine inMap(const LineSegment& line, const Pose2& T_map_sensor, const MapNoise& noise) {
   NewLine n;
   n.viewpoint = T_map_sensor.position();
-  n.own_offset_variance = line.covariance(0, 0);
-  n.own_angle_variance = line.covariance(1, 1);
+  const double spread = fitLine(line.moments).spread_sum_sq;
+  n.own_offset_variance = noise.rangeVariance() / line.moments.weight;
+  n.own_angle_variance = spread > 0.0 ? std::min(1.0, noise.rangeVariance() / spread) : 1.0;
   n.segment = line;
   n.segment.start = T_map_sensor * line.start;
   n.segment.end = T_map_sensor * line.end;
@@ -29,8 +30,8 @@ NewLine inMap(const LineSegment& line, const Pose2& T_map_sensor, const MapNoise
   R << heading.x(), -heading.y(), heading.y(), heading.x();
   n.segment.moments.mean = T_map_sensor * line.moments.mean;
   n.segment.moments.scatter = R * line.moments.scatter * R.transpose();
-  n.segment.covariance(0, 0) += noise.offsetVariance();
-  n.segment.covariance(1, 1) += noise.angleVariance();
+  n.segment.covariance << n.own_offset_variance + noise.offsetVariance(), 0.0, 0.0,
+      n.own_angle_variance + noise.angleVariance();
   const Eigen::Vector2d u = n.segment.direction(), v = n.viewpoint - n.segment.start;
   if (u.x() * v.y() - u.y() * v.x() < 0.0) std::swap(n.segment.start, n.segment.end);
   return n;
@@ -65,7 +66,9 @@ std::vector<NewLine> LineMap::newLines() {
   for (std::size_t s = 0; s < batch_.size(); ++s) {
     for (const LineSegment& line : batch_[s].lines) {
       if (!(line.length() > 0.0) || !(line.moments.weight > 0.0)) continue;
-      noise_.learnRange(line.covariance(0, 0) * line.moments.weight);
+      const FittedLine fitted = fitLine(line.moments);
+      const double freedom = line.moments.weight - 2.0;
+      if (freedom > 2.0) noise_.learnRange(fitted.residual_sum_sq / freedom);
       lines.push_back(inMap(line, batch_[s].scan.T_map_sensor, noise_));
       lines.back().scan = s;
     }

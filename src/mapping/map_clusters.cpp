@@ -15,7 +15,7 @@ namespace {
 using Slot = Walls::Slot;
 
 constexpr double kLargestGap = 0.4;  // m, across which a wall is still the same to even odds
-constexpr double kNewLength = 0.15;  // m
+constexpr double kNewLength = 0.1;  // m
 constexpr double kSteepest =
     0.2;  // rad, deviation of orientation up to which a line can found a wall
 constexpr double kGates = 3.0;

@@ -10,6 +10,8 @@ namespace {
 constexpr double kMostHits = 200.0;  // per bin; more only makes the past heavier
 constexpr int kWindow = 2;           // bins on either side that speak for a place
 constexpr double kHitsOfHalfWeight = 8.0;
+constexpr double kFewestRays = 2.0;    // that can refute a place
+constexpr double kRaysPerHit = 0.5;
 
 double binWeight(const SupportBin& bin) { return bin.hits / (bin.hits + kHitsOfHalfWeight); }
 
@@ -165,7 +167,7 @@ bool SupportProfile::occupied(int i) const {
     hits += bin(j).hits;
     passed += bin(j).passed;
   }
-  return passed < 2.0 || passed < 0.7 * hits;
+  return passed < kFewestRays || passed < kRaysPerHit * hits;
 }
 
 void SupportProfile::supportedRanges(int max_gap, std::vector<BinRange>& ranges) const {

@@ -56,7 +56,7 @@ struct FrameChange {
 };
 
 constexpr double kDrift = 0.1;  // m
-constexpr int kBridgedBins = 5;
+constexpr int kBridgedBins = 4;
 
 constexpr double kShortestLine = 0.3;
 constexpr double kFewestHits = 10.0;
