@@ -11,8 +11,9 @@ namespace {
 using Slot = Walls::Slot;
 constexpr double kGates = 3.0;
 constexpr double kLongestRay = 30.0;  // m; further out a beam is wider than a door
-constexpr double kClear = 0.1;        // m, two bins: the least that counts as "behind"
-constexpr double kBlind = 0.05;       // m, before the sensor
+constexpr double kLongestReturn = 100.0;
+constexpr double kClear = 0.1;   // m, two bins: the least that counts as "behind"
+constexpr double kBlind = 0.05;  // m, before the sensor
 
 /// Walks the cells of the index along a ray [Amanatides & Woo 1987].
 class CellWalk {
@@ -79,7 +80,7 @@ void depositReturns(const Scan& scan, const std::vector<NewLine>& lines, std::si
   const double on_wall = kGates * noise.lateralSigma();
   std::size_t next = 0;
   for (std::size_t beam = 0; beam < scan.size(); ++beam) {
-    if (!isReturn(scan.ranges[beam]) || scan.ranges[beam] > kLongestRay * 3.0) continue;
+    if (!isReturn(scan.ranges[beam]) || scan.ranges[beam] > kLongestReturn) continue;
     const double bearing = T.theta + scan.bearing(beam);
     const Eigen::Vector2d p =
         viewpoint + scan.ranges[beam] * Eigen::Vector2d(std::cos(bearing), std::sin(bearing));

@@ -14,6 +14,9 @@ namespace {
 
 constexpr double kTellingLength = 1.0;  // m; shorter lines say little about the pose
 constexpr double kMostVisits = 200.0;
+constexpr double kFarthestPose = 1e7;    // m; beyond, a double no longer tells bins apart
+constexpr double kLongestSight = 500.0;  // m; no 2-D laser sees further
+constexpr double kCornerReach = 0.1;     // m, two bins of support
 
 /// The line in the map frame, its sensor on the left, the pose error in its covariance.
 NewLine inMap(const LineSegment& line, const Pose2& T_map_sensor, const MapNoise& noise) {
@@ -43,7 +46,8 @@ bool LineMap::insert(const Scan& scan) { return insert(scan, extractLines(scan, 
 
 bool LineMap::insert(const Scan& scan, std::vector<LineSegment> lines) {
   const Pose2& T = scan.T_map_sensor;
-  if (!std::isfinite(T.x) || !std::isfinite(T.y) || !std::isfinite(T.theta)) return false;
+  const bool in_reach = std::abs(T.x) < kFarthestPose && std::abs(T.y) < kFarthestPose;
+  if (!in_reach || !std::isfinite(T.theta)) return false;
   batch_.push_back({scan, std::move(lines)});
   if (static_cast<int>(batch_.size()) >= parameters_.scans_per_batch) finishBatch();
   return true;
@@ -65,7 +69,9 @@ std::vector<NewLine> LineMap::newLines() {
   std::vector<NewLine> lines;
   for (std::size_t s = 0; s < batch_.size(); ++s) {
     for (const LineSegment& line : batch_[s].lines) {
-      if (!(line.length() > 0.0) || !(line.moments.weight > 0.0)) continue;
+      const double length = line.length(), distance = line.moments.mean.norm();
+      const bool sane = length > 0.0 && length < kLongestSight && distance < kLongestSight;
+      if (!sane || !(line.moments.weight > 0.0)) continue;
       const FittedLine fitted = fitLine(line.moments);
       const double freedom = line.moments.weight - 2.0;
       if (freedom > 2.0) noise_.learnRange(fitted.residual_sum_sq / freedom);
@@ -98,7 +104,7 @@ void LineMap::learn(const std::vector<NewLine>& lines) {
   }
 }
 
-std::vector<MapLine> LineMap::lines() const {
+std::vector<MapLine> LineMap::pieces() const {
   std::vector<MapLine> all;
   for (const Wall& wall : walls_.all()) {
     all.insert(all.end(), wall.pieces.begin(), wall.pieces.end());
@@ -107,6 +113,16 @@ std::vector<MapLine> LineMap::lines() const {
   return all;
 }
 
-std::vector<PolyLine> LineMap::polyLines() const { return {}; }
+std::vector<MapLine> LineMap::lines() const {
+  std::vector<MapLine> all = pieces();
+  joinCorners(all, kCornerReach);
+  return all;
+}
+
+std::vector<PolyLine> LineMap::polyLines() const {
+  std::vector<MapLine> all = pieces();
+  const std::vector<Corner> corners = joinCorners(all, kCornerReach);
+  return chainLines(all, corners);
+}
 
 }  // namespace cca

@@ -9,7 +9,7 @@ namespace {
 
 using Slot = Walls::Slot;
 
-constexpr double kLineCost = 8.0;  // nat, four coordinates of 20 m at 2 cm
+constexpr double kLineCost = 10.0;  // nat, four coordinates of 20 m at 2 cm
 const double kLargestGap = 1.0;    // m
 constexpr double kCheckHits = 100;
 constexpr double kDuplicate = 1.42;

@@ -6,6 +6,7 @@
 
 #include "cca_mrpt/mapping/line_segment.hpp"
 #include "cca_mrpt/mapping/map_clusters.hpp"
+#include "cca_mrpt/mapping/map_corners.hpp"
 #include "cca_mrpt/mapping/map_noise.hpp"
 #include "cca_mrpt/mapping/parameters.hpp"
 #include "cca_mrpt/mapping/scan.hpp"
@@ -13,27 +14,25 @@
 
 namespace cca {
 
-/// Vertices of a chain of map lines that meet at their ends; closed where first equals last.
-struct PolyLine {
-  std::vector<Eigen::Vector2d> vertices;  ///< m, map frame
-  std::vector<std::uint64_t> line_ids;    ///< the lines between neighbouring vertices
-};
-
 /// The incremental line map (the paper's steps 6-7).
 class LineMap {
  public:
   explicit LineMap(const CcaParameters& parameters = {}) : parameters_(parameters) {}
 
   /// Takes a scan at its T_map_sensor. Cost does not depend on the size of the map.
-  /// @return  false where the pose is not finite: the scan is then left out.
+  /// @return  false where the pose is not finite or further than 10 000 km from the map's origin:
+  /// the
+  ///          scan is then left out.
   bool insert(const Scan& scan);
   /// The same with lines (sensor frame, by bearing) that were extracted elsewhere.
   bool insert(const Scan& scan, std::vector<LineSegment> lines);
   /// Merges scans that still wait for their batch to fill.
   void finishBatch();
 
-  /// The lines as they stand, by rising id.
+  /// The lines as they stand, by rising id; ends that meet share their corner.
+  /// Cost: O(n log n) for n lines, of which none is fitted anew.
   std::vector<MapLine> lines() const;
+  /// The same lines, chained along their corners.
   std::vector<PolyLine> polyLines() const;
 
   /// What the map has learned about the noise and the pose error of its scans.
@@ -45,6 +44,7 @@ class LineMap {
     Scan scan;
     std::vector<LineSegment> lines;
   };
+  std::vector<MapLine> pieces() const;
   std::vector<NewLine> newLines();
   void learn(const std::vector<NewLine>& lines);
 
