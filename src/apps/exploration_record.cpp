@@ -30,7 +30,7 @@ double quantile(std::vector<double> values, double share) {
   return *nth;
 }
 
-double rounded(double value, double unit) { return std::round(value / unit) * unit; }
+double rounded(double value, double per_unit) { return std::round(value * per_unit) / per_unit; }
 
 }  // namespace
 
@@ -87,15 +87,16 @@ nlohmann::ordered_json ExplorationRecord::summary(const Simulation& simulation, 
   summary["world"] = simulation.world().name;
   summary["finished"] = end.finished;
   summary["reason"] = end.reason;
-  summary["distance_m"] = rounded(simulation.distance(), 1e-4);
-  summary["duration_s"] = rounded(simulation.time(), 1e-4);
-  summary["wall_s"] = rounded(end.wall_s, 1e-3);
-  summary["coverage"] = rounded(coverage_.sofar().value_or(0.0), 1e-6);
+  summary["distance_m"] = rounded(simulation.distance(), 1e4);
+  summary["duration_s"] = rounded(simulation.time(), 1e4);
+  summary["wall_s"] = rounded(end.wall_s, 1e3);
+  summary["coverage"] = rounded(coverage_.sofar().value_or(0.0), 1e6);
   summary["goals"] = goals_;
   summary["collisions"] = simulation.collisions();
+  summary["mover_contacts"] = simulation.moverContacts();
   summary["scans"] = scans();
-  summary["scan_us_median"] = rounded(quantile(step_us_, 0.5), 0.1);
-  summary["scan_us_p99"] = rounded(quantile(step_us_, 0.99), 0.1);
+  summary["scan_us_median"] = rounded(quantile(step_us_, 0.5), 10.0);
+  summary["scan_us_p99"] = rounded(quantile(step_us_, 0.99), 10.0);
   return summary;
 }
 

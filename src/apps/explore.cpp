@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
 #include <chrono>
-#include <csignal>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
@@ -15,8 +15,10 @@
 #include "cca_mrpt/simulation/simulation.hpp"
 #include "commands.hpp"
 #include "exploration_record.hpp"
+#include "exploration_window.hpp"
+#include "interruption.hpp"
 #include "parameter_options.hpp"
-#include "progress_line.hpp"
+#include "progress.hpp"
 
 namespace cca::apps {
 
@@ -26,18 +28,10 @@ namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 
 struct ExploreOptions {
-  std::string world, out;
+  std::string world, movers, out;
   std::vector<double> start;  // x, y in m, heading in degrees; empty: the world's own
-  bool quiet = false, force = false;
+  bool gui = false, quiet = false, force = false;
 };
-
-volatile std::sig_atomic_t interrupted = 0;
-
-/// The first signal ends the run in good order, a second one the program.
-void onSignal(int signal) {
-  interrupted = 1;
-  std::signal(signal, SIG_DFL);
-}
 
 double secondsSince(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
@@ -58,7 +52,9 @@ Simulation makeSimulation(const ExploreOptions& options, const Parameters& param
   simulated.laser = parameters.laser;
   simulated.odometry = parameters.odometry;
   simulated.seed = static_cast<std::uint64_t>(parameters.run.seed);
-  return Simulation(std::move(world), T_map_start, simulated);
+  std::vector<Mover> movers;
+  if (!options.movers.empty()) movers = loadMovers(options.movers, world);
+  return Simulation(std::move(world), T_map_start, simulated, movers);
 }
 
 /// The folder that was asked for, else a fresh one: out/WORLD-001, -002, ...
@@ -96,11 +92,25 @@ class Belief {
   std::optional<IcpLocalizer> icp_;
 };
 
+void showProgress(Progress& progress, const Simulation& simulation, ExplorationRecord& record,
+                  const Action& action, Clock::time_point begin) {
+  char detail[120], goal[40] = "none";
+  if (action.goal)
+    std::snprintf(goal, sizeof goal, "%.1f, %.1f", action.goal->x(), action.goal->y());
+  std::snprintf(detail, sizeof detail, "%.0f m, %.0f s simulated, goal %s, %.0f scans/s",
+                simulation.distance(), simulation.time(), goal,
+                static_cast<double>(record.scans()) / std::max(secondsSince(begin), 1e-3));
+  progress.show(record.coverage().sofar().value_or(0.0), detail);
+}
+
 ExplorationRecord::End drive(Simulation& simulation, Explorer& explorer, ExplorationRecord& record,
-                             const Parameters& parameters, ProgressLine& progress_line) {
+                             const Parameters& parameters, Progress* progress,
+                             ExplorationWindow* window) {
   const RunParameters& run = parameters.run;
   Belief belief(parameters, simulation.T_map_robot());
-  while (!interrupted && simulation.time() < run.longest_time) {
+  const Interruption interruption;
+  const auto begin = Clock::now();
+  while (!interruption.requested() && simulation.time() < run.longest_time) {
     Observation observation = simulation.observe();
     belief.replacePose(observation, simulation.T_odom_robot());
     const auto start = Clock::now();
@@ -108,12 +118,13 @@ ExplorationRecord::End drive(Simulation& simulation, Explorer& explorer, Explora
     record.add(simulation, observation, action, 1e6 * secondsSince(start));
     if (action.status == ExplorationStatus::kFinished) return {true, action.reason, 0.0};
     simulation.drive(action.velocity, run.control_period);
-    if (progress_line.isDue()) {
-      progress_line.show({record.coverage().sofar(), simulation.distance(), simulation.time(),
-                          action.goal, record.scans()});
+    if (window && window->isDue()) {
+      window->show(record.products(simulation, explorer), simulation, observation, action);
     }
+    if (progress) showProgress(*progress, simulation, record, action, begin);
   }
-  return {false, interrupted ? "interrupted" : "the longest simulated time is over", 0.0};
+  return {false, interruption.requested() ? "interrupted" : "the longest simulated time is over",
+          0.0};
 }
 
 void explore(const ExploreOptions& options, const Parameters& parameters) {
@@ -122,11 +133,12 @@ void explore(const ExploreOptions& options, const Parameters& parameters) {
   const std::string folder = makeFolder(options, simulation.world().name);
   Explorer explorer(parameters.mapping, parameters.robot, parameters.exploration);
   ExplorationRecord record(simulation, folder);
-  std::signal(SIGINT, onSignal);
-  std::signal(SIGTERM, onSignal);
-  ProgressLine progress_line(!options.quiet);
-  auto end = drive(simulation, explorer, record, parameters, progress_line);
-  progress_line.clear();
+  std::unique_ptr<ExplorationWindow> window;
+  if (options.gui) window = std::make_unique<ExplorationWindow>(simulation.world());
+  std::unique_ptr<Progress> progress;
+  if (!options.quiet) progress = std::make_unique<Progress>("exploring");
+  auto end = drive(simulation, explorer, record, parameters, progress.get(), window.get());
+  progress.reset();
   end.wall_s = secondsSince(start);
   record.write(simulation, explorer, end);
   if (!options.quiet) {
@@ -151,6 +163,8 @@ void addExploreCommand(CLI::App& program) {
   command->add_option("--start", options->start, "X,Y,DEG: start pose, m and degrees")
       ->delimiter(',')
       ->expected(3);
+  command->add_option("--movers", options->movers, "what moves about, a YAML file");
+  command->add_flag("--gui", options->gui, "show the run in MRPT's 3-D window");
   command->add_option("--out", options->out, "folder for the results; else out/WORLD-001, ...");
   command->add_flag("--force", options->force, "overwrite results that are in the folder");
   command->add_flag("--quiet", options->quiet, "print nothing but errors");

@@ -53,6 +53,7 @@ struct IcpLocalizer::Builder {
   Pose2 T_map_start;
   mrpt::slam::CMetricMapBuilderICP icp;
   std::optional<Pose2> last_odometry;
+  double time = 0.0;  // s; logs may lack it, and the builder insists that it rises
 };
 
 IcpLocalizer::IcpLocalizer(const Pose2& T_map_start, const IcpParameters& parameters)
@@ -72,13 +73,14 @@ Pose2 IcpLocalizer::locate(const Scan& scan, const Pose2& T_robot_sensor,
       builder_->last_odometry ? builder_->last_odometry->inverse() * T_odom_robot : Pose2();
   builder_->last_odometry = T_odom_robot;
   mrpt::obs::CActionRobotMovement2D movement;
-  movement.timestamp = mrpt::Clock::fromDouble(0.0);  // logs may lack it, and the builder insists
+  builder_->time += 0.1;
+  movement.timestamp = mrpt::Clock::fromDouble(builder_->time);
   movement.computeFromOdometry(mrpt::poses::CPose2D(moved.x, moved.y, moved.theta), {});
   mrpt::obs::CActionCollection actions;
   actions.insert(movement);
   mrpt::obs::CSensoryFrame frame;
   frame.insert(std::make_shared<mrpt::obs::CObservation2DRangeScan>(
-      toMrpt(scan, T_robot_sensor, kMatchedRange, 0.0)));
+      toMrpt(scan, T_robot_sensor, kMatchedRange, builder_->time)));
   builder_->icp.processActionObservation(actions, frame);
   const mrpt::poses::CPose2D pose(builder_->icp.getCurrentPoseEstimation()->getMeanVal());
   return builder_->T_map_start * Pose2{pose.x(), pose.y(), wrapAngle(pose.phi())};

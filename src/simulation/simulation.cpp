@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <stdexcept>
 
 namespace cca {
 
@@ -12,10 +13,11 @@ namespace {
 constexpr double kLongestStep = 0.01;  // s, of the integration
 constexpr double kContactGap = 1e-7;   // m, rounding allowed in the contact test
 constexpr double kContactOver = 0.01;  // m, a contact has ended this far from the obstacle
+constexpr double kStanding = 0.02;     // m/s, below this the robot stands
 constexpr double kRecordDistance = 0.05, kRecordTurn = 0.1;  // m, rad
 
 // One seed, streams that do not disturb each other.
-enum Stream : std::uint64_t { kLaserStream = 1, kOdometryStream = 2 };
+enum Stream : std::uint64_t { kLaserStream = 1, kOdometryStream = 2, kMoverStream = 3 };
 std::uint64_t seedOf(std::uint64_t seed, Stream stream) {
   return seed * 0x9E3779B97F4A7C15ULL + stream;
 }
@@ -23,19 +25,25 @@ std::uint64_t seedOf(std::uint64_t seed, Stream stream) {
 }  // namespace
 
 Simulation::Simulation(World world, const Pose2& T_map_start,
-                       const SimulationParameters& parameters)
+                       const SimulationParameters& parameters, const std::vector<Mover>& movers)
     : world_(std::move(world)),
       parameters_(parameters),
+      movers_(movers, seedOf(parameters.seed, kMoverStream)),
       T_map_robot_(T_map_start),
       odometry_(T_map_start, parameters.odometry, seedOf(parameters.seed, kOdometryStream)),
       laser_random_(seedOf(parameters.seed, kLaserStream)) {
-  requireStandable(world_, T_map_start, parameters.robot.radius);
+  const double radius = parameters.robot.radius;
+  requireStandable(world_, T_map_start, radius);
+  if (clearance(T_map_start.position(), radius) < radius) {
+    throw std::runtime_error(world_.name + ": a mover stands at the robot's start");
+  }
   record(true);
 }
 
 Observation Simulation::observe() {
   Observation observation;
-  observation.scan = sweep(world_, bodies_, T_map_robot_, parameters_.laser, laser_random_);
+  observation.scan =
+      sweep(world_, movers_.bodies(), T_map_robot_, parameters_.laser, laser_random_);
   observation.scan.T_map_sensor = T_map_robot_;
   observation.T_map_robot = T_map_robot_;
   observation.velocity = velocity_;
@@ -53,6 +61,7 @@ void Simulation::drive(const Velocity& command, double dt) {
   const double start = time_;
   for (int i = 1; i <= steps; ++i) {
     advance(command, dt / steps);
+    moveOthers(dt / steps);
     time_ = start + dt * i / steps;
     record(i == steps);
   }
@@ -64,23 +73,32 @@ void Simulation::advance(const Velocity& command, double dt) {
   Velocity mean{0.5 * (before.linear + velocity_.linear),
                 0.5 * (before.angular + velocity_.angular)};
   Pose2 next = driveArc(T_map_robot_, mean, dt);
-  if (mean.linear != 0.0 && touches(next.position())) {
+  const double radius = parameters_.robot.radius;
+  const double gap = clearance(next.position(), radius + kContactOver);
+  if (mean.linear != 0.0 && gap < radius - kContactGap) {
     if (!in_contact_) ++collisions_;
     in_contact_ = true;
     velocity_.linear = mean.linear = 0.0;  // a disc may still turn
     next = driveArc(T_map_robot_, mean, dt);
   } else if (in_contact_) {
-    const double away = parameters_.robot.radius + kContactOver;
-    in_contact_ = world_.clearance(next.position(), away) < away - kContactGap;
+    in_contact_ = gap < radius + kContactOver - kContactGap;
   }
   distance_ += std::abs(mean.linear) * dt;
   odometry_.add(mean, dt);
   T_map_robot_ = next;
 }
 
-bool Simulation::touches(const Eigen::Vector2d& p_map) const {
-  const double radius = parameters_.robot.radius;
-  return world_.clearance(p_map, radius) < radius - kContactGap;
+void Simulation::moveOthers(double dt) {
+  const int contacts =
+      movers_.advance(world_, T_map_robot_.position(), parameters_.robot.radius, dt);
+  const bool stands = std::abs(velocity_.linear) < kStanding;
+  (stands ? mover_contacts_ : collisions_) += contacts;
+}
+
+double Simulation::clearance(const Eigen::Vector2d& p_map, double limit) const {
+  double nearest = world_.clearance(p_map, limit);
+  for (const Body& body : movers_.bodies()) nearest = std::min(nearest, cca::distance(body, p_map));
+  return nearest;
 }
 
 void Simulation::record(bool always) {

@@ -6,7 +6,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <fstream>
-#include <sstream>
+#include <iterator>
 #include <stdexcept>
 
 namespace cca {
@@ -31,15 +31,15 @@ std::string joined(const std::vector<std::string>& words) {
 
 YamlNode YamlNode::load(const std::string& path) {
   std::ifstream file(path);
-  std::stringstream text;
-  if (!file || !(text << file.rdbuf())) throw std::runtime_error(path + ": cannot be read");
+  const std::string text{std::istreambuf_iterator<char>(file), {}};
+  if (!file) throw std::runtime_error(path + ": cannot be read");
   yaml node;
   try {
-    node.loadFromText(text.str());
+    node.loadFromText(text);
   } catch (const std::exception&) {
     throw std::runtime_error(path + ": is not valid YAML");
   }
-  if (node.empty() || !node.isMap()) {
+  if (node.isNullNode() || !node.isMap()) {
     throw std::runtime_error(path + ": holds no 'key: value' lines");
   }
   return YamlNode(path, node.asMap());

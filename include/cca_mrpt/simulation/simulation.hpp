@@ -6,6 +6,7 @@
 
 #include "cca_mrpt/navigation/explorer.hpp"
 #include "cca_mrpt/simulation/laser.hpp"
+#include "cca_mrpt/simulation/movers.hpp"
 #include "cca_mrpt/simulation/robot.hpp"
 #include "cca_mrpt/simulation/world.hpp"
 
@@ -31,7 +32,8 @@ struct TimedPose {
 class Simulation {
  public:
   /// @throws std::runtime_error where the robot cannot stand at the start.
-  Simulation(World world, const Pose2& T_map_start, const SimulationParameters& parameters);
+  Simulation(World world, const Pose2& T_map_start, const SimulationParameters& parameters,
+             const std::vector<Mover>& movers = {});
 
   /// A new scan from the true place, with the true pose. Each call draws new noise.
   Observation observe();
@@ -39,32 +41,36 @@ class Simulation {
   /// Drives for dt seconds towards a commanded velocity, within the robot's limits.
   void drive(const Velocity& command, double dt);
 
-  double time() const { return time_; }                      ///< s since the start
-  double distance() const { return distance_; }              ///< m driven
-  int collisions() const { return collisions_; }             ///< contacts the robot drove into
-  const Velocity& velocity() const { return velocity_; }     ///< true
-  const Pose2& T_map_robot() const { return T_map_robot_; }  ///< true
+  double time() const { return time_; }           ///< s since the start
+  double distance() const { return distance_; }   ///< m driven
+  int collisions() const { return collisions_; }  ///< contacts the robot drove into
+  /// Contacts that a mover drove into while the robot stood.
+  int moverContacts() const { return mover_contacts_; }
+  const Velocity& velocity() const { return velocity_; }                  ///< true
+  const Pose2& T_map_robot() const { return T_map_robot_; }               ///< true
   const Pose2& T_odom_robot() const { return odometry_.T_odom_robot(); }  ///< starts at the start
   const World& world() const { return world_; }
-  const std::vector<Body>& bodies() const { return bodies_; }
+  const std::vector<Body>& bodies() const { return movers_.bodies(); }
   const SimulationParameters& parameters() const { return parameters_; }
   /// The true way so far: a pose at least every 5 cm or 6 degrees, and at the end of each drive().
   const std::vector<TimedPose>& trajectory() const { return trajectory_; }
 
  private:
   void advance(const Velocity& command, double dt);
-  bool touches(const Eigen::Vector2d& p_map) const;
+  void moveOthers(double dt);
+  /// m, from a point to the nearest obstacle or mover, at most limit.
+  double clearance(const Eigen::Vector2d& p_map, double limit) const;
   void record(bool always);
 
   World world_;
   SimulationParameters parameters_;
-  std::vector<Body> bodies_;
+  Movers movers_;
   Pose2 T_map_robot_;
   Velocity velocity_;
   Odometry odometry_;
   Random laser_random_;
   double time_ = 0.0, distance_ = 0.0;
-  int collisions_ = 0;
+  int collisions_ = 0, mover_contacts_ = 0;
   bool in_contact_ = false;
   std::vector<TimedPose> trajectory_;
 };
