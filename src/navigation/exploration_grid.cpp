@@ -14,7 +14,10 @@ constexpr int kSurest = 8, kFreest = -4;  // bounds of the evidence: 8 scans for
 // Cells. A return lies in the cell behind the surface, and what lies before it is known to be free
 // only up to this distance: noise and rounding must not open the wall.
 constexpr double kBehindSurface = 0.3;
-constexpr double kSteepest = 4.0;            // widest gap in one surface, in spacings of the beams
+constexpr double kSteepest = 4.0;        // widest gap in one surface, in spacings of the beams
+constexpr double kWidestPresumed = 0.5;  // m: no robot fits through
+constexpr double kWidestGuess = 1.5;
+constexpr double kMostBetween = 8;           // rays between two beams
 constexpr double kLongestRangeCells = 4000;  // 200 m at 5 cm
 
 struct Beam {
@@ -60,6 +63,7 @@ void ExplorationGrid::insert(const Scan& scan) {
                return true;
              });
   }
+  presumeFree(scan);
   presumeWalls(scan);
 }
 
@@ -76,11 +80,52 @@ void ExplorationGrid::presumeWalls(const Scan& scan) {
     const Eigen::Vector2d to = origin + (b + behind) * directionOf(scan, i + 1);
     const double gap = (to - from).norm();
     const double spacing = std::min(a, b) * std::abs(scan.angle_increment);
-    if (gap < resolution_ || gap > kSteepest * spacing) continue;
-    walkBeam(from / resolution_, (to - from) / gap, gap / resolution_, [this](Cell c, double) {
-      if (evidence_.at(c) == kNever) write(c, kPresumed);
+    if (gap < resolution_) continue;
+    if (gap > kSteepest * spacing) {
+      // Seen at a grazing angle: one surface only where a third return lies in line.
+      const auto inLine = [&](std::size_t k) {
+        if (k >= n || !isReturn(scan.ranges[k])) return false;
+        const Eigen::Vector2d p = origin + (scan.ranges[k] + behind) * directionOf(scan, k);
+        const Eigen::Vector2d along = (to - from) / gap, offset = p - from;
+        const double reach = std::abs(offset.dot(along)) / gap;
+        return reach < 4.0 &&
+               std::abs(along.x() * offset.y() - along.y() * offset.x()) < 0.03 * (1.0 + reach);
+      };
+      if (gap > kWidestGuess || !(inLine(i - 1) || inLine(i + 2))) continue;
+    }
+    const Evidence presumption = gap > kWidestPresumed ? kWallGuessed : kWallPresumed;
+    walkBeam(from / resolution_, (to - from) / gap, gap / resolution_, [&](Cell c, double) {
+      if (evidence_.at(c) < presumption) write(c, presumption);
       return true;
     });
+  }
+}
+
+// What lies between two neighbouring beams is most likely as free as they are.
+void ExplorationGrid::presumeFree(const Scan& scan) {
+  const Eigen::Vector2d origin = scan.T_map_sensor.position() / resolution_;
+  const auto freeRange = [&](std::size_t i) {
+    const double range = scan.ranges[i];
+    return (isReturn(range)     ? range
+            : isNoReturn(range) ? scan.free_range_without_return
+                                : 0.0) /
+           resolution_;
+  };
+  for (std::size_t i = 0; i + 1 < scan.size(); ++i) {
+    const double range =
+        std::min({freeRange(i), freeRange(i + 1), kLongestRangeCells}) - kBehindSurface;
+    const double apart = std::abs(scan.angle_increment);
+    const int between = static_cast<int>(std::min(range * apart, kMostBetween));
+    for (int k = 1; k <= between; ++k) {
+      const double angle =
+          scan.T_map_sensor.theta + scan.bearing(i) + scan.angle_increment * k / (between + 1.0);
+      const Eigen::Vector2d direction(std::cos(angle), std::sin(angle));
+      const double gapless = std::min(1.0 / apart, range);
+      walkBeam(origin + gapless * direction, direction, range - gapless, [this](Cell c, double) {
+        if (evidence_.at(c) == kNever) write(c, kFreePresumed);
+        return true;
+      });
+    }
   }
 }
 
@@ -89,13 +134,15 @@ void ExplorationGrid::add(Cell cell, int weight) {
   if (counted == scans_) return;
   counted = scans_;
   const int before = evidence_.at(cell);
-  const int base = before <= kPresumed ? 0 : before;
+  const int base = before <= kWallPresumed ? 0 : before;
+  revealed_ += before <= kWallPresumed;
   write(cell, static_cast<Evidence>(std::clamp(base + weight, kFreest, kSurest)));
 }
 
 void ExplorationGrid::set(Cell cell, CellState state) {
   if (!isStorable(cell)) return;
-  constexpr Evidence kValue[] = {kNever, kPresumed, kFreest, kSurest};
+  constexpr Evidence kValue[] = {kNever,        kFreePresumed, kWallGuessed,
+                                 kWallPresumed, kFreest,       kSurest};
   write(cell, kValue[static_cast<int>(state)]);
 }
 

@@ -24,7 +24,7 @@ void FreeSpace::update(const ExplorationGrid& grid, const std::vector<Cell>& cha
     std::uint16_t& cell = cells_[c];
     const bool was_occupied = cell & kOccupied, is_occupied = state == CellState::kOccupied;
     cell = static_cast<std::uint16_t>(cell & ~(kFree | kOccupied));
-    if (state == CellState::kFree) cell |= kFree;
+    if (state == CellState::kFree || state == CellState::kPresumedFree) cell |= kFree;
     if (is_occupied) cell |= kOccupied;
     if (is_occupied != was_occupied) grow(c, is_occupied ? 1 : -1);
     mark(c);

@@ -56,6 +56,12 @@ void FrontierCells::review(const ExplorationGrid& grid, Cell c) {
 }
 
 std::vector<Frontier> FrontierCells::frontiers(int extent) {
+  static const std::vector<Cell> kNear = [] {
+    std::vector<Cell> near;
+    for (int y = -2; y <= 2; ++y)
+      for (int x = -2; x <= 2; ++x) near.push_back({x, y});
+    return near;
+  }();
   ++grouping_;
   std::vector<Frontier> frontiers;
   for (const Cell seed : cells_) {
@@ -65,7 +71,7 @@ std::vector<Frontier> FrontierCells::frontiers(int extent) {
     frontier.cells.push_back(seed);
     grouped_[seed] = grouping_;
     for (std::size_t i = 0; i < frontier.cells.size(); ++i) {
-      for (const Cell step : kNeighbours) {
+      for (const Cell step : kNear) {
         const Cell c = frontier.cells[i] + step;
         if (!contains(c) || grouped_.at(c) == grouping_) continue;
         const Cell new_low{std::min(low.x, c.x), std::min(low.y, c.y)};

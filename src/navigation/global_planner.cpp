@@ -7,27 +7,53 @@
 namespace cca {
 namespace {
 
-constexpr int kFrontierExtent = 30;          // cells: longer frontiers are several
-constexpr double kViewShare = 0.9;           // of the laser's range
-constexpr double kGainRange = 4.0;           // m
-constexpr double kArrived = 0.15;            // m
-constexpr std::size_t kRetryChanges = 2000;  // cells changed until a goal set aside is tried again
+constexpr int kFrontierExtent = 40;          // cells: longer frontiers are several
+constexpr double kBehindFrontier = 0.5;      // m, into the unknown: what a view point is to see
+constexpr double kViewShare = 0.9;           // of the laser's range: beams lie too far apart beyond
+constexpr double kGainRange = 3.0;           // m, around what is to be seen
+constexpr std::size_t kMostViewPoints = 60;  // of a decision; the nearest frontiers
+constexpr double kReconsiderAfter = 0.3;     // m driven
+constexpr std::size_t kWorthReconsidering = 20;  // cells newly seen
+constexpr std::size_t kRetryAfter = 4000;        // cells newly seen: 10 m^2
+constexpr int kSameTarget = 3;                   // cells
+
+bool isInside(const std::vector<Eigen::Vector2d>& polygon, const Eigen::Vector2d& p) {
+  bool inside = false;
+  for (std::size_t i = 0, j = polygon.size() - 1; i < polygon.size(); j = i++) {
+    const Eigen::Vector2d &a = polygon[i], &b = polygon[j];
+    if ((a.y() > p.y()) == (b.y() > p.y())) continue;
+    if (p.x() < a.x() + (p.y() - a.y()) / (b.y() - a.y()) * (b.x() - a.x())) inside = !inside;
+  }
+  return inside;
+}
 
 }  // namespace
 
 GlobalPlanner::GlobalPlanner(const GlobalPlannerParameters& parameters)
     : parameters_(parameters),
       strategy_(strategyNamed(parameters.strategy)),
-      space_(parameters.clearance, grid_.resolution()) {}
+      space_(parameters.clearance, grid_.resolution()),
+      view_tour_(parameters.tour) {}
 
 const Plan& GlobalPlanner::update(const Scan& scan, const Eigen::Vector2d& robot_map) {
+  if (!robot_map.allFinite()) return plan_;
   learnRange(scan);
   grid_.insert(scan);
+  takeChanges();
+  const Cell here = grid_.cellOf(robot_map);
+  if (isStorable(here)) scanned_[FreeSpace::blockOf(here)] = 1;
+  if (!goalStands() || isTimeToReconsider(robot_map)) decide(robot_map);
+  return plan_;
+}
+
+void GlobalPlanner::takeChanges() {
   space_.update(grid_, grid_.changed());
   frontier_cells_.update(grid_, grid_.changed());
-  changes_ += grid_.changed().size();
-  if (!goalStands(robot_map)) decide(robot_map);
-  return plan_;
+}
+
+void GlobalPlanner::seed(const std::vector<Cell>& cells, CellState state) {
+  for (const Cell c : cells) grid_.set(c, state);
+  takeChanges();
 }
 
 void GlobalPlanner::learnRange(const Scan& scan) {
@@ -37,9 +63,11 @@ void GlobalPlanner::learnRange(const Scan& scan) {
   }
 }
 
-bool GlobalPlanner::goalStands(const Eigen::Vector2d& robot_map) const {
-  if (!has_goal_ || grid_.at(goal_.target) != CellState::kUnknown) return false;
-  if ((grid_.centreOf(goal_.cell) - robot_map).norm() < kArrived) return false;
+double GlobalPlanner::reach() const { return kViewShare * laser_range_; }
+
+bool GlobalPlanner::goalStands() const {
+  if (!goal_ || grid_.at(goal_->target) != CellState::kUnknown) return false;
+  if (scanned_.at(FreeSpace::blockOf(goal_->cell))) return false;
   for (std::size_t i = 1; i < plan_.path.size(); ++i) {
     if (!isClearLine(space_, plan_.path[i - 1] / grid_.resolution(),
                      plan_.path[i] / grid_.resolution())) {
@@ -49,53 +77,133 @@ bool GlobalPlanner::goalStands(const Eigen::Vector2d& robot_map) const {
   return true;
 }
 
+// A decision is made again only after something new was seen: what was the best stays the best
+// otherwise, and a finite place cannot be circled for ever.
+bool GlobalPlanner::isTimeToReconsider(const Eigen::Vector2d& robot_map) const {
+  return strategy_ == Strategy::kViewTour && (robot_map - decided_at_).norm() > kReconsiderAfter &&
+         grid_.revealed() > revealed_then_ + kWorthReconsidering;
+}
+
+void GlobalPlanner::decide(const Eigen::Vector2d& robot_map) {
+  if (goal_ && grid_.at(goal_->target) == CellState::kUnknown &&
+      scanned_.at(FreeSpace::blockOf(goal_->cell))) {
+    setGoalAside();  // there, and nothing seen
+  }
+  decided_at_ = robot_map;
+  revealed_then_ = grid_.revealed();
+  plan_ = {};
+  field_.search(space_, grid_.resolution(), grid_.cellOf(robot_map));
+  findViewPoints();
+  keepPresentGoal();
+  while (const auto best = choose()) {
+    const ViewPoint chosen = view_points_[*best];
+    plan_.path = shortestPath(space_, grid_.resolution(), field_, chosen.cell);
+    if (!goal_ || goal_->target != chosen.target) ++goals_;
+    goal_ = chosen;
+    if (!plan_.path.empty()) {
+      plan_.reason = "to see what is behind a frontier";
+      return;
+    }
+    setGoalAside();
+    view_points_.erase(view_points_.begin() + static_cast<std::ptrdiff_t>(*best));
+  }
+  goal_.reset();
+  plan_.finished = true;
+  plan_.reason = field_.isStarted()
+                     ? "no reachable frontier of useful size is left"
+                     : "the robot stands where nothing around it is known to be free";
+}
+
+std::optional<std::size_t> GlobalPlanner::choose() {
+  if (strategy_ != Strategy::kViewTour) return selectGoal(strategy_, view_points_);
+  const auto present = goal_ ? std::optional<Cell>(goal_->target) : std::nullopt;
+  return view_tour_.choose(grid_, space_, view_points_, reach(), present);
+}
+
 void GlobalPlanner::findViewPoints() {
-  view_points_.clear();
+  struct Candidate {
+    double distance;
+    Cell target;
+  };
+  std::vector<Candidate> candidates;
+  const Cell here = grid_.cellOf(decided_at_);
   for (const Frontier& frontier : frontier_cells_.frontiers(kFrontierExtent)) {
-    if (static_cast<double>(frontier.cells.size()) < parameters_.smallest_frontier) continue;
-    const Cell target = unknownBeside(grid_, frontier.middle);
-    if (isAside(target)) continue;
-    const double gain = unknownAreaInView(grid_, frontier.middle, kGainRange);
+    if (frontier.cells.size() < parameters_.smallest_frontier) continue;
+    const Cell target = cellBehind(grid_, frontier, kBehindFrontier);
+    if (isAside(target) || !isWithinLimits(target)) continue;
+    const Cell m = frontier.middle;
+    const double known_way = field_.distanceTo(m);
+    const double line = std::hypot(m.x - here.x, m.y - here.y) * grid_.resolution();
+    candidates.push_back({known_way < DistanceField::kUnreached ? known_way : line, target});
+  }
+  if (candidates.size() > kMostViewPoints) {
+    std::stable_sort(candidates.begin(), candidates.end(),
+                     [](const auto& a, const auto& b) { return a.distance < b.distance; });
+  }
+  view_points_.clear();
+  for (const Candidate& candidate : candidates) {
+    if (view_points_.size() >= kMostViewPoints) break;
+    const double gain = unknownAreaInView(grid_, candidate.target, kGainRange);
     if (gain < parameters_.smallest_gain) continue;
-    auto view_point = nearestViewPoint(grid_, space_, field_, target, kViewShare * laser_range_);
+    auto view_point = nearestViewPoint(grid_, space_, field_, scanned_, candidate.target, reach());
     if (!view_point) continue;
     view_point->gain = gain;
     view_points_.push_back(*view_point);
   }
 }
 
-void GlobalPlanner::decide(const Eigen::Vector2d& robot_map) {
-  has_goal_ = false;
-  plan_ = {};
-  field_.search(space_, grid_.resolution(), grid_.cellOf(robot_map));
-  findViewPoints();
-  while (const auto best = selectGoal(strategy_, view_points_)) {
-    goal_ = view_points_[*best];
-    plan_.path = shortestPath(space_, grid_.resolution(), field_, goal_.cell);
-    const bool is_here = (grid_.centreOf(goal_.cell) - robot_map).norm() < kArrived;
-    if (!plan_.path.empty() && !is_here) {
-      has_goal_ = true;
-      plan_.reason = parameters_.strategy;
-      return;
-    }
-    setGoalAside();
-    view_points_.erase(view_points_.begin() + static_cast<std::ptrdiff_t>(*best));
+// Frontiers are grouped anew at each decision, so the present goal may have got another target in
+// the middle of much the same frontier. It stays itself while that has not been seen.
+void GlobalPlanner::keepPresentGoal() {
+  if (!goal_ || grid_.at(goal_->target) != CellState::kUnknown) {
+    goal_.reset();
+    return;
   }
-  plan_.path.clear();
-  plan_.finished = true;
-  plan_.reason = "no reachable frontier of useful size is left";
+  constexpr double kMuchTheSame = 20.0;  // cells
+  auto view_point = nearestViewPoint(grid_, space_, field_, scanned_, goal_->target, reach());
+  if (!view_point) {
+    goal_.reset();
+    return;
+  }
+  view_point->gain = unknownAreaInView(grid_, goal_->target, kGainRange);
+  double nearest = kMuchTheSame;
+  ViewPoint* same = nullptr;
+  for (ViewPoint& v : view_points_) {
+    const double off = std::hypot(v.target.x - goal_->target.x, v.target.y - goal_->target.y);
+    if (off >= nearest) continue;
+    nearest = off;
+    same = &v;
+  }
+  if (same) {
+    *same = *view_point;
+  } else {
+    view_points_.push_back(*view_point);
+  }
 }
 
 void GlobalPlanner::setGoalAside() {
-  aside_.push_back({goal_.target, changes_});
-  has_goal_ = false;
+  if (goal_) aside_.push_back({goal_->target, grid_.revealed()});
+  goal_.reset();
 }
 
 bool GlobalPlanner::isAside(Cell target) const {
   return std::any_of(aside_.begin(), aside_.end(), [&](const Aside& a) {
-    return std::max(std::abs(a.target.x - target.x), std::abs(a.target.y - target.y)) <= 2 &&
-           changes_ < a.known_when_set + kRetryChanges;
+    const int off = std::max(std::abs(a.target.x - target.x), std::abs(a.target.y - target.y));
+    return off <= kSameTarget && grid_.revealed() < a.revealed_then + kRetryAfter;
   });
+}
+
+bool GlobalPlanner::isWithinLimits(Cell c) const {
+  return parameters_.limits.size() < 3 || isInside(parameters_.limits, grid_.centreOf(c));
+}
+
+std::vector<Eigen::Vector2d> GlobalPlanner::pathTo(const Eigen::Vector2d& robot_map,
+                                                   const Eigen::Vector2d& goal_map) {
+  field_.search(space_, grid_.resolution(), grid_.cellOf(robot_map));
+  Cell goal;
+  constexpr int kNearEnough = 10;  // cells
+  if (!nearestTraversable(space_, grid_.cellOf(goal_map), kNearEnough, goal)) return {};
+  return shortestPath(space_, grid_.resolution(), field_, goal);
 }
 
 }  // namespace cca

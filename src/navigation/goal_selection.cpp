@@ -17,6 +17,8 @@ double score(Strategy strategy, const ViewPoint& view_point) {
       return -view_point.distance;
     case Strategy::kGainDistance:
       return view_point.gain * std::exp(-kPerMetre * view_point.distance);
+    case Strategy::kViewTour:
+      break;
   }
   return 0.0;
 }
@@ -27,6 +29,7 @@ Strategy strategyNamed(const std::string& name) {
   if (name == "greedy") return Strategy::kGreedy;
   if (name == "nearest_frontier") return Strategy::kNearestFrontier;
   if (name == "gain_distance") return Strategy::kGainDistance;
+  if (name == "view_tour") return Strategy::kViewTour;
   throw std::runtime_error("strategy '" + name +
                            "' is none of greedy, nearest_frontier, gain_distance");
 }

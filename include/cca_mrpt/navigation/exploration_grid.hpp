@@ -12,6 +12,8 @@ namespace cca {
 
 enum class CellState : std::uint8_t {
   kUnknown,
+  kPresumedFree,  ///< not seen, but between two neighbouring beams that both went on
+  kGuessedWall,   ///< not seen, but in line with returns on both sides, a metre apart
   kPresumedWall,  ///< not seen, but between two neighbouring returns of one surface
   kFree,
   kOccupied,
@@ -40,6 +42,9 @@ class ExplorationGrid {
   /// more than once.
   const std::vector<Cell>& changed() const { return changed_; }
 
+  /// Number of cells that have ever been seen.
+  std::size_t revealed() const { return revealed_; }
+
   double resolution() const { return resolution_; }
   /// The cell that holds a point. @param p_map  m, finite.
   Cell cellOf(const Eigen::Vector2d& p_map) const;
@@ -52,20 +57,25 @@ class ExplorationGrid {
 
  private:
   using Evidence = std::int8_t;
-  static constexpr Evidence kNever = -128, kPresumed = -127;
+  static constexpr Evidence kNever = -128, kFreePresumed = -127, kWallGuessed = -126,
+                            kWallPresumed = -125;
   static CellState stateOf(Evidence e) {
     if (e > 0) return CellState::kOccupied;
-    if (e > kPresumed) return CellState::kFree;
-    return e == kNever ? CellState::kUnknown : CellState::kPresumedWall;
+    if (e > kWallPresumed) return CellState::kFree;
+    if (e == kNever) return CellState::kUnknown;
+    if (e == kFreePresumed) return CellState::kPresumedFree;
+    return e == kWallGuessed ? CellState::kGuessedWall : CellState::kPresumedWall;
   }
   void add(Cell cell, int weight);
   void write(Cell cell, Evidence value);
   void presumeWalls(const Scan& scan);
+  void presumeFree(const Scan& scan);
 
   double resolution_;
   TiledGrid<Evidence> evidence_{kNever};
   TiledGrid<std::uint32_t> counted_{0};  ///< number of the last scan that counted here
   std::uint32_t scans_ = 0;
+  std::size_t revealed_ = 0;
   std::vector<Cell> changed_;
   Cell lowest_{1, 1}, highest_{0, 0};
 };

@@ -33,13 +33,13 @@ struct Action {
 };
 
 struct ExplorerParameters {
-  std::string strategy = "gain_distance";
+  std::string strategy = "view_tour";
 };
 
 /// See describe(CcaParameters&, ...).
 template <class Field>
 void describe(ExplorerParameters& p, Field&& field) {
-  field("strategy", p.strategy, {"greedy", "nearest_frontier", "gain_distance"},
+  field("strategy", p.strategy, {"view_tour", "greedy", "nearest_frontier", "gain_distance"},
         "how the next goal is chosen");
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -10,14 +11,18 @@
 #include "cca_mrpt/navigation/frontier.hpp"
 #include "cca_mrpt/navigation/goal_selection.hpp"
 #include "cca_mrpt/navigation/grid_paths.hpp"
+#include "cca_mrpt/navigation/view_tour.hpp"
 
 namespace cca {
 
 struct GlobalPlannerParameters {
-  std::string strategy = "gain_distance";
-  double clearance = 0.30;       ///< m
-  double smallest_gain = 0.01;   ///< m^2, frontiers that promise less are left
-  double smallest_frontier = 1;  ///< cells
+  std::string strategy = "view_tour";
+  double clearance = 0.30;            ///< m, kept from known obstacles
+  double smallest_gain = 0.1;         ///< m^2, frontiers that promise less are left
+  std::size_t smallest_frontier = 5;  ///< cells, likewise
+  /// m, map frame: exploration stays inside this polygon. Fewer than three corners: no limit.
+  std::vector<Eigen::Vector2d> limits;
+  ViewTourParameters tour;
 };
 
 /// Where to go next, and how.
@@ -27,33 +32,57 @@ struct Plan {
   std::string reason;
 };
 
-/// The paper's global planner: keeps what is known of the place, and sets one goal after the other.
+/// The paper's global planner (Step 0): keeps what is known of the place, and sets one goal after
+/// the other until no reachable frontier of useful size is left.
+///
+/// A goal is a place to look from: the one of the shortest way that sees a point half a metre and
+/// more behind a frontier. It is given up as soon as that point has been seen, or the way to it is
+/// blocked. Places that a scan was taken from are never goals again; a goal that showed nothing new
+/// is set aside until the map has changed.
 class GlobalPlanner {
  public:
+  /// @throws std::runtime_error for an unknown strategy.
   explicit GlobalPlanner(const GlobalPlannerParameters& parameters = {});
 
-  /// Takes a scan; decides anew where the present goal is reached, seen or no longer on a free way.
+  /// Takes a scan, and decides anew where that is due. Cost: cells crossed by the scan; a decision
+  /// costs O(known blocks) for the ways, and a bounded number of view points.
   const Plan& update(const Scan& scan, const Eigen::Vector2d& robot_map);
 
-  /// Sets the present goal aside until the map around it has changed.
+  /// Sets the present goal aside until the map has changed, e.g. where it proved unreachable.
   void setGoalAside();
+
+  /// The shortest known way from one place to another; empty where there is none.
+  std::vector<Eigen::Vector2d> pathTo(const Eigen::Vector2d& robot_map,
+                                      const Eigen::Vector2d& goal_map);
+
+  /// Declares cells as known from a saved map.
+  void seed(const std::vector<Cell>& cells, CellState state);
 
   const ExplorationGrid& grid() const { return grid_; }
   const FreeSpace& space() const { return space_; }
   const FrontierCells& frontierCells() const { return frontier_cells_; }
+  /// Of the last decision.
   const std::vector<ViewPoint>& viewPoints() const { return view_points_; }
   const Plan& plan() const { return plan_; }
+  /// Number of goals set so far.
+  int goals() const { return goals_; }
 
  private:
+  void takeChanges();
   void learnRange(const Scan& scan);
-  bool goalStands(const Eigen::Vector2d& robot_map) const;
-  void findViewPoints();
+  bool goalStands() const;
+  bool isTimeToReconsider(const Eigen::Vector2d& robot_map) const;
   void decide(const Eigen::Vector2d& robot_map);
+  void findViewPoints();
+  void keepPresentGoal();
+  std::optional<std::size_t> choose();
   bool isAside(Cell target) const;
+  bool isWithinLimits(Cell c) const;
+  double reach() const;
 
   struct Aside {
     Cell target;
-    std::size_t known_when_set;
+    std::size_t revealed_then;
   };
 
   GlobalPlannerParameters parameters_;
@@ -62,12 +91,15 @@ class GlobalPlanner {
   FreeSpace space_;
   FrontierCells frontier_cells_;
   DistanceField field_;
+  TiledGrid<char> scanned_{0};  ///< blocks that a scan was taken from
+  ViewTour view_tour_;
   std::vector<ViewPoint> view_points_;
   std::vector<Aside> aside_;
-  ViewPoint goal_;
-  bool has_goal_ = false;
+  std::optional<ViewPoint> goal_;
   double laser_range_ = 1.0;  ///< m, the longest that a beam was seen to be free
-  std::size_t changes_ = 0;
+  Eigen::Vector2d decided_at_ = Eigen::Vector2d::Zero();
+  std::size_t revealed_then_ = 0;  ///< at the last decision
+  int goals_ = 0;
   Plan plan_;
 };
 

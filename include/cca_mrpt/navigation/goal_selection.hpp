@@ -11,7 +11,7 @@
 namespace cca {
 
 /// How the next goal is chosen.
-enum class Strategy { kGreedy, kNearestFrontier, kGainDistance };
+enum class Strategy { kGreedy, kNearestFrontier, kGainDistance, kViewTour };
 
 /// @throws std::runtime_error for a name that is none.
 Strategy strategyNamed(const std::string& name);

@@ -21,15 +21,23 @@ struct ViewPoint {
 /// The unknown side neighbour of a frontier cell. Precondition: isFrontier(grid, c).
 Cell unknownBeside(const ExplorationGrid& grid, Cell c);
 
+/// A cell behind the middle of a frontier, up to `depth` metres into the unknown: what one wants to
+/// see, where the frontier itself is in view already. Never beyond what is known.
+Cell cellBehind(const ExplorationGrid& grid, const Frontier& frontier, double depth);
+
+/// Whether nothing known to be an obstacle stands between two cells.
+bool isInView(const ExplorationGrid& grid, Cell from, Cell to);
+
 /// The place of the shortest way from which a cell is in free view.
 ///
-/// Rays go out from the cell and end where something is not known to be free.
+/// Rays go out from the cell and end at occupied cells and presumed walls.
 /// @param range  m, how far off it may be.
 /// @param rays   number of directions tried.
 /// @return       empty where no reached place sees the cell.
 /// Cost: O(rays * range / resolution).
 std::optional<ViewPoint> nearestViewPoint(const ExplorationGrid& grid, const FreeSpace& space,
-                                          const DistanceField& field, Cell target, double range,
+                                          const DistanceField& field,
+                                          const TiledGrid<char>& scanned, Cell target, double range,
                                           int rays = 90);
 
 /// The unknown area in view from a cell if all unknown cells were free [Gonzalez-Banos & Latombe
