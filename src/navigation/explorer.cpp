@@ -1,59 +1,106 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "cca_mrpt/navigation/explorer.hpp"
 
+#include <stdexcept>
+
 namespace cca {
 namespace {
 
+constexpr double kSameWayPoint = 0.1;  // m
+constexpr double kHome = 0.3;          // m
+// A goal's time: that of its path at a fifth of full speed, and some for turning and giving way.
+constexpr double kSlowest = 0.2, kGrace = 30.0;  // s
+
 GlobalPlannerParameters plannerParameters(const RobotParameters& robot,
                                           const ExplorerParameters& parameters) {
+  if (parameters.path != "known_space" && parameters.path != "paper")
+    throw std::runtime_error("path '" + parameters.path + "' is none of known_space, paper");
   GlobalPlannerParameters planner;
   planner.strategy = parameters.strategy;
+  planner.smallest_gain = parameters.smallest_gain;
   planner.clearance = robot.radius + robot.safety_margin;
   return planner;
 }
-
-constexpr double kSameWayPoint = 0.1;  // m
-constexpr double kPassed = 0.25;       // m
 
 }  // namespace
 
 Explorer::Explorer(const CcaParameters& mapping, const RobotParameters& robot,
                    const ExplorerParameters& parameters)
-    : line_map_(mapping), planner_(plannerParameters(robot, parameters)), tangent_bug_(robot) {}
+    : parameters_(parameters),
+      max_speed_(robot.max_linear_velocity),
+      line_map_(mapping),
+      planner_(plannerParameters(robot, parameters)),
+      tangent_bug_(robot) {}
 
 Action Explorer::step(const Observation& observation) {
   line_map_.insert(observation.scan);
-  const Plan& plan = planner_.update(observation.scan, observation.T_map_robot.position());
-  Action action;
-  action.reason = plan.reason;
-  if (plan.finished) {
-    action.status = ExplorationStatus::kFinished;
-    return action;
+  const Eigen::Vector2d robot = observation.T_map_robot.position();
+  if (!start_map_ && robot.allFinite()) start_map_ = robot;
+  if (is_paused_) {
+    planner_.observe(observation.scan, robot);
+    deadline_ = observation.time + kGrace;  // standing still by order is no failure
+    return {{}, {}, ExplorationStatus::kPaused, "paused"};
   }
-  action.goal = plan.path.back();
-  action.velocity = follow(plan, observation);
+  return is_returning_ ? goHome(observation) : explore(observation);
+}
+
+Action Explorer::explore(const Observation& observation) {
+  const Plan& plan = planner_.update(observation.scan, observation.T_map_robot.position());
+  if (plan.finished) {
+    why_finished_ = plan.reason;
+    if (parameters_.return_to_start) {
+      is_returning_ = true;
+      return goHome(observation);
+    }
+    return {{}, {}, ExplorationStatus::kFinished, plan.reason};
+  }
+  if (plan.path.empty()) return {{}, {}, ExplorationStatus::kExploring, "the pose is not known"};
+  Action action{{}, plan.path.back(), ExplorationStatus::kExploring, plan.reason};
+  const bool is_last = parameters_.path == "paper" || plan.path.size() <= 2;
+  action.velocity = driveTo(is_last ? plan.path.back() : plan.path[1], observation);
+  const TangentBugState state = tangent_bug_.state();
+  if (state == TangentBugState::kUnreachable || isOverdue(plan.path, observation)) {
+    planner_.setGoalAside();
+    way_point_.reset();
+  } else if (state == TangentBugState::kReached && is_last) {
+    planner_.noteArrival();
+  }
   return action;
 }
 
-// Way-points are the corners of the path; the next one counts as soon as the last is passed.
-Velocity Explorer::follow(const Plan& plan, const Observation& observation) {
+Action Explorer::goHome(const Observation& observation) {
   const Eigen::Vector2d robot = observation.T_map_robot.position();
-  std::size_t next = plan.path.size() > 1 ? 1 : 0;
-  for (std::size_t i = next; i + 1 < plan.path.size(); ++i) {
-    if ((plan.path[i] - robot).norm() < kPassed) next = i + 1;
+  planner_.observe(observation.scan, robot);
+  const std::string why = why_finished_.empty() ? "called back" : why_finished_;
+  if ((robot - *start_map_).norm() < kHome)
+    return {{}, {}, ExplorationStatus::kFinished, why + "; back at the start"};
+  const auto path = planner_.pathTo(robot, *start_map_);
+  if (goal_number_ != -2) {
+    goal_number_ = -2;
+    deadline_ = observation.time + kGrace + pathLength(path) / (kSlowest * max_speed_);
   }
-  const Eigen::Vector2d way_point = plan.path[next];
+  if (path.empty() || observation.time > deadline_)
+    return {{}, {}, ExplorationStatus::kFinished, why + "; the way back to the start is blocked"};
+  Action action{{}, *start_map_, ExplorationStatus::kReturning, "back to the start"};
+  action.velocity = driveTo(path.size() > 2 ? path[1] : *start_map_, observation);
+  return action;
+}
+
+Velocity Explorer::driveTo(const Eigen::Vector2d& way_point, const Observation& observation) {
   if (!way_point_ || (*way_point_ - way_point).norm() > kSameWayPoint) {
     tangent_bug_.setGoal(way_point);
     way_point_ = way_point;
   }
-  const Velocity velocity = tangent_bug_.step(observation.scan, observation.T_map_robot,
-                                              observation.velocity, observation.time);
-  if (tangent_bug_.state() == TangentBugState::kUnreachable) {
-    planner_.setGoalAside();
-    way_point_.reset();
+  return tangent_bug_.step(observation.scan, observation.T_map_robot, observation.velocity,
+                           observation.time);
+}
+
+bool Explorer::isOverdue(const std::vector<Eigen::Vector2d>& path, const Observation& observation) {
+  if (goal_number_ != planner_.goals()) {
+    goal_number_ = planner_.goals();
+    deadline_ = observation.time + kGrace + pathLength(path) / (kSlowest * max_speed_);
   }
-  return velocity;
+  return observation.time > deadline_;
 }
 
 }  // namespace cca

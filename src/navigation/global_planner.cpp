@@ -15,6 +15,8 @@ constexpr std::size_t kMostViewPoints = 60;  // of a decision; the nearest front
 constexpr double kReconsiderAfter = 0.3;     // m driven
 constexpr std::size_t kWorthReconsidering = 20;  // cells newly seen
 constexpr std::size_t kRetryAfter = 4000;        // cells newly seen: 10 m^2
+constexpr double kPassed = 0.1;                  // m, of a corner
+constexpr double kMuchShorter = 0.5;             // m
 constexpr int kSameTarget = 3;                   // cells
 
 bool isInside(const std::vector<Eigen::Vector2d>& polygon, const Eigen::Vector2d& p) {
@@ -35,14 +37,27 @@ GlobalPlanner::GlobalPlanner(const GlobalPlannerParameters& parameters)
       space_(parameters.clearance, grid_.resolution()),
       view_tour_(parameters.tour) {}
 
-const Plan& GlobalPlanner::update(const Scan& scan, const Eigen::Vector2d& robot_map) {
-  if (!robot_map.allFinite()) return plan_;
+void GlobalPlanner::observe(const Scan& scan, const Eigen::Vector2d& robot_map) {
   learnRange(scan);
   grid_.insert(scan);
   takeChanges();
-  const Cell here = grid_.cellOf(robot_map);
-  if (isStorable(here)) scanned_[FreeSpace::blockOf(here)] = 1;
-  if (!goalStands() || isTimeToReconsider(robot_map)) decide(robot_map);
+  if (!isOnGrid(robot_map)) return;
+  scanned_[FreeSpace::blockOf(grid_.cellOf(robot_map))] = 1;
+}
+
+bool GlobalPlanner::isOnGrid(const Eigen::Vector2d& p_map) const {
+  return p_map.allFinite() && p_map.cwiseAbs().maxCoeff() < grid_.resolution() * kFarthestCell;
+}
+
+const Plan& GlobalPlanner::update(const Scan& scan, const Eigen::Vector2d& robot_map) {
+  observe(scan, robot_map);
+  if (!isOnGrid(robot_map)) return plan_;
+  if (!goalStands() || isTimeToReconsider(robot_map)) {
+    decide(robot_map);
+  } else {
+    advance(robot_map);
+    if (!pathStands()) replan(robot_map);
+  }
   return plan_;
 }
 
@@ -67,14 +82,39 @@ double GlobalPlanner::reach() const { return kViewShare * laser_range_; }
 
 bool GlobalPlanner::goalStands() const {
   if (!goal_ || grid_.at(goal_->target) != CellState::kUnknown) return false;
-  if (scanned_.at(FreeSpace::blockOf(goal_->cell))) return false;
-  for (std::size_t i = 1; i < plan_.path.size(); ++i) {
-    if (!isClearLine(space_, plan_.path[i - 1] / grid_.resolution(),
-                     plan_.path[i] / grid_.resolution())) {
-      return false;
-    }
+  return !scanned_.at(FreeSpace::blockOf(goal_->cell));
+}
+
+// The first leg, which begins where the robot is, counts only where the robot stands clear itself.
+bool GlobalPlanner::pathStands() const {
+  const double r = grid_.resolution();
+  const bool stands_clear = space_.isTraversable(grid_.cellOf(plan_.path.front()));
+  for (std::size_t i = stands_clear ? 1 : 2; i < plan_.path.size(); ++i) {
+    if (!isClearLine(space_, plan_.path[i - 1] / r, plan_.path[i] / r)) return false;
   }
   return true;
+}
+
+// The path begins at the robot, and corners are left out as soon as the next one is in clear line.
+void GlobalPlanner::advance(const Eigen::Vector2d& robot_map) {
+  std::vector<Eigen::Vector2d>& path = plan_.path;
+  path.front() = robot_map;
+  const double r = grid_.resolution();
+  while (path.size() > 2 && ((path[1] - robot_map).norm() < kPassed ||
+                             isClearLine(space_, robot_map / r, path[2] / r))) {
+    path.erase(path.begin() + 1);
+  }
+}
+
+// Another way to the same goal; another goal only where there is no way left.
+void GlobalPlanner::replan(const Eigen::Vector2d& robot_map) {
+  field_.search(space_, grid_.resolution(), grid_.cellOf(robot_map));
+  plan_.path = shortestPath(space_, grid_.resolution(), field_, goal_->cell);
+  if (plan_.path.empty()) {
+    decide(robot_map);
+  } else if (plan_.path.size() == 1) {
+    plan_.path.insert(plan_.path.begin(), robot_map);
+  }
 }
 
 // A decision is made again only after something new was seen: what was the best stays the best
@@ -101,6 +141,7 @@ void GlobalPlanner::decide(const Eigen::Vector2d& robot_map) {
     if (!goal_ || goal_->target != chosen.target) ++goals_;
     goal_ = chosen;
     if (!plan_.path.empty()) {
+      if (plan_.path.size() == 1) plan_.path.insert(plan_.path.begin(), robot_map);
       plan_.reason = "to see what is behind a frontier";
       return;
     }
@@ -165,6 +206,12 @@ void GlobalPlanner::keepPresentGoal() {
     goal_.reset();
     return;
   }
+  // From where to see it is not changed for a trifle, either.
+  const double way = field_.distanceTo(goal_->cell);
+  if (way < view_point->distance + kMuchShorter && isInView(grid_, goal_->cell, goal_->target)) {
+    view_point->cell = goal_->cell;
+    view_point->distance = way;
+  }
   view_point->gain = unknownAreaInView(grid_, goal_->target, kGainRange);
   double nearest = kMuchTheSame;
   ViewPoint* same = nullptr;
@@ -186,6 +233,10 @@ void GlobalPlanner::setGoalAside() {
   goal_.reset();
 }
 
+void GlobalPlanner::noteArrival() {
+  if (goal_) scanned_[FreeSpace::blockOf(goal_->cell)] = 1;
+}
+
 bool GlobalPlanner::isAside(Cell target) const {
   return std::any_of(aside_.begin(), aside_.end(), [&](const Aside& a) {
     const int off = std::max(std::abs(a.target.x - target.x), std::abs(a.target.y - target.y));
@@ -199,6 +250,7 @@ bool GlobalPlanner::isWithinLimits(Cell c) const {
 
 std::vector<Eigen::Vector2d> GlobalPlanner::pathTo(const Eigen::Vector2d& robot_map,
                                                    const Eigen::Vector2d& goal_map) {
+  if (!isOnGrid(robot_map) || !isOnGrid(goal_map)) return {};
   field_.search(space_, grid_.resolution(), grid_.cellOf(robot_map));
   Cell goal;
   constexpr int kNearEnough = 10;  // cells

@@ -1,26 +1,29 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "cca_mrpt/navigation/goal_selection.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
 namespace cca {
 namespace {
 
-constexpr double kPerMetre = 0.2;  // lambda of [Gonzalez-Banos & Latombe 2002]
+constexpr double kPerMetre = 0.2;     // lambda of [Gonzalez-Banos & Latombe 2002]
+constexpr double kShortestWay = 0.2;  // m: ways are measured in blocks of this size
 
 double score(Strategy strategy, const ViewPoint& view_point) {
   switch (strategy) {
     case Strategy::kGreedy:
       return view_point.gain;
-    case Strategy::kNearestFrontier:
-      return -view_point.distance;
     case Strategy::kGainDistance:
       return view_point.gain * std::exp(-kPerMetre * view_point.distance);
+    case Strategy::kInformation:
+      return view_point.gain / std::max(view_point.distance, kShortestWay);
+    case Strategy::kNearestFrontier:
     case Strategy::kViewTour:
       break;
   }
-  return 0.0;
+  return -view_point.distance;
 }
 
 }  // namespace
@@ -29,9 +32,11 @@ Strategy strategyNamed(const std::string& name) {
   if (name == "greedy") return Strategy::kGreedy;
   if (name == "nearest_frontier") return Strategy::kNearestFrontier;
   if (name == "gain_distance") return Strategy::kGainDistance;
+  if (name == "information") return Strategy::kInformation;
   if (name == "view_tour") return Strategy::kViewTour;
-  throw std::runtime_error("strategy '" + name +
-                           "' is none of greedy, nearest_frontier, gain_distance");
+  throw std::runtime_error(
+      "strategy '" + name +
+      "' is none of view_tour, greedy, nearest_frontier, gain_distance, information");
 }
 
 std::optional<std::size_t> selectGoal(Strategy strategy,

@@ -34,23 +34,45 @@ struct Action {
 
 struct ExplorerParameters {
   std::string strategy = "view_tour";
+  std::string path = "known_space";
+  double smallest_gain = 0.1;
+  bool return_to_start = false;
 };
 
 /// See describe(CcaParameters&, ...).
 template <class Field>
 void describe(ExplorerParameters& p, Field&& field) {
-  field("strategy", p.strategy, {"view_tour", "greedy", "nearest_frontier", "gain_distance"},
-        "how the next goal is chosen");
+  field("strategy", p.strategy,
+        {"view_tour", "greedy", "nearest_frontier", "gain_distance", "information"},
+        "how the next goal is chosen; greedy is the paper's");
+  field("path", p.path, {"known_space", "paper"},
+        "way-points along what is known to be free, or (paper) Tangent Bug straight to the goal");
+  field("smallest_gain", p.smallest_gain, 0.0, 100.0, "m^2",
+        "exploration ends when no reachable frontier promises more");
+  field("return_to_start", p.return_to_start, "drive back to where it began when all is explored");
 }
 
 /// The one door into mapping and navigation: the simulator's loop and the ROS callback both walk
 /// through it. Scan -> line map; scan -> exploration grid -> goal -> Tangent Bug -> velocity.
+///
+/// It ends by itself: each goal has its time, a goal that is not reached in time or proves
+/// unreachable is set aside, and a place of finite size has finitely many goals.
 class Explorer {
  public:
+  /// @throws std::runtime_error for an unknown strategy or path.
   Explorer(const CcaParameters& mapping, const RobotParameters& robot,
            const ExplorerParameters& parameters);
 
   Action step(const Observation& observation);
+
+  /// While paused it maps, and stands still.
+  void pause(bool paused) { is_paused_ = paused; }
+  /// Gives up exploring and drives back to where it began.
+  void returnToStart() { is_returning_ = true; }
+  /// Exploration stays inside a polygon (m, map frame). To be called before the first step.
+  void limitTo(std::vector<Eigen::Vector2d> polygon) { planner_.limitTo(std::move(polygon)); }
+  /// Cells known from a saved map. To be called before the first step.
+  void seed(const std::vector<Cell>& cells, CellState state) { planner_.seed(cells, state); }
 
   const LineMap& lineMap() const { return line_map_; }
   const ExplorationGrid& grid() const { return planner_.grid(); }
@@ -58,12 +80,23 @@ class Explorer {
   const TangentBug& tangentBug() const { return tangent_bug_; }
 
  private:
-  Velocity follow(const Plan& plan, const Observation& observation);
+  Action explore(const Observation& observation);
+  Action goHome(const Observation& observation);
+  Velocity driveTo(const Eigen::Vector2d& way_point, const Observation& observation);
+  bool isOverdue(const std::vector<Eigen::Vector2d>& path, const Observation& observation);
 
+  ExplorerParameters parameters_;
+  double max_speed_;
   LineMap line_map_;
   GlobalPlanner planner_;
   TangentBug tangent_bug_;
+  std::optional<Eigen::Vector2d> start_map_;
   std::optional<Eigen::Vector2d> way_point_;
+  int goal_number_ = -1;   ///< of the planner, that the deadline is for
+  double deadline_ = 0.0;  ///< s
+  bool is_paused_ = false;
+  bool is_returning_ = false;
+  std::string why_finished_;
 };
 
 }  // namespace cca

@@ -48,8 +48,18 @@ class GlobalPlanner {
   /// costs O(known blocks) for the ways, and a bounded number of view points.
   const Plan& update(const Scan& scan, const Eigen::Vector2d& robot_map);
 
+  /// Takes a scan and decides nothing.
+  void observe(const Scan& scan, const Eigen::Vector2d& robot_map);
+
+  /// Exploration stays inside a polygon (m, map frame); fewer than three corners: no limit.
+  void limitTo(std::vector<Eigen::Vector2d> polygon) { parameters_.limits = std::move(polygon); }
+
   /// Sets the present goal aside until the map has changed, e.g. where it proved unreachable.
   void setGoalAside();
+
+  /// Says that the robot is as near to the goal as it gets: if there is nothing new to see from
+  /// here, the goal is not tried again until the map has changed.
+  void noteArrival();
 
   /// The shortest known way from one place to another; empty where there is none.
   std::vector<Eigen::Vector2d> pathTo(const Eigen::Vector2d& robot_map,
@@ -71,6 +81,9 @@ class GlobalPlanner {
   void takeChanges();
   void learnRange(const Scan& scan);
   bool goalStands() const;
+  bool pathStands() const;
+  void advance(const Eigen::Vector2d& robot_map);
+  void replan(const Eigen::Vector2d& robot_map);
   bool isTimeToReconsider(const Eigen::Vector2d& robot_map) const;
   void decide(const Eigen::Vector2d& robot_map);
   void findViewPoints();
@@ -79,6 +92,7 @@ class GlobalPlanner {
   bool isAside(Cell target) const;
   bool isWithinLimits(Cell c) const;
   double reach() const;
+  bool isOnGrid(const Eigen::Vector2d& p_map) const;
 
   struct Aside {
     Cell target;

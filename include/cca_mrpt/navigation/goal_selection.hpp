@@ -10,13 +10,24 @@
 
 namespace cca {
 
-/// How the next goal is chosen.
-enum class Strategy { kGreedy, kNearestFrontier, kGainDistance, kViewTour };
+/// How the next goal is chosen, among view points with their way and gain.
+enum class Strategy {
+  kGreedy,           ///< the largest gain: the paper's Step 0
+  kNearestFrontier,  ///< the shortest way [Yamauchi 1997]
+  kGainDistance,     ///< gain exp(-0.2 way) [Gonzalez-Banos & Latombe 2002]
+  /// The most expected information per metre of way, after [Amigoni & Caglioti 2010].
+  /// Deviation: the information is the unknown area in view alone; theirs adds the re-sensing of
+  /// known boundaries, which is nothing to a robot whose pose is known.
+  kInformation,
+  kViewTour,  ///< the first stop of a tour, see ViewTour
+};
 
 /// @throws std::runtime_error for a name that is none.
 Strategy strategyNamed(const std::string& name);
 
-/// Index of the best view point; empty for no view points. Ties: the first.
+/// The best view point by itself, for all strategies but kViewTour, which looks at all of them.
+///
+/// @return  its index; the first of equals; empty for no view points.
 std::optional<std::size_t> selectGoal(Strategy strategy, const std::vector<ViewPoint>& view_points);
 
 }  // namespace cca

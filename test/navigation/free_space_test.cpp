@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "cca_mrpt/navigation/free_space.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "known_world.hpp"
+
+namespace cca {
+namespace {
+
+/// The definition, cell by cell: distance from the centre to the nearest point of any obstacle.
+bool isTraversableByDefinition(const ExplorationGrid& grid, Cell c, double clearance) {
+  if (grid.at(c) != CellState::kFree) return false;
+  constexpr int kReach = 10;
+  for (int dy = -kReach; dy <= kReach; ++dy) {
+    for (int dx = -kReach; dx <= kReach; ++dx) {
+      if (grid.at({c.x + dx, c.y + dy}) != CellState::kOccupied) continue;
+      const double gap_x = std::max(std::abs(dx) - 0.5, 0.0) * grid.resolution();
+      const double gap_y = std::max(std::abs(dy) - 0.5, 0.0) * grid.resolution();
+      if (std::hypot(gap_x, gap_y) < clearance - 1e-9) return false;
+    }
+  }
+  return true;
+}
+
+void expectEqualsDefinition(const FreeSpace& space, const ExplorationGrid& grid, int side) {
+  for (int y = -2; y < side + 2; ++y) {
+    for (int x = -2; x < side + 2; ++x) {
+      const Cell c{x, y};
+      const bool expected = isTraversableByDefinition(grid, c, space.clearance());
+      ASSERT_EQ(space.isTraversable(c), expected) << x << ", " << y;
+      const unsigned bits = space.traversableCells(FreeSpace::blockOf(c));
+      ASSERT_EQ((bits & FreeSpace::bitOf(c)) != 0, expected) << x << ", " << y;
+    }
+  }
+}
+
+TEST(FreeSpace, KeepsTheClearanceFromEveryOccupiedCell) {
+  const ExplorationGrid grid = randomWorld(1, 60, 0.01).seen();
+  FreeSpace space(0.30, grid.resolution());
+  space.update(grid, grid.changed());
+  expectEqualsDefinition(space, grid, 60);
+}
+
+TEST(FreeSpace, StaysEqualToItsDefinitionWhileCellsChangeBackAndForth) {
+  ExplorationGrid grid = randomWorld(2, 40, 0.01).seen();
+  FreeSpace space(0.25, grid.resolution());
+  space.update(grid, grid.changed());
+  std::mt19937 random(3);
+  constexpr CellState kStates[] = {CellState::kUnknown, CellState::kFree, CellState::kOccupied};
+  std::vector<Cell> changed;
+  for (int i = 0; i < 400; ++i) {
+    const Cell c{static_cast<int>(random() % 40), static_cast<int>(random() % 40)};
+    grid.set(c, kStates[random() % 3]);
+    changed.push_back(c);
+    if (i % 50 != 49) continue;
+    space.update(grid, changed);
+    changed.clear();
+    expectEqualsDefinition(space, grid, 40);
+  }
+}
+
+TEST(FreeSpace, HoldsNothingBeforeAnythingIsKnown) {
+  const FreeSpace space(0.3, 0.05);
+  EXPECT_FALSE(space.isTraversable({0, 0}));
+  EXPECT_EQ(space.traversableCells({0, 0}), 0u);
+}
+
+}  // namespace
+}  // namespace cca

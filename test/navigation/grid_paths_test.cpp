@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "cca_mrpt/navigation/grid_paths.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <map>
+#include <queue>
+
+#include "known_world.hpp"
+
+namespace cca {
+namespace {
+
+constexpr double kResolution = 0.05;
+
+struct Known {
+  ExplorationGrid grid;
+  FreeSpace space;
+  Known(const KnownWorld& world, double clearance)
+      : grid(world.seen()), space(clearance, kResolution) {
+    space.update(grid, grid.changed());
+  }
+};
+
+/// Plain 4-connected flood over cells.
+std::map<std::pair<int, int>, bool> reachedByFlood(const FreeSpace& space, Cell start) {
+  std::map<std::pair<int, int>, bool> reached;
+  std::queue<Cell> open;
+  open.push(start);
+  reached[{start.x, start.y}] = true;
+  while (!open.empty()) {
+    const Cell c = open.front();
+    open.pop();
+    for (std::size_t d = 0; d < 4; ++d) {
+      const Cell next = c + kNeighbours[d];
+      if (!space.isTraversable(next) || reached[{next.x, next.y}]) continue;
+      reached[{next.x, next.y}] = true;
+      open.push(next);
+    }
+  }
+  return reached;
+}
+
+TEST(DistanceField, ReachesWhatAFloodOverCellsReaches) {
+  for (unsigned seed = 1; seed <= 8; ++seed) {
+    const KnownWorld world = randomWorld(seed, 80, 0.012);
+    const Known known(world, 0.2);
+    Cell start;
+    if (!nearestTraversable(known.space, {40, 40}, 20, start)) continue;
+    DistanceField field;
+    field.search(known.space, kResolution, start);
+    auto reached = reachedByFlood(known.space, start);
+    int differ = 0, cells = 0;
+    for (int y = 0; y < 80; ++y) {
+      for (int x = 0; x < 80; ++x) {
+        if (!known.space.isTraversable({x, y})) continue;
+        ++cells;
+        differ += field.isReached({x, y}) != reached[{x, y}];
+      }
+    }
+    EXPECT_EQ(differ, 0) << "of " << cells << ", seed " << seed;
+  }
+}
+
+TEST(DistanceField, MeasuresStraightWaysExactlyAndObliqueOnesWithinEightPercent) {
+  const Known known({std::vector<std::string>(100, std::string(100, '.'))}, 0.1);
+  DistanceField field;
+  field.search(known.space, kResolution, {10, 10});
+  EXPECT_NEAR(field.distanceTo({90, 10}), 4.0, 1e-9);
+  for (int k = 0; k <= 80; k += 8) {
+    const double line = std::hypot(80, k) * kResolution;
+    EXPECT_GE(field.distanceTo({90, 10 + k}), line - 0.2);
+    EXPECT_LE(field.distanceTo({90, 10 + k}), 1.083 * line + 0.2);
+  }
+}
+
+TEST(DistanceField, DoesNotCrossAWallOneCellThin) {
+  KnownWorld world{std::vector<std::string>(40, std::string(40, '.'))};
+  for (auto& row : world.rows) row[20] = '#';
+  const Known known(world, 0.01);
+  DistanceField field;
+  field.search(known.space, kResolution, {5, 5});
+  EXPECT_TRUE(field.isReached({19, 30}));
+  EXPECT_FALSE(field.isReached({21, 30}));
+}
+
+TEST(DistanceField, StopsAtItsHorizon) {
+  const Known known({std::vector<std::string>(100, std::string(100, '.'))}, 0.1);
+  DistanceField field;
+  field.search(known.space, kResolution, {10, 10}, 2.0);
+  EXPECT_TRUE(field.isReached({45, 10}));
+  EXPECT_FALSE(field.isReached({60, 10}));
+}
+
+TEST(DistanceField, ReachesNothingFromWithinAWall) {
+  const Known known({std::vector<std::string>(40, std::string(40, '#'))}, 0.1);
+  DistanceField field;
+  field.search(known.space, kResolution, {20, 20});
+  EXPECT_FALSE(field.isStarted());
+  EXPECT_FALSE(field.isReached({20, 20}));
+  EXPECT_TRUE(shortestPath(known.space, kResolution, field, {20, 20}).empty());
+}
+
+TEST(ShortestPath, IsOneLineInTheOpen) {
+  const Known known({std::vector<std::string>(100, std::string(100, '.'))}, 0.1);
+  DistanceField field;
+  field.search(known.space, kResolution, {10, 10});
+  const auto path = shortestPath(known.space, kResolution, field, {80, 47});
+  ASSERT_EQ(path.size(), 2u);
+  EXPECT_NEAR(pathLength(path), kResolution * std::hypot(70, 37), 1e-9);
+}
+
+TEST(ShortestPath, GoesRoundAWallByItsEndAndKeepsClear) {
+  KnownWorld world{std::vector<std::string>(100, std::string(100, '.'))};
+  for (std::size_t row = 30; row < 100; ++row) world.rows[row][50] = '#';  // up to y = 3.5 m
+  const Known known(world, 0.25);
+  DistanceField field;
+  field.search(known.space, kResolution, {20, 20});
+  const auto path = shortestPath(known.space, kResolution, field, {80, 20});
+  ASSERT_GE(path.size(), 3u);
+  for (std::size_t i = 1; i < path.size(); ++i)
+    EXPECT_TRUE(isClearLine(known.space, path[i - 1] / kResolution, path[i] / kResolution));
+  // Tangents to the corner, grown by the clearance: at least to it, at most 25 cm and cells beyond.
+  const double least = 2.0 * std::hypot(1.5, 2.5);
+  EXPECT_GT(pathLength(path), least);
+  EXPECT_LT(pathLength(path), least + 2.0 * 0.4);
+}
+
+TEST(IsClearLine, DoesNotSlipBetweenTwoCellsThatTouchAtACorner) {
+  KnownWorld world{std::vector<std::string>(20, std::string(20, '.'))};
+  const auto block = [&](int x, int y) {
+    world.rows[static_cast<std::size_t>(19 - y)][static_cast<std::size_t>(x)] = '#';
+  };
+  block(10, 9);
+  block(9, 10);
+  const Known known(world, 0.01);
+  EXPECT_FALSE(isClearLine(known.space, {8.5, 8.5}, {12.5, 12.5}));
+  EXPECT_TRUE(isClearLine(known.space, {8.5, 8.5}, {9.4, 9.4}));
+}
+
+}  // namespace
+}  // namespace cca
