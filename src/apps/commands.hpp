@@ -11,6 +11,7 @@ void addExploreCommand(CLI::App& program);
 void addExtractCommand(CLI::App& program);
 void addInfoCommand(CLI::App& program);
 void addMapCommand(CLI::App& program);
+void addRenderCommand(CLI::App& program);
 void addGenerateWorldCommand(CLI::App& program);
 void addCompareExtractorsCommand(CLI::App& program);
 void addTuneCommand(CLI::App& program);

@@ -2,6 +2,9 @@
 #include <cstdio>
 #include <exception>
 
+#ifdef CCA_ROS
+#include "cca_mrpt/ros/bag_log.hpp"
+#endif
 #include "commands.hpp"
 
 namespace {
@@ -11,10 +14,14 @@ constexpr int kDone = 0, kRunFailed = 1, kUsage = 2;
 int main(int argc, char** argv) {
   CLI::App program{"Line maps from 2-D lasers, and exploration that brings them back", "cca-mrpt"};
   program.require_subcommand(1);
+#ifdef CCA_ROS
+  cca::addBagLogs();
+#endif
   cca::apps::addExploreCommand(program);
   cca::apps::addExtractCommand(program);
   cca::apps::addInfoCommand(program);
   cca::apps::addMapCommand(program);
+  cca::apps::addRenderCommand(program);
   cca::apps::addGenerateWorldCommand(program);
   cca::apps::addCompareExtractorsCommand(program);
   cca::apps::addTuneCommand(program);

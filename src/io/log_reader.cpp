@@ -4,6 +4,7 @@
 #include <sstream>
 #include <stdexcept>
 #include <utility>
+#include <vector>
 
 #include "carmen_line.hpp"
 #include "carmen_reader.hpp"
@@ -31,15 +32,24 @@ bool isSimpleMap(const std::string& class_name) {
          class_name == "CSensFrameProbSequence";
 }
 
+std::vector<LogKind>& addedKinds() {
+  static std::vector<LogKind> kinds;
+  return kinds;
+}
+
 std::unique_ptr<LogReader> openAsWhatItIs(const std::string& path) {
   const std::string head = fileHead(path, kHead);
   if (head.empty()) throw std::runtime_error(path + ": is empty, or a damaged compressed file");
+  for (const LogKind& kind : addedKinds()) {
+    if (kind.recognizes(head)) return kind.open(path);
+  }
   const std::string mrpt_class = mrptClassName(head);
   if (isSimpleMap(mrpt_class)) return openSimpleMap(path);
   if (!mrpt_class.empty()) return openRawlog(path);
   if (looksLikeCarmen(head)) return openCarmenLog(path);
-  throw std::runtime_error(path + ": not a log of a known kind (known: MRPT .rawlog and " +
-                           ".simplemap, CARMEN .log, each also gzipped)");
+  std::string known = "MRPT .rawlog and .simplemap, CARMEN .log";
+  for (const LogKind& kind : addedKinds()) known += ", " + kind.name;
+  throw std::runtime_error(path + ": not a log of a known kind (" + known + ")");
 }
 
 /// A log whose first scan has been read already: it is known to have one.
@@ -62,6 +72,8 @@ class BegunLog : public LogReader {
 };
 
 }  // namespace
+
+void addLogKind(LogKind kind) { addedKinds().push_back(std::move(kind)); }
 
 std::unique_ptr<LogReader> openLog(const std::string& path) {
   auto log = openAsWhatItIs(path);

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "cca_mrpt/io/map_scene.hpp"
 
+#include <mrpt/opengl/CFBORender.h>
 #include <mrpt/opengl/CGridPlaneXY.h>
 #include <mrpt/opengl/CSetOfLines.h>
 #include <mrpt/opengl/CSetOfTriangles.h>
 #include <mrpt/opengl/stock_objects.h>
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
@@ -15,8 +17,9 @@
 namespace cca {
 namespace {
 
-constexpr float kWallHeight = 1.0F;  // m
-constexpr double kFloorGrid = 5.0;   // m
+constexpr float kWallHeight = 1.0F;      // m
+constexpr double kFloorGrid = 5.0;       // m
+constexpr double kCameraDistance = 1.5;  // of the map's longer side
 
 mrpt::math::TPoint3Df at(const Eigen::Vector2d& p, float height) {
   return {static_cast<float>(p.x()), static_cast<float>(p.y()), height};
@@ -94,6 +97,30 @@ void writeScene(const std::string& path, const MapProducts& products) {
   AtomicFile file(path);
   if (!makeScene(products)->saveToFile(file.temporary())) {
     throw std::runtime_error(path + ": cannot be written");
+  }
+  file.commit();
+}
+
+void writeSolidPicture(const std::string& png_path, const MapProducts& products, int longest_side) {
+  const auto side =
+      static_cast<unsigned>(std::clamp(longest_side, kSmallestPicture, kLargestSolidPicture));
+  // Twice as large, then halved: the renderer itself does not smooth edges.
+  mrpt::opengl::CFBORender::Parameters sheet(2 * side, 2 * (3 * side / 4));
+  mrpt::opengl::CFBORender renderer(sheet);
+  const auto scene = makeScene(products);
+  scene->getViewport()->setCustomBackgroundColor({1.0F, 1.0F, 1.0F});
+  const auto view = wholeView(products);
+  auto& camera = renderer.getCamera(*scene);
+  camera.setPointingAt(view.center().x(), view.center().y(), 0.0);
+  camera.setAzimuthDegrees(-110.0F);
+  camera.setElevationDegrees(50.0F);
+  camera.setZoomDistance(static_cast<float>(kCameraDistance * view.sizes().maxCoeff()));
+  mrpt::img::CImage large, image;
+  renderer.render_RGB(*scene, large);
+  large.scaleHalf(image, mrpt::img::IMG_INTERP_AREA);
+  AtomicFile file(png_path);
+  if (!image.saveToFile(file.temporary())) {
+    throw std::runtime_error(png_path + ": cannot be written");
   }
   file.commit();
 }

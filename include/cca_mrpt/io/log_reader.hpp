@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -37,5 +38,17 @@ class LogReader {
 /// with ROS). A file of true poses beside it (LOG.GT.txt, STEM_GT.txt) is read with it.
 /// @throws std::runtime_error naming the file and the reason; also where it holds no scan.
 std::unique_ptr<LogReader> openLog(const std::string& path);
+
+/// A kind of log that openLog() knows besides its own.
+struct LogKind {
+  std::string name;  ///< for people, as in messages
+  /// Whether a file that begins with these bytes (unzipped) is one.
+  std::function<bool(const std::string& head)> recognizes;
+  /// @throws std::runtime_error naming the file and the reason.
+  std::function<std::unique_ptr<LogReader>(const std::string& path)> open;
+};
+
+/// Makes openLog() know one more kind of log. Not for use while logs are being opened.
+void addLogKind(LogKind kind);
 
 }  // namespace cca

@@ -17,4 +17,11 @@ mrpt::opengl::COpenGLScene::Ptr makeScene(const MapProducts& products);
 /// @throws std::runtime_error naming the file and the reason.
 void writeScene(const std::string& path, const MapProducts& products);
 
+/// Draws makeScene() from above and aside, off-screen (EGL: no display is needed).
+/// @param longest_side  pixels, clamped to [kSmallestPicture, kLargestSolidPicture].
+/// @throws std::runtime_error where it cannot be drawn or written.
+void writeSolidPicture(const std::string& png_path, const MapProducts& products, int longest_side);
+
+constexpr int kLargestSolidPicture = 4096;
+
 }  // namespace cca

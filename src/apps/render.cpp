@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <memory>
+#include <sstream>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "cca_mrpt/io/line_formats.hpp"
+#include "cca_mrpt/io/log_reader.hpp"
+#include "cca_mrpt/io/map_picture.hpp"
+#include "cca_mrpt/io/map_scene.hpp"
+#include "cca_mrpt/io/scan_grid.hpp"
+#include "cca_mrpt/io/video.hpp"
+#include "cca_mrpt/mapping/line_map.hpp"
+#include "commands.hpp"
+#include "interruption.hpp"
+#include "parameter_options.hpp"
+#include "progress.hpp"
+
+namespace cca::apps {
+namespace {
+
+struct RenderOptions {
+  std::string map, log, out;
+  std::vector<double> view;  ///< x0, y0, x1, y1 [m]
+  PictureOptions picture;
+  int size = 0;  ///< pixels; 0: by kind
+  bool no_background = false, no_trajectory = false, no_caption = false, video = false,
+       solid = false;
+  double seconds = 10.0;
+};
+
+std::string readFile(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  if (!file) throw std::runtime_error(path + ": cannot be read");
+  std::ostringstream text;
+  text << file.rdbuf();
+  return text.str();
+}
+
+/// Puts a log's scans and poses below the map.
+void addLog(const std::string& path, MapProducts& products) {
+  const auto log = openLog(path);
+  ScanGrid grid;
+  while (const auto record = log->next()) {
+    grid.insert(record->scan);
+    products.trajectory.push_back(record->scan.T_map_sensor * record->T_robot_sensor.inverse());
+  }
+  products.grid = grid.grid();
+}
+
+/// The grid that lies beside a map of our own, where no log is given.
+void addGridBeside(const std::string& map, MapProducts& products) {
+  const auto yaml = std::filesystem::path(map).parent_path() / "map.yaml";
+  if (!std::filesystem::exists(yaml)) return;
+  auto grid = std::make_shared<mrpt::maps::COccupancyGridMap2D>();
+  if (grid->loadFromROSMapServerYAML(yaml.string())) products.grid = grid;
+}
+
+void renderPicture(const RenderOptions& options) {
+  MapProducts products;
+  products.title = std::filesystem::path(options.map).string();
+  products.lines = readLinesCsv(readFile(options.map), options.map);
+  if (options.log.empty()) {
+    addGridBeside(options.map, products);
+  } else {
+    addLog(options.log, products);
+  }
+  if (options.solid) {
+    writeSolidPicture(options.out, products, options.picture.longest_side);
+  } else {
+    writePicture(options.out, products, options.picture);
+  }
+}
+
+std::size_t countScans(const std::string& path) {
+  const auto log = openLog(path);
+  std::size_t scans = 0;
+  while (log->next()) ++scans;
+  return scans;
+}
+
+/// Maps the log again, and draws it as it grows. The view is that of the finished map.
+void renderVideo(const RenderOptions& options, const Parameters& parameters) {
+  const auto frames = static_cast<std::size_t>(std::lround(options.seconds * kFramesPerSecond));
+  const std::size_t scans = countScans(options.log);
+  Video video(options.out);
+  PictureOptions picture = options.picture;
+  const Interruption interruption;
+  Progress progress("render");
+  for (const bool drawing : {false, true}) {
+    const auto log = openLog(options.log);
+    LineMap map(parameters.mapping);
+    ScanGrid grid;
+    MapProducts products;
+    products.title = std::filesystem::path(options.log).filename().string();
+    products.grid = grid.grid();
+    std::size_t scan = 0, frame = 0;
+    while (const auto record = log->next()) {
+      map.insert(record->scan);
+      grid.insert(record->scan);
+      products.trajectory.push_back(record->scan.T_map_sensor * record->T_robot_sensor.inverse());
+      ++scan;
+      if (interruption.requested()) throw std::runtime_error("interrupted; no video was written");
+      if (!drawing || scan * frames < (frame + 1) * scans) continue;
+      products.lines = map.lines();
+      products.poly_lines = map.polyLines();
+      writePicture(video.nextFrame(), products, picture);
+      frame = scan * frames / scans;
+      progress.show(log->progress(), std::to_string(frame) + " frames");
+    }
+    products.lines = map.lines();
+    if (!drawing && !picture.view) picture.view = wholeView(products);
+  }
+  video.encode();
+}
+
+void render(RenderOptions options, const Parameters& parameters) {
+  options.picture.longest_side = options.size > 0 ? options.size : options.video ? 800 : 1600;
+  options.picture.background = !options.no_background;
+  options.picture.trajectory = !options.no_trajectory;
+  options.picture.caption = !options.no_caption;
+  if (!options.view.empty()) {
+    const auto& v = options.view;
+    if (!(v[0] < v[2] && v[1] < v[3]))
+      throw CLI::ValidationError("--view", "X0,Y0 must lie below X1,Y1");
+    options.picture.view =
+        Eigen::AlignedBox2d(Eigen::Vector2d(v[0], v[1]), Eigen::Vector2d(v[2], v[3]));
+  }
+  if (options.video) {
+    if (options.log.empty()) throw CLI::RequiredError("--log (what --video is made from)");
+    renderVideo(options, parameters);
+  } else {
+    if (options.map.empty()) throw CLI::RequiredError("MAP.csv");
+    renderPicture(options);
+  }
+}
+
+}  // namespace
+
+void addRenderCommand(CLI::App& program) {
+  auto* command = program.add_subcommand("render", "picture of a line map, or video of its making");
+  auto options = std::make_shared<RenderOptions>();
+  command->add_option("MAP", options->map, "lines.csv of a map, or any CSV with x1,y1,x2,y2");
+  command->add_option("--log", options->log, "scans and poses to draw below the map");
+  command->add_option("--out", options->out, "PNG to write; with --video a .gif or .mp4")
+      ->required();
+  command->add_option("--size", options->size, "pixels of the longer side [1600; video 800]")
+      ->check(CLI::Range(kSmallestPicture, kLargestPicture));
+  command->add_option("--view", options->view, "X0,Y0,X1,Y1: what to show, m; default: all")
+      ->delimiter(',')
+      ->expected(4);
+  command->add_flag("--no-background", options->no_background, "lines alone");
+  command->add_flag("--no-trajectory", options->no_trajectory, "without the robot's way");
+  command->add_flag("--no-caption", options->no_caption, "without title and numbers");
+  command->add_flag("--3d", options->solid, "walls raised, seen from above and aside");
+  command->add_flag("--video", options->video, "the map of --log as it is built (needs ffmpeg)");
+  command->add_option("--seconds", options->seconds, "length of the video")
+      ->check(CLI::Range(0.5, 600.0))
+      ->capture_default_str();
+  auto parameters =
+      std::make_shared<ParameterOptions>(*command, std::vector<std::string>{"mapping"});
+  command->callback([options, parameters] { render(*options, parameters->resolve()); });
+}
+
+}  // namespace cca::apps

@@ -1,0 +1,186 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "cca_mrpt/ros/bag_log.hpp"
+
+#include <nav_msgs/Odometry.h>
+#include <rosbag/bag.h>
+#include <rosbag/view.h>
+#include <sensor_msgs/LaserScan.h>
+#include <tf2/buffer_core.h>
+#include <tf2_msgs/TFMessage.h>
+
+#include <algorithm>
+#include <map>
+#include <stdexcept>
+
+#include "cca_mrpt/io/log_reader.hpp"
+#include "cca_mrpt/ros/pose_message.hpp"
+#include "cca_mrpt/ros/scan_message.hpp"
+
+namespace cca {
+namespace {
+
+constexpr const char* kMapFrame = "map";
+constexpr const char* kOdomFrame = "odom";
+
+std::string withoutSlash(const std::string& frame) {
+  return !frame.empty() && frame.front() == '/' ? frame.substr(1) : frame;
+}
+
+/// All transforms of a bag at once: poses are wanted at times before the next one is read.
+class Transforms {
+ public:
+  explicit Transforms(const rosbag::Bag& bag)
+      : buffer_(std::max(ros::Duration(1.0), length(bag) + ros::Duration(10.0))) {
+    rosbag::View view(bag, rosbag::TopicQuery({"/tf", "/tf_static", "tf", "tf_static"}));
+    for (const auto& message : view) {
+      const auto transforms = message.instantiate<tf2_msgs::TFMessage>();
+      if (!transforms) continue;
+      const bool is_static = message.getTopic().find("static") != std::string::npos;
+      for (auto transform : transforms->transforms) {
+        transform.header.frame_id = withoutSlash(transform.header.frame_id);
+        transform.child_frame_id = withoutSlash(transform.child_frame_id);
+        buffer_.setTransform(transform, "bag", is_static);
+      }
+    }
+  }
+
+  bool knows(const std::string& frame) const { return buffer_._frameExists(frame); }
+
+  /// T_target_source; nothing where tf does not know it at that time, or it is not planar.
+  std::optional<PlanarPose> find(const std::string& target, const std::string& source,
+                                 const ros::Time& time) const {
+    std::string why_not;
+    if (!buffer_.canTransform(target, source, time, &why_not)) return std::nullopt;
+    try {
+      return planarPose(buffer_.lookupTransform(target, source, time).transform);
+    } catch (const std::runtime_error&) {
+      return std::nullopt;
+    }
+  }
+
+ private:
+  static ros::Duration length(const rosbag::Bag& bag) {
+    rosbag::View all(bag);
+    return all.size() == 0 ? ros::Duration(0.0) : all.getEndTime() - all.getBeginTime();
+  }
+
+  tf2::BufferCore buffer_;
+};
+
+/// The topics of one message type, the one with most messages first.
+std::string busiestTopic(const rosbag::Bag& bag, const std::string& type) {
+  std::map<std::string, std::size_t> messages;
+  rosbag::View view(bag, rosbag::TypeQuery(type));
+  for (const auto& message : view) ++messages[message.getTopic()];
+  const auto busiest =
+      std::max_element(messages.begin(), messages.end(),
+                       [](const auto& a, const auto& b) { return a.second < b.second; });
+  return busiest == messages.end() ? std::string() : busiest->first;
+}
+
+class BagLog : public LogReader {
+ public:
+  explicit BagLog(const std::string& path)
+      : bag_(path, rosbag::bagmode::Read),
+        transforms_(bag_),
+        view_(bag_, rosbag::TopicQuery({busiestTopic(bag_, "sensor_msgs/LaserScan"),
+                                        busiestTopic(bag_, "nav_msgs/Odometry")})),
+        at_(view_.begin()) {
+    messages_ = std::max<std::size_t>(view_.size(), 1);
+    base_ = transforms_.knows("base_link")        ? "base_link"
+            : transforms_.knows("base_footprint") ? "base_footprint"
+                                                  : "";
+  }
+
+  std::optional<LogRecord> next() override {
+    for (; at_ != view_.end(); ++at_, ++read_) {
+      if (const auto odometry = at_->instantiate<nav_msgs::Odometry>()) take(*odometry);
+      const auto message = at_->instantiate<sensor_msgs::LaserScan>();
+      if (!message) continue;
+      if (auto record = makeRecord(*message)) {
+        ++at_;
+        ++read_;
+        return record;
+      }
+      ++left_out_;
+    }
+    return std::nullopt;
+  }
+
+  std::string warnings() const override {
+    return left_out_ == 0 ? ""
+                          : std::to_string(left_out_) + " impossible or tilted scan(s) left out";
+  }
+
+  double progress() const override {
+    return std::min(1.0, static_cast<double>(read_) / static_cast<double>(messages_));
+  }
+
+ private:
+  void take(const nav_msgs::Odometry& odometry) {
+    geometry_msgs::Transform transform;
+    transform.translation.x = odometry.pose.pose.position.x;
+    transform.translation.y = odometry.pose.pose.position.y;
+    transform.rotation = odometry.pose.pose.orientation;
+    try {
+      wheels_ = planarPose(transform).pose;
+    } catch (const std::runtime_error&) {
+      wheels_.reset();
+    }
+  }
+
+  std::optional<LogRecord> makeRecord(const sensor_msgs::LaserScan& message) const {
+    LogRecord record;
+    try {
+      record.scan = scanFromMessage(message);
+    } catch (const std::runtime_error&) {
+      return std::nullopt;
+    }
+    const ros::Time time = sweepMiddle(message);
+    record.time = time.toSec();
+    record.has_time = !message.header.stamp.isZero();
+    const std::string laser = withoutSlash(message.header.frame_id);
+    const std::string base = base_.empty() ? laser : base_;
+    PlanarPose mounting;
+    if (const auto found = transforms_.find(base, laser, time)) {
+      mounting = *found;
+    } else if (transforms_.knows(laser) && !base_.empty() && laser != base_) {
+      return std::nullopt;
+    }
+    placeScan(record.scan, mounting);
+    record.T_robot_sensor = mounting.pose;
+    if (const auto pose = transforms_.find(kMapFrame, base, time)) record.corrected = pose->pose;
+    if (const auto pose = transforms_.find(kOdomFrame, base, time)) record.odometry = pose->pose;
+    if (!record.odometry) record.odometry = wheels_;
+    const Pose2 robot = record.corrected ? *record.corrected : record.odometry.value_or(Pose2());
+    record.scan.T_map_sensor = robot * record.T_robot_sensor;
+    return record;
+  }
+
+  rosbag::Bag bag_;
+  Transforms transforms_;
+  rosbag::View view_;
+  rosbag::View::iterator at_;
+  std::size_t messages_ = 1;
+  std::string base_;
+  std::optional<Pose2> wheels_;
+  std::size_t read_ = 0, left_out_ = 0;
+};
+
+std::unique_ptr<LogReader> openBag(const std::string& path) {
+  try {
+    return std::make_unique<BagLog>(path);
+  } catch (const rosbag::BagException& error) {
+    throw std::runtime_error(path + ": cannot be read as a ROS bag (" + error.what() +
+                             "); 'rosbag reindex' may mend one that broke off");
+  }
+}
+
+}  // namespace
+
+void addBagLogs() {
+  addLogKind({"ROS .bag", [](const std::string& head) { return head.rfind("#ROSBAG V", 0) == 0; },
+              openBag});
+}
+
+}  // namespace cca

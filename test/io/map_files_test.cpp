@@ -1,0 +1,260 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <mrpt/img/CImage.h>
+#include <mrpt/opengl/COpenGLScene.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include "cca_mrpt/io/atomic_file.hpp"
+#include "cca_mrpt/io/line_formats.hpp"
+#include "cca_mrpt/io/map_picture.hpp"
+#include "cca_mrpt/io/map_products.hpp"
+#include "cca_mrpt/io/map_scene.hpp"
+#include "cca_mrpt/io/scan_grid.hpp"
+#include "temporary_folder.hpp"
+
+namespace cca {
+namespace {
+
+using testing::HasSubstr;
+namespace fs = std::filesystem;
+
+MapLine line(std::uint64_t id, double x1, double y1, double x2, double y2) {
+  MapLine line;
+  line.id = id;
+  line.segment.start = {x1, y1};
+  line.segment.end = {x2, y2};
+  line.segment.covariance << 1e-4, 0.0, 0.0, 1e-6;
+  line.support = 10.0 * static_cast<double>(id);
+  return line;
+}
+
+/// A right angle as one poly-line, and a wall apart.
+MapProducts corner() {
+  MapProducts products;
+  products.title = "corner";
+  products.lines = {line(1, 0, 0, 4, 0), line(2, 4, 0, 4, 3), line(7, -2, 5, 2, 5)};
+  products.poly_lines = {{{{0, 0}, {4, 0}, {4, 3}}, {1, 2}}};
+  products.trajectory = {{1, 1, 0}, {2, 1, 0.5}, {2, 2, 1.0}};
+  return products;
+}
+
+/// A wall at x = 3 seen by a laser at the origin.
+Scan wallAhead() {
+  Scan scan;
+  scan.angle_min = -0.5;
+  scan.angle_increment = 0.01;
+  for (int beam = 0; beam <= 100; ++beam) {
+    scan.ranges.push_back(3.0 / std::cos(scan.bearing(static_cast<std::size_t>(beam))));
+  }
+  return scan;
+}
+
+std::string read(const std::string& path) {
+  std::ostringstream text;
+  text << std::ifstream(path, std::ios::binary).rdbuf();
+  return text.str();
+}
+
+TEST(LinesCsv, ReadsBackWhatItWrote) {
+  const auto lines = corner().lines;
+  const auto back = readLinesCsv(linesCsv(lines), "lines.csv");
+  ASSERT_EQ(back.size(), lines.size());
+  for (std::size_t k = 0; k < lines.size(); ++k) {
+    EXPECT_EQ(back[k].id, lines[k].id);
+    EXPECT_EQ(back[k].support, lines[k].support);
+    EXPECT_LT((back[k].segment.start - lines[k].segment.start).norm(), 1e-4);
+    EXPECT_LT((back[k].segment.end - lines[k].segment.end).norm(), 1e-4);
+  }
+}
+
+TEST(LinesCsv, NamesFileRowAndColumnOfWhatIsWrong) {
+  const auto message = [](const std::string& text) {
+    try {
+      readLinesCsv(text, "some.csv");
+    } catch (const std::runtime_error& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  EXPECT_THAT(message("a,b\n1,2\n"), HasSubstr("some.csv: not a line map: no column x1"));
+  EXPECT_THAT(message("x1,y1,x2,y2\n1,2,3\n"), HasSubstr("row 2, column y2: missing"));
+  EXPECT_THAT(message("x1,y1,x2,y2\n1,2,3,4\n1,nan,3,4\n"), HasSubstr("row 3, column y1"));
+  EXPECT_THAT(message("x1,y1,x2,y2\n1,2,3,4m\n"), HasSubstr("'4m' is not a finite number"));
+}
+
+TEST(LoneLines, AreThoseOfNoPolyLine) {
+  const auto products = corner();
+  const auto lone = loneLines(products.lines, products.poly_lines);
+  ASSERT_EQ(lone.size(), 1U);
+  EXPECT_EQ(lone[0].id, 7U);
+}
+
+TEST(GeoJson, HoldsLinesAndPolyLinesWithTheirProperties) {
+  const auto products = corner();
+  const auto json = nlohmann::json::parse(linesGeoJson(products.lines, products.poly_lines));
+  EXPECT_EQ(json["type"], "FeatureCollection");
+  ASSERT_EQ(json["features"].size(), 4U);
+  const auto& first = json["features"][0];
+  EXPECT_EQ(first["properties"]["kind"], "line");
+  EXPECT_EQ(first["properties"]["id"], 1);
+  EXPECT_EQ(first["properties"]["length"], 4.0);
+  EXPECT_EQ(first["properties"]["covariance"][0], 1e-4);
+  EXPECT_EQ(first["geometry"]["coordinates"][1][0], 4.0);
+  const auto& chain = json["features"][3];
+  EXPECT_EQ(chain["properties"]["kind"], "poly_line");
+  EXPECT_EQ(chain["properties"]["length"], 7.0);
+  EXPECT_EQ(chain["geometry"]["coordinates"].size(), 3U);
+}
+
+TEST(GeoJson, EmptyMapIsValid) {
+  EXPECT_TRUE(nlohmann::json::parse(linesGeoJson({}, {}))["features"].empty());
+}
+
+TEST(Svg, IsToScale) {
+  // x from -2 to 4, y from 0 to 5, half a metre of margin: 7 m x 6 m at 1 : 100.
+  const auto products = corner();
+  const std::string svg = linesSvg(products.lines, products.poly_lines, products.trajectory);
+  EXPECT_THAT(svg, HasSubstr("width=\"70.00mm\" height=\"60.00mm\""));
+  EXPECT_THAT(svg, HasSubstr("points=\"0.0000,-0.0000 4.0000,-0.0000 4.0000,-3.0000 \""));
+}
+
+TEST(MapFolder, HoldsEveryFileAndNothingElse) {
+  const TemporaryFolder folder;
+  MapProducts products = corner();
+  ScanGrid grid;
+  grid.insert(wallAhead());
+  products.grid = grid.grid();
+  products.summary["finished"] = true;
+  writeMapFolder(folder / "map", products);
+  std::vector<std::string> names;
+  for (const auto& entry : fs::directory_iterator(folder / "map")) {
+    names.push_back(entry.path().filename().string());
+    EXPECT_GT(entry.file_size(), 0U) << entry.path();
+  }
+  EXPECT_THAT(names, testing::UnorderedElementsAre(
+                         "lines.csv", "lines.geojson", "lines.svg", "lines.dxf", "map.png",
+                         "map.pgm", "map.yaml", "map.gridmap.gz", "scene.3Dscene", "summary.json"));
+  const auto summary = nlohmann::json::parse(read(folder / "map/summary.json"));
+  EXPECT_EQ(summary["finished"], true);
+  EXPECT_EQ(summary["map_lines"], 3);
+  EXPECT_EQ(summary["map_length_m"], 11.0);
+}
+
+TEST(MapFolder, IsNotOverwrittenUnasked) {
+  const TemporaryFolder folder;
+  writeMapFolder(folder.path(), corner());
+  EXPECT_THROW(prepareMapFolder(folder.path(), false), std::runtime_error);
+  EXPECT_NO_THROW(prepareMapFolder(folder.path(), true));
+}
+
+TEST(MapFolder, AFileInItsPlaceIsNamed) {
+  const TemporaryFolder folder;
+  std::ofstream(folder / "file") << "x";
+  try {
+    prepareMapFolder(folder / "file", true);
+    FAIL();
+  } catch (const std::runtime_error& error) {
+    EXPECT_THAT(error.what(), HasSubstr(folder / "file"));
+  }
+}
+
+TEST(MapFolder, FailedWriteLeavesTheOldFile) {
+  const TemporaryFolder folder;
+  writeFile(folder / "a.txt", "old");
+  {
+    AtomicFile file(folder / "a.txt");
+    std::ofstream(file.temporary()) << "half of the n";
+  }
+  EXPECT_EQ(read(folder / "a.txt"), "old");
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder.path()), {}), 1);
+}
+
+TEST(MapFolder, EmptyMapIsWrittenToo) {
+  const TemporaryFolder folder;
+  EXPECT_NO_THROW(writeMapFolder(folder.path(), {}));
+  EXPECT_TRUE(fs::exists(folder / "map.png"));
+}
+
+TEST(OccupancyMap, MrptReadsBackTheSamePlaces) {
+  const TemporaryFolder folder;
+  MapProducts products = corner();
+  ScanGrid grid;
+  for (int times = 0; times < 10; ++times) grid.insert(wallAhead());
+  products.grid = grid.grid();
+  writeMapFolder(folder.path(), products);
+  mrpt::maps::COccupancyGridMap2D back;
+  ASSERT_TRUE(back.loadFromROSMapServerYAML(folder / "map.yaml"));
+  EXPECT_NEAR(back.getResolution(), 0.05, 1e-6);
+  EXPECT_LT(back.getPos(3.02F, 0.02F), 0.2F);       // the wall
+  EXPECT_GT(back.getPos(1.5F, 0.02F), 0.8F);        // on the way to it
+  EXPECT_NEAR(back.getPos(3.5F, 0.02F), 0.5, 0.3);  // behind it
+}
+
+TEST(ScanGrid, BeamsWithoutReturnFreeOnlyWhatTheScanPromises) {
+  Scan scan = wallAhead();
+  scan.ranges.assign(scan.ranges.size(), HUGE_VAL);
+  ScanGrid silent, promising;
+  silent.insert(scan);
+  scan.free_range_without_return = 4.0;
+  for (int times = 0; times < 10; ++times) promising.insert(scan);
+  EXPECT_NEAR(silent.grid()->getPos(2.0F, 0.02F), 0.5, 0.02);
+  EXPECT_GT(promising.grid()->getPos(3.8F, 0.02F), 0.8F);
+  EXPECT_NEAR(promising.grid()->getPos(4.3F, 0.02F), 0.5, 0.02);
+}
+
+TEST(ScanGrid, BrokenPoseDoesNotExhaustTheMemory) {
+  ScanGrid grid;
+  Scan scan = wallAhead();
+  scan.T_map_sensor.x = 1e7;
+  grid.insert(scan);
+  EXPECT_LT(grid.grid()->getSizeX(), 1000U);
+}
+
+TEST(Picture, ShowsTheWallsWhereTheyAre) {
+  const TemporaryFolder folder;
+  PictureOptions options;
+  options.longest_side = 400;
+  options.caption = options.trajectory = false;
+  options.view = Eigen::AlignedBox2d(Eigen::Vector2d(-4, -4), Eigen::Vector2d(6, 6));
+  writePicture(folder / "a.png", corner(), options);
+  mrpt::img::CImage image;
+  ASSERT_TRUE(image.loadFromFile(folder / "a.png"));
+  ASSERT_EQ(image.getWidth(), 400U);
+  ASSERT_EQ(image.getHeight(), 400U);
+  const auto brightness = [&](double x, double y) {
+    const auto* bgr = image.ptr<std::uint8_t>(static_cast<unsigned>(40.0 * (x + 4.0)),
+                                              static_cast<unsigned>(40.0 * (6.0 - y)));
+    return (bgr[0] + bgr[1] + bgr[2]) / 3;
+  };
+  EXPECT_LT(brightness(2.0, 0.0), 150);  // the poly-line's first wall
+  EXPECT_LT(brightness(0.0, 5.0), 150);  // the single wall
+  EXPECT_GT(brightness(2.0, 2.5), 200);  // nothing
+}
+
+TEST(Picture, GrowsWithItsSize) {
+  const TemporaryFolder folder;
+  PictureOptions options;
+  options.longest_side = 3000;
+  writePicture(folder / "a.png", corner(), options);
+  mrpt::img::CImage image;
+  ASSERT_TRUE(image.loadFromFile(folder / "a.png"));
+  EXPECT_EQ(image.getWidth(), 3000U);
+}
+
+TEST(Scene, LoadsBackWithItsObjects) {
+  const TemporaryFolder folder;
+  writeScene(folder / "a.3Dscene", corner());
+  mrpt::opengl::COpenGLScene scene;
+  ASSERT_TRUE(scene.loadFromFile(folder / "a.3Dscene"));
+  for (const char* name : {"walls", "lines", "trajectory", "start", "end"}) {
+    EXPECT_TRUE(scene.getByName(name)) << name;
+  }
+}
+
+}  // namespace
+}  // namespace cca

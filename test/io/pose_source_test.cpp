@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <fstream>
+
+#include "cca_mrpt/io/log_info.hpp"
+#include "cca_mrpt/io/pose_source.hpp"
+#include "cca_mrpt/io/rawlog_writer.hpp"
+#include "cca_mrpt/io/trajectory_error.hpp"
+#include "temporary_folder.hpp"
+
+namespace cca {
+namespace {
+
+/// A laser in a room of 8 m x 5 m, seen without noise.
+Scan roomScan(const Pose2& T_map_sensor) {
+  Scan scan;
+  scan.angle_min = -M_PI;
+  scan.angle_increment = M_PI / 180.0;
+  for (int beam = 0; beam < 360; ++beam) {
+    const double bearing = T_map_sensor.theta + scan.bearing(static_cast<std::size_t>(beam));
+    const double c = std::cos(bearing), s = std::sin(bearing);
+    const double to_x = c > 0.0 ? (4.0 - T_map_sensor.x) / c : (-4.0 - T_map_sensor.x) / c;
+    const double to_y = s > 0.0 ? (2.5 - T_map_sensor.y) / s : (-2.5 - T_map_sensor.y) / s;
+    scan.ranges.push_back(std::min(c == 0.0 ? HUGE_VAL : to_x, s == 0.0 ? HUGE_VAL : to_y));
+  }
+  return scan;
+}
+
+/// A slow circle whose odometry turns 5 % too far and runs 3 % too long.
+LogRecord onCircle(int k) {
+  const double angle = 0.05 * k;
+  LogRecord record;
+  record.truth = Pose2{2.0 * std::sin(angle), -std::cos(angle), wrapAngle(0.7 * angle)};
+  record.odometry =
+      Pose2{2.06 * std::sin(1.05 * angle), -std::cos(1.05 * angle), wrapAngle(0.74 * angle)};
+  record.scan = roomScan(*record.truth);
+  record.scan.T_map_sensor = *record.odometry;
+  return record;
+}
+
+TEST(PoseSource, IcpUndoesWhatTheWheelsGetWrong) {
+  std::vector<Pose2> odometry, icp, truth;
+  PoseSource from_odometry(PoseKind::kOdometry), from_icp(PoseKind::kIcp);
+  for (int k = 0; k < 60; ++k) {
+    const LogRecord record = onCircle(k);
+    odometry.push_back(from_odometry.locate(record));
+    icp.push_back(from_icp.locate(record));
+    truth.push_back(*record.truth);
+  }
+  const double odometry_error = compareTrajectories(odometry, truth).at_end_m;
+  EXPECT_GT(odometry_error, 0.1);
+  EXPECT_LT(compareTrajectories(icp, truth).at_end_m, 0.2 * odometry_error);
+}
+
+TEST(PoseSource, WhatTheLogDoesNotHoldIsNamed) {
+  LogRecord record = onCircle(0);
+  record.odometry.reset();
+  record.truth.reset();
+  EXPECT_THROW(PoseSource(PoseKind::kOdometry).locate(record), std::runtime_error);
+  EXPECT_THROW(PoseSource(PoseKind::kTruth).locate(record), std::runtime_error);
+  EXPECT_THROW(poseKind("gps"), std::runtime_error);
+}
+
+TEST(TrajectoryError, IsNoneForATrajectoryMovedRigidly) {
+  const Pose2 motion{3.0, -2.0, 2.5};
+  std::vector<Pose2> truth, moved;
+  for (int k = 0; k < 20; ++k) {
+    truth.push_back({0.3 * k, std::sin(0.4 * k), wrapAngle(0.2 * k)});
+    moved.push_back(motion * truth.back());
+  }
+  const auto error = compareTrajectories(moved, truth);
+  EXPECT_NEAR(error.rms_m, 0.0, 1e-9);
+  EXPECT_NEAR(error.rms_deg, 0.0, 1e-6);
+  EXPECT_GT(error.at_end_m, 1.0);
+}
+
+TEST(TrajectoryError, DegenerateTrajectoriesGiveNumbers) {
+  EXPECT_EQ(compareTrajectories({}, {}).rms_m, 0.0);
+  EXPECT_NEAR(compareTrajectories({{1, 1, 0}}, {{2, 2, 0}}).rms_m, 0.0, 1e-12);
+  const std::vector<Pose2> still(5, Pose2{1, 2, 0});
+  EXPECT_NEAR(compareTrajectories(still, still).max_m, 0.0, 1e-12);
+}
+
+TEST(TruthFile, BesideALogIsReadWithIt) {
+  const TemporaryFolder folder;
+  const std::string path = folder / "run.rawlog";
+  RawlogWriter writer(path, 20.0);
+  for (int k = 0; k < 4; ++k) writer.insert(roomScan({}), {}, {0.1 * k, 0, 0}, 100.0 + k);
+  writer.commit();
+  std::ofstream(path + ".GT.txt") << "100.5 1 2 3.1\n101.5 3 2 -3.1\n102.5 3 4 0\n";
+  const auto log = openLog(path);
+  EXPECT_FALSE(log->next()->truth.has_value());  // before the first true pose
+  const auto truth = log->next()->truth;
+  ASSERT_TRUE(truth.has_value());
+  EXPECT_NEAR(truth->x, 2.0, 1e-6);
+  EXPECT_NEAR(std::abs(truth->theta), M_PI, 1e-6);
+  EXPECT_TRUE(log->next()->truth.has_value());
+  EXPECT_FALSE(log->next()->truth.has_value());  // after the last
+}
+
+TEST(LogInfo, TellsWhatIsThere) {
+  const TemporaryFolder folder;
+  const std::string path = folder / "run.rawlog";
+  RawlogWriter writer(path, 20.0);
+  const double times[] = {10.0, 10.1, 10.2, 10.2, 10.1, 10.4, 15.0};
+  for (int k = 0; k < 7; ++k) writer.insert(roomScan({}), {0.2, 0, 0}, {0.5 * k, 0, 0}, times[k]);
+  writer.commit();
+  const auto info = inspectLog(*openLog(path));
+  EXPECT_EQ(info["scans"], 7);
+  EXPECT_EQ(info["beams"], nlohmann::json({360, 360}));
+  EXPECT_NEAR(info["field_of_view_deg"].get<double>(), 359.0, 1e-3);
+  EXPECT_NEAR(info["path_m"].get<double>(), 3.0, 1e-3);
+  EXPECT_NEAR(info["returns"].get<double>(), 1.0, 1e-9);
+  EXPECT_NEAR(info["range_m"][0].get<double>(), 2.5, 1e-3);
+  EXPECT_EQ(info["time_faults"]["backwards"], 1);
+  EXPECT_EQ(info["time_faults"]["repeated"], 1);
+  EXPECT_EQ(info["time_faults"]["gaps"], 1);
+  EXPECT_EQ(info["poses"]["odometry"], 7);
+}
+
+}  // namespace
+}  // namespace cca
