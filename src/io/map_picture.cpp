@@ -17,7 +17,8 @@ using Box = Eigen::AlignedBox2d;
 
 constexpr double kMargin = 1.0;        // m around the map
 constexpr double kSmallestView = 2.0;  // m
-constexpr int kHeader = 64;            // pixels
+constexpr int kHeader = 64;            // pixels of a sheet of 1600
+constexpr double kThinnest = 0.5;      // of the strokes on a sheet of 1600 pixels
 
 constexpr Colour kUnknown{0.906, 0.922, 0.933}, kFree{1.0, 1.0, 1.0}, kHit{0.55, 0.62, 0.67};
 constexpr Colour kInk{0.13, 0.17, 0.21}, kSoftInk{0.38, 0.44, 0.49}, kPaper{1.0, 1.0, 1.0};
@@ -156,7 +157,7 @@ void writePicture(const std::string& png_path, const MapProducts& products,
   const Box view = options.view && !options.view->isEmpty() ? *options.view : wholeView(products);
   const int side = std::clamp(options.longest_side, kSmallestPicture, kLargestPicture);
   // Strokes and letters grow with the sheet, so that pictures look alike at any size.
-  const double unit = side / 1600.0;
+  const double unit = std::max(kThinnest, side / 1600.0);
   Canvas canvas(view, side, options.caption ? static_cast<int>(kHeader * unit) : 0);
   canvas.fill(kUnknown);
   if (options.background && products.grid) drawBackground(canvas, *products.grid, view);

@@ -109,7 +109,7 @@ TEST(LogInfo, TellsWhatIsThere) {
   writer.commit();
   const auto info = inspectLog(*openLog(path));
   EXPECT_EQ(info["scans"], 7);
-  EXPECT_EQ(info["beams"], nlohmann::json({360, 360}));
+  EXPECT_EQ(info["beams"].dump(), "[360,360]");
   EXPECT_NEAR(info["field_of_view_deg"].get<double>(), 359.0, 1e-3);
   EXPECT_NEAR(info["path_m"].get<double>(), 3.0, 1e-3);
   EXPECT_NEAR(info["returns"].get<double>(), 1.0, 1e-9);

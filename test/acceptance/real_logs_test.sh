@@ -1,0 +1,45 @@
+#!/usr/bin/env bash
+# Every 2-D laser log at hand goes through info, map, evaluate and render without a parameter set by
+# hand: those that mrpt-common installs, and the five of the shared data. real_logs_test.sh PROGRAM DATA
+set -u
+program=$1 data=$2
+mrpt=/usr/share/mrpt/datasets
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+failed=0 tried=0
+
+# name, and the length [m] that the map must reach: half of what was found when this was written, for
+# a map may get better, but must not vanish.
+try() {
+  local log=$1 least=$2 name
+  name=$(basename "$log")
+  [ -e "$log" ] || { echo "skipped, is missing: $log"; return; }
+  tried=$((tried + 1))
+  local out="$work/$tried"
+  if "$program" info "$log" >"$work/info" 2>&1 &&
+     "$program" map "$log" --out "$out" --quiet >"$work/map" 2>&1 &&
+     "$program" evaluate "$out/lines.csv" --log "$log" >"$work/evaluate" 2>&1 &&
+     "$program" render "$out/lines.csv" --log "$log" --size 300 --out "$out/small.png" >"$work/render" 2>&1
+  then
+    awk -F '[:,]' -v least="$least" -v name="$name" '/"map_length_m"/ {
+      printf "%-60s %7.1f m of wall\n", name, $2; if ($2 < least) { print "FAILED: expected " least; exit 1 } }' \
+      "$out/summary.json" || failed=1
+  else
+    echo "FAILED: $name"
+    tail -n 3 "$work"/{info,map,evaluate,render} 2>/dev/null
+    failed=1
+  fi
+}
+
+try "$mrpt/2006-01ENE-21-SENA_Telecom Faculty_one_loop_only.rawlog" 100
+try "$mrpt/localization_demo.rawlog" 20
+try "$mrpt/uwb_ro-localization_demo.rawlog" 30
+try "$mrpt/graphslam-engine-demos/action_observations_map/simul.rawlog" 100
+try "$mrpt/graphslam-engine-demos/action_observations_map/range_030_bearing_015.rawlog" 100
+try "$mrpt/localization_demo.simplemap.gz" 50
+try "$mrpt/malaga-cs-fac-building.simplemap.gz" 50
+for log in intel freiburg-079 orebro fhw seattle; do try "$data/logs/$log-corrected.log.gz" 50; done
+
+[ $tried -gt 0 ] || { echo "no log at hand"; exit 77; }
+[ $failed -eq 0 ] && echo "$tried logs passed"
+exit $failed

@@ -1,0 +1,157 @@
+#!/usr/bin/env bash
+# info, map, extract and render as a user runs them: log_commands_test.sh PROGRAM
+set -u
+program=$1
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+cd "$work" || exit 1
+failed=0
+
+check() {  # check WHAT COMMAND...: the command must succeed
+  local what=$1
+  shift
+  "$@" >last.out 2>last.err && return
+  echo "FAILED: $what"
+  cat last.out last.err
+  failed=1
+}
+
+refuses() {  # refuses STATUS WORDS COMMAND...: the command must end so, and say so
+  local status=$1 words=$2
+  shift 2
+  "$@" >last.out 2>last.err
+  local got=$?
+  [ $got -eq "$status" ] && grep -q -- "$words" last.out last.err && return
+  echo "FAILED: expected status $status and '$words' from: $* (got $got)"
+  cat last.out last.err
+  failed=1
+}
+
+# A robot drives along x in a room of 12 m x 6 m; a SICK of 181 beams without noise.
+room_log() {
+  awk 'BEGIN {
+    pi = atan2(0, -1); print "# CARMEN Logfile"
+    for (k = 0; k < 40; k++) {
+      x = -4 + 0.2 * k; printf "FLASER 181"
+      for (b = 0; b <= 180; b++) {
+        a = (b - 90) * pi / 180; c = cos(a); s = sin(a)
+        r = 1e9; if (c > 1e-9) r = (6 - x) / c
+        if (s > 1e-9 && 3 / s < r) r = 3 / s; if (s < -1e-9 && -3 / s < r) r = -3 / s
+        printf " %.3f", r
+      }
+      printf " %.3f 0 0 %.3f 0 0 %.2f host %.2f\n", x, x, 0.1 * k, 0.1 * k
+    }
+  }'
+}
+room_log >room.log
+gzip -c room.log >room.log.gz
+
+check "info reads a log" "$program" info room.log
+grep -q '^scans *40$' last.out || { echo "FAILED: info does not count 40 scans"; failed=1; }
+check "info as JSON" "$program" info --json room.log.gz
+cp last.out info.json
+check "its JSON is valid" python3 -c 'import json; assert json.load(open("info.json"))["scans"] == 40'
+
+check "map makes a map" "$program" map room.log.gz --out map
+for file in lines.csv lines.geojson lines.svg lines.dxf map.png map.pgm map.yaml map.gridmap.gz \
+            scene.3Dscene summary.json; do
+  [ -s "map/$file" ] || { echo "FAILED: no map/$file"; failed=1; }
+done
+[ "$(ls -A map | wc -l)" -eq 10 ] || { echo "FAILED: map holds more than its files"; failed=1; }
+check "three walls of 12, 12 and 6 m are found" python3 - <<'END'
+import csv, math
+walls = [tuple(float(r[k]) for k in ("x1", "y1", "x2", "y2")) for r in csv.DictReader(open("map/lines.csv"))]
+length = lambda w: math.hypot(w[2] - w[0], w[3] - w[1])
+total = sum(length(w) for w in walls)
+# Behind the first scan's bearing of -90 degrees nothing is seen: 10 + 10 + 6 m.
+assert 25.0 < total < 27.0, total
+for w in walls:
+    on = all(abs(abs(y) - 3) < 0.02 for y in w[1::2]) or all(abs(x - 6) < 0.02 for x in w[0::2])
+    assert on, w
+END
+refuses 1 "there is a map already" "$program" map room.log --out map
+check "--force overwrites" "$program" map room.log --out map --force
+check "the same log gives the same bytes" "$program" map room.log.gz --out again --quiet
+for file in lines.csv lines.geojson lines.svg lines.dxf map.pgm map.png; do
+  cmp -s "map/$file" "again/$file" || [ $file = map.png ] || { echo "FAILED: $file differs"; failed=1; }
+done
+
+if command -v ogrinfo >/dev/null; then
+  check "GDAL reads the GeoJSON" ogrinfo -so -al map/lines.geojson
+  grep -q 'covariance' last.out || { echo "FAILED: no covariance in the GeoJSON"; failed=1; }
+  check "GDAL reads the DXF" ogrinfo -so -al map/lines.dxf
+  grep -q 'Feature Count: [1-9]' last.out || { echo "FAILED: an empty DXF"; failed=1; }
+else
+  echo "ogrinfo is not installed: GeoJSON and DXF were not read back by GDAL"
+fi
+
+check "poses by odometry" "$program" map room.log --pose odometry --out odometry
+check "poses by ICP" "$program" map room.log --pose icp --out icp
+grep -q pose_error icp/summary.json || { echo "FAILED: no pose error told"; failed=1; }
+refuses 1 "holds no true poses" "$program" map room.log --pose truth --out truth
+refuses 2 "pose" "$program" map room.log --pose gps --out gps
+
+check "extract writes segments" "$program" extract room.log --out lines.csv
+head -1 lines.csv | grep -q '^scan_id,x1,y1,x2,y2' || { echo "FAILED: header of extract"; failed=1; }
+
+check "render draws a map over its scans" "$program" render map/lines.csv --log room.log --out a.png --size 500
+check "render draws a part" "$program" render map/lines.csv --view 0,0,3,2 --out b.png --size 300
+check "render draws it solid" "$program" render map/lines.csv --3d --out c.png --size 400
+check "they are pictures" python3 - <<'END'
+import struct
+for name, size in (("a.png", 500), ("b.png", 300), ("c.png", 400)):
+    with open(name, "rb") as f:
+        head = f.read(24)
+    assert head[:8] == b"\x89PNG\r\n\x1a\n", name
+    assert struct.unpack(">I", head[16:20])[0] == size, name
+END
+if command -v ffmpeg >/dev/null; then
+  check "render makes a GIF" "$program" render --video --log room.log --out a.gif --size 200 --seconds 1
+  check "render makes an MP4" "$program" render --video --log room.log --out a.mp4 --size 200 --seconds 1
+  [ -s a.gif ] && [ -s a.mp4 ] || { echo "FAILED: no video"; failed=1; }
+else
+  refuses 1 "ffmpeg" "$program" render --video --log room.log --out a.gif
+fi
+refuses 1 "written as .gif or .mp4" "$program" render --video --log room.log --out a.avi
+refuses 2 "view" "$program" render map/lines.csv --view 3,0,0,2 --out d.png
+refuses 1 "not a line map" "$program" render room.log --out d.png
+
+# What is no log, or only a part of one.
+: >empty.log
+head -c 100000 /dev/urandom >noise.rawlog
+head -c 20000 room.log >cut.log
+head -c $(($(stat -c %s room.log.gz) / 2)) room.log.gz >half.log.gz
+cp room.log.gz misnamed.rawlog
+printf 'Dear reader,\nthis is no log.\n' >letter.log
+refuses 1 "empty.log: is empty" "$program" info empty.log
+refuses 1 "noise.rawlog" "$program" info noise.rawlog
+refuses 1 "not a log of a known kind" "$program" map letter.log --out letter
+refuses 1 "no such file" "$program" info missing.log
+refuses 1 "not a regular file" "$program" info .
+check "a log cut in a line is used" "$program" map cut.log --out cut
+grep -q "1 damaged" last.err || { echo "FAILED: the damaged line is not told"; failed=1; }
+check "half a gzip is used" "$program" map half.log.gz --out half
+grep -q "ends early" last.err || { echo "FAILED: the early end is not told"; failed=1; }
+check "content counts, not the name" "$program" info misnamed.rawlog
+refuses 2 "LOG" "$program" info
+refuses 1 "cannot be made a folder" "$program" map room.log --out room.log
+[ ! -e letter ] || { echo "FAILED: a folder was made for a log that is none"; failed=1; }
+
+# Ctrl-C saves what there is. Forty rooms in a row keep the program busy long enough.
+for _ in $(seq 400); do cat room.log; done >long.log
+"$program" map long.log --out interrupted >last.out 2>last.err &
+pid=$!
+sleep 1
+kill -INT $pid
+wait $pid
+status=$?
+if [ -s interrupted/summary.json ] && grep -q '"finished": true' interrupted/summary.json; then
+  echo "the log was mapped before it could be interrupted"
+elif [ $status -ne 1 ] || ! grep -q interrupted last.err || [ ! -s interrupted/lines.csv ]; then
+  echo "FAILED: an interrupted run (status $status) did not save its map"
+  cat last.err
+  failed=1
+fi
+
+[ $failed -eq 0 ] && echo "all passed"
+exit $failed
