@@ -6,7 +6,9 @@
 namespace cca {
 namespace {
 
-constexpr double kOtherWay = 1.0;  // m, by which the other way around must promise more
+// m, by which the other way around must promise more than this one still does. It may be tried
+// once; from then on it must promise more than any way ever did.
+constexpr double kOtherWay = 1.0;
 constexpr double kFalling = 0.3;   // m, by which the heuristic may rise: corners come into sight
 constexpr double kAtReach = 0.15;  // m
 
@@ -50,13 +52,14 @@ std::optional<Eigen::Vector2d> MotionToGoal::step(const Eigen::Vector2d& x_map,
     const double h = (node.p_map - x_map).norm() + (goal_map - node.p_map).norm();
     const bool other_way = on_the_right_ && *on_the_right_ != node.obstacle_on_the_right;
     const double cost = h + (other_way ? kOtherWay : 0.0);
-    if (cost >= least) continue;
+    if (cost >= least || (other_way && changed_side_ && h > heuristic_ - kFalling)) continue;
     least = cost;
     h_best = h;
     best = &node;
   }
   if (!best || h_best > heuristic_ + kFalling) return std::nullopt;
   heuristic_ = std::min(heuristic_, h_best);
+  changed_side_ = changed_side_ || (on_the_right_ && *on_the_right_ != best->obstacle_on_the_right);
   on_the_right_ = best->obstacle_on_the_right;
   last_direction_ = best->p_map - x_map;
   return best->p_map;

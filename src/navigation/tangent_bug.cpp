@@ -82,9 +82,8 @@ void TangentBug::shutWhatIsTooNarrow() {
     state_ = TangentBugState::kUnreachable;
   } else if (state_ == TangentBugState::kBoundaryFollowing) {
     if (const auto place = follower_.takeNarrowPlace()) shut_map_.push_back(*place);
-  } else if (target_ && *target_ != x) {
-    const double ahead = std::min((*target_ - x).norm(), way_space_.radius);
-    shut_map_.push_back(x + ahead * (*target_ - x).normalized());
+  } else {
+    startFollowing();
   }
 }
 

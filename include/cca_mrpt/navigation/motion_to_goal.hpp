@@ -43,7 +43,7 @@ class MotionToGoal {
 
  private:
   std::optional<Eigen::Vector2d> reach_map_;
-  bool in_vain_ = false;
+  bool in_vain_ = false, changed_side_ = false;
   double farthest_ = std::numeric_limits<double>::infinity();   ///< m, allowed from the goal
   double heuristic_ = std::numeric_limits<double>::infinity();  ///< m
   std::optional<bool> on_the_right_;  ///< the side of the obstacle that is passed
