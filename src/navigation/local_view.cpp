@@ -143,4 +143,16 @@ bool LocalView::onOneSurface(int a, int b) const {
   return true;
 }
 
+int LocalView::surfaceEnd(int from, bool counter_clockwise) const {
+  const int n = static_cast<int>(obstacles.size());
+  const auto endsAt = [&](int i) { return ends_here[static_cast<std::size_t>(i)]; };
+  int i = from;
+  for (int steps = 0; steps < n; ++steps) {
+    const int before = (i + n - 1) % n;
+    if (counter_clockwise ? endsAt(i) : endsAt(before)) return i;
+    i = counter_clockwise ? (i + 1) % n : before;
+  }
+  return from;
+}
+
 }  // namespace cca

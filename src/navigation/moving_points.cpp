@@ -16,7 +16,7 @@ constexpr int kBeamsAround = 2;    // of the other scan, to each side
 constexpr int kLeastBeams = 3;     // of a mover
 constexpr double kJoined = 0.2;    // m, between neighbouring returns of a mover
 constexpr double kBody = 0.8;      // m, how far a mover reaches from its suspicious part
-constexpr double kNearby = 0.5;    // m, around a place where a mover was
+constexpr double kNearby = 0.75;   // m, around a place where a mover was
 
 // The shortest free distance that the scan saw around the direction of a point; 0 where unknown.
 double seenAround(const Scan& scan, const Eigen::Vector2d& p_sensor) {

@@ -31,18 +31,21 @@ std::vector<TangentNode> localTangentGraph(const LocalView& view, const Configur
   const Eigen::Vector2d x_map = view.T_map_robot.position();
   std::vector<TangentNode> nodes;
   const auto addNode = [&](int obstacle, bool free_on_the_left) {
-    const Eigen::Vector2d& edge = space.obstacles[static_cast<std::size_t>(obstacle)];
-    const Eigen::Vector2d back = x_map - edge;
-    const double distance = back.norm();
-    // With the obstacle on its right, the robot goes around it clockwise.
-    const double turn = free_on_the_left ? -1.0 : 1.0;
-    const double opening = distance > radius ? std::acos(radius / distance) : 0.0;
-    const double tangent = std::atan2(back.y(), back.x()) + turn * opening;
-    for (double around : {kAround, 0.5 * kAround, 0.0}) {
-      const Eigen::Vector2d node = onCircle(edge, radius, tangent + turn * around);
-      if (!space.isFree(x_map, node)) continue;
-      nodes.push_back({node, edge, free_on_the_left});
-      break;
+    // Between two bearings a wall that is grazed goes on to its end, unless a corner hides that.
+    for (int edge : {view.surfaceEnd(obstacle, free_on_the_left), obstacle}) {
+      const Eigen::Vector2d& edge_map = space.obstacles[static_cast<std::size_t>(edge)];
+      const Eigen::Vector2d back = x_map - edge_map;
+      const double distance = back.norm();
+      // With the obstacle on its right, the robot goes around it clockwise.
+      const double turn = free_on_the_left ? -1.0 : 1.0;
+      const double opening = distance > radius ? std::acos(radius / distance) : 0.0;
+      const double tangent = std::atan2(back.y(), back.x()) + turn * opening;
+      for (double around : {kAround, 0.5 * kAround, 0.0}) {
+        const Eigen::Vector2d node = onCircle(edge_map, radius, tangent + turn * around);
+        if (!space.isFree(x_map, node)) continue;
+        nodes.push_back({node, edge_map, free_on_the_left});
+        return;
+      }
     }
   };
   const std::size_t n = ranges.size();

@@ -14,12 +14,12 @@ struct Trap {
   BoxWorld world;
   Pose2 start;
   Eigen::Vector2d goal;
-  double shortest = 0.0;  ///< m, of any path; an upper estimate, along the corners by hand
+  double size = 0.0;  ///< m, of the square frame
   bool reachable = true;
 };
 
 inline Trap concavePocket() {
-  Trap trap{"concave_pocket", {}, {2.0, 6.0, 0.0}, {10.0, 6.0}, 13.0, true};
+  Trap trap{"concave_pocket", {}, {2.0, 6.0, 0.0}, {10.0, 6.0}, 12.0, true};
   trap.world.addFrame(12, 12);
   trap.world.add(4.0, 2.8, 7.2, 3.0);
   trap.world.add(4.0, 9.0, 7.2, 9.2);
@@ -28,7 +28,7 @@ inline Trap concavePocket() {
 }
 
 inline Trap spiral() {
-  Trap trap{"spiral", {}, {6.5, 6.2, 0.0}, {1.0, 13.0}, 40.0, true};
+  Trap trap{"spiral", {}, {6.5, 6.2, 0.0}, {1.0, 13.0}, 14.0, true};
   trap.world.addFrame(14, 14);
   auto& w = trap.world;
   // Two and a half turns of a corridor 1.2 m wide, opening at the left below.
@@ -47,7 +47,7 @@ inline Trap spiral() {
 }
 
 inline Trap comb() {
-  Trap trap{"comb", {}, {1.5, 1.0, 0.0}, {13.0, 1.0}, 26.0, true};
+  Trap trap{"comb", {}, {1.5, 1.0, 0.0}, {13.0, 1.0}, 14.0, true};
   trap.world.addFrame(14, 6);
   for (int i = 0; i < 5; ++i) trap.world.add(2.5 + 2.0 * i, 0.0, 2.7 + 2.0 * i, 4.8);
   return trap;
@@ -55,7 +55,7 @@ inline Trap comb() {
 
 inline Trap ringAroundTheGoal(bool closed) {
   Trap trap{
-      closed ? "closed_ring" : "ring_with_a_gap", {}, {1.0, 5.0, 0.0}, {6.0, 5.0}, 12.5, !closed};
+      closed ? "closed_ring" : "ring_with_a_gap", {}, {1.0, 5.0, 0.0}, {6.0, 5.0}, 10.0, !closed};
   trap.world.addFrame(10, 10);
   trap.world.add(4.0, 3.0, 8.0, 3.2);
   trap.world.add(4.0, 6.8, 8.0, 7.0);
@@ -66,7 +66,7 @@ inline Trap ringAroundTheGoal(bool closed) {
 
 /// A corridor with bends, wide enough for the robot, its margins and 6 cm.
 inline Trap narrowCorridor() {
-  Trap trap{"narrow_corridor", {}, {1.0, 1.0, 0.0}, {7.0, 7.0}, 9.5, true};
+  Trap trap{"narrow_corridor", {}, {1.0, 1.0, 0.0}, {7.0, 7.0}, 8.0, true};
   trap.world.addFrame(8, 8);
   constexpr double kWidth = 0.66;
   trap.world.add(2.0, 0.0, 5.0, 4.0 - kWidth / 2);

@@ -32,6 +32,10 @@ struct LocalView {
   /// Whether two obstacle points lie on one surface, on the shorter way around the sensor.
   /// Cost: O(points between).
   bool onOneSurface(int a, int b) const;
+
+  /// @return the last obstacle point of the surface of `from`, counter-clockwise or clockwise.
+  /// Cost: O(points between).
+  int surfaceEnd(int from, bool counter_clockwise) const;
 };
 
 /// Reads a scan as obstacle points.

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "cca_mrpt/navigation/safe_velocity.hpp"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "box_world.hpp"
+
+namespace cca::testing {
+namespace {
+
+constexpr double kPeriod = 0.1, kRadius = 0.27;
+const RobotParameters kRobot;
+
+std::vector<Hazard> seenFrom(const Pose2& pose, const std::vector<Eigen::Vector2d>& points) {
+  std::vector<Hazard> hazards;
+  for (const auto& p : points) hazards.push_back({pose.inverse() * p, 0.0});
+  return hazards;
+}
+
+TEST(SafeVelocity, WithoutHazardsGivesWhatIsWantedWithinTheAccelerations) {
+  const Velocity velocity = safeVelocity({0.7, 1.5}, {0, 0}, {}, kRobot, kRadius, kPeriod);
+  EXPECT_NEAR(velocity.linear, kRobot.max_linear_acceleration * kPeriod, 1e-12);
+  EXPECT_NEAR(velocity.angular, kRobot.max_angular_acceleration * kPeriod, 1e-12);
+}
+
+// Whatever is wanted, at random, among random points: the robot never touches one.
+TEST(SafeVelocity, NoWishLeadsIntoAPoint) {
+  std::mt19937 generator(7);
+  std::uniform_real_distribution<double> uniform(-1.0, 1.0);
+  for (int world = 0; world < 30; ++world) {
+    std::vector<Eigen::Vector2d> points;
+    while (points.size() < 60) {
+      const Eigen::Vector2d p(4.0 * uniform(generator), 4.0 * uniform(generator));
+      if (p.norm() > 0.3) points.push_back(p);
+    }
+    Pose2 pose;
+    Velocity velocity, wanted;
+    for (int i = 0; i < 300; ++i) {
+      if (i % 10 == 0) wanted = {std::abs(uniform(generator)), 1.5 * uniform(generator)};
+      const Velocity command =
+          safeVelocity(wanted, velocity, seenFrom(pose, points), kRobot, kRadius, kPeriod);
+      drive(command, kRobot, kPeriod, pose, velocity);
+      for (const auto& p : points) ASSERT_GE((p - pose.position()).norm(), kRadius - 0.003);
+    }
+  }
+}
+
+TEST(SafeVelocity, StopsBeforeAWallAtFullSpeed) {
+  std::vector<Eigen::Vector2d> wall;
+  for (double y = -2; y <= 2; y += 0.05) wall.push_back({2.0, y});
+  Pose2 pose;
+  Velocity velocity;
+  for (int i = 0; i < 100; ++i) {
+    const Velocity command =
+        safeVelocity({0.7, 0.0}, velocity, seenFrom(pose, wall), kRobot, kRadius, kPeriod);
+    drive(command, kRobot, kPeriod, pose, velocity);
+  }
+  EXPECT_LE(pose.x, 2.0 - kRadius + 1e-6);
+  EXPECT_GT(pose.x, 2.0 - kRadius - 0.35) << "without giving the way away";
+}
+
+TEST(SafeVelocity, TurningOnTheSpotIsSafeInContact) {
+  const Velocity velocity =
+      safeVelocity({0.0, 1.5}, {0, 0}, {{{0.25, 0.0}, 0.0}}, kRobot, kRadius, kPeriod);
+  EXPECT_GT(velocity.angular, 0.0);
+  EXPECT_DOUBLE_EQ(velocity.linear, 0.0);
+}
+
+TEST(SafeVelocity, LeavesAContactButDoesNotDeepenIt) {
+  const auto ahead = std::vector<Hazard>{{{0.25, 0.0}, 0.0}};
+  const auto behind = std::vector<Hazard>{{{-0.25, 0.0}, 0.0}};
+  EXPECT_DOUBLE_EQ(safeVelocity({0.5, 0}, {0, 0}, ahead, kRobot, kRadius, kPeriod).linear, 0.0);
+  EXPECT_GT(safeVelocity({0.5, 0}, {0, 0}, behind, kRobot, kRadius, kPeriod).linear, 0.0);
+}
+
+TEST(SafeVelocity, BrakesForSomebodyWhoComesNearerAndNotForAWallAsFarAway) {
+  const Velocity present{0.7, 0.0};
+  const std::vector<Hazard> wall{{{1.2, 0.0}, 0.0}}, walker{{{1.2, 0.0}, 1.0}};
+  EXPECT_DOUBLE_EQ(safeVelocity(present, present, wall, kRobot, kRadius, kPeriod).linear, 0.7);
+  EXPECT_LT(safeVelocity(present, present, walker, kRobot, kRadius, kPeriod).linear, 0.7);
+}
+
+TEST(SafeVelocity, StandsStillForSomebodyWhoTouchesIt) {
+  const Velocity velocity =
+      safeVelocity({0.7, 1.0}, {0, 0}, {{{0.26, 0.1}, 1.0}}, kRobot, kRadius, kPeriod);
+  EXPECT_DOUBLE_EQ(velocity.linear, 0.0);
+  EXPECT_DOUBLE_EQ(velocity.angular, 0.0);
+}
+
+}  // namespace
+}  // namespace cca::testing

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "cca_mrpt/navigation/scan_smoothing.hpp"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "box_world.hpp"
+
+namespace cca::testing {
+namespace {
+
+Scan noisy(Scan scan, double sigma, unsigned seed) {
+  std::mt19937 generator(seed);
+  std::normal_distribution<double> noise(0.0, sigma);
+  for (double& range : scan.ranges) {
+    if (isReturn(range)) range += noise(generator);
+  }
+  return scan;
+}
+
+TEST(ScanSmoothing, LeavesAPreciseScanAsItIs) {
+  BoxWorld world;
+  world.addFrame(4, 4);
+  const Scan scan = world.scan({1, 1, 0.3}, 8.0);
+  EXPECT_EQ(smoothScan(scan).ranges, scan.ranges);
+}
+
+TEST(ScanSmoothing, QuietensAnInclinedWallNearbyWithoutMovingIt) {
+  BoxWorld world;
+  world.add(0.4, -5, 0.5, 5);
+  const Scan truth = world.scan({0, 0, 0.5}, 3.0);
+  double before = 0.0, after = 0.0, bias = 0.0;
+  int count = 0;
+  for (unsigned seed = 0; seed < 20; ++seed) {
+    const Scan raw = noisy(truth, 0.05, seed), smooth = smoothScan(raw);
+    for (std::size_t i = 0; i < truth.size(); ++i) {
+      if (!isReturn(truth.ranges[i]) || truth.ranges[i] > 0.6) continue;
+      before += std::pow(raw.ranges[i] - truth.ranges[i], 2);
+      after += std::pow(smooth.ranges[i] - truth.ranges[i], 2);
+      bias += smooth.ranges[i] - truth.ranges[i];
+      ++count;
+    }
+  }
+  EXPECT_LT(std::sqrt(after / count), 0.55 * std::sqrt(before / count));
+  EXPECT_NEAR(bias / count, 0.0, 0.004);
+}
+
+TEST(ScanSmoothing, DoesNotAverageAThinPoleAway) {
+  BoxWorld world;
+  world.addFrame(6, 6);
+  world.add(2.0, 0.98, 2.03, 1.02);
+  const Scan truth = world.scan({1, 1, 0}, 8.0);
+  const Scan smooth = smoothScan(noisy(truth, 0.02, 3));
+  EXPECT_NEAR(smooth.ranges[180], truth.ranges[180], 0.08);
+}
+
+TEST(ScanSmoothing, KeepsWhatIsNoReturn) {
+  Scan scan;
+  scan.angle_increment = 0.01;
+  scan.ranges = {1.0, std::nan(""), 1.3, INFINITY, 0.9, 1.0, -1.0, 1.2, 0.8};
+  const Scan smooth = smoothScan(scan);
+  for (std::size_t i = 0; i < scan.size(); ++i) {
+    EXPECT_EQ(isReturn(smooth.ranges[i]), isReturn(scan.ranges[i]));
+    EXPECT_EQ(isNoReturn(smooth.ranges[i]), isNoReturn(scan.ranges[i]));
+  }
+  EXPECT_TRUE(smoothScan({}).ranges.empty());
+}
+
+}  // namespace
+}  // namespace cca::testing
