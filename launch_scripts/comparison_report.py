@@ -20,8 +20,9 @@ import matplotlib.pyplot as plt  # noqa: E402
 
 # name in the CSV: heading, factor, decimals, +1 where more is better, -1 where less, 0 neither
 FIGURES = {
-    "f1": ("F1", 1, 3, 1), "precision": ("precision", 1, 3, 1), "recall": ("recall", 1, 3, 1),
+    "f1": ("F1", 1, 3, 1), "f1_minus_cca": ("F1 minus CCA's", 1, 3, 0), "precision": ("precision", 1, 3, 1), "recall": ("recall", 1, 3, 1),
     "covered": ("covered %", 100, 1, 1), "lateral": ("lateral mm", 1e3, 1, -1),
+    "lateral_minus_cca": ("lateral minus CCA's, common edges, mm", 1e3, 2, 0),
     "angular": ("angle deg", 57.29578, 2, -1), "range_rmse": ("range rmse mm", 1e3, 0, -1),
     "explained": ("explained %", 100, 1, 1),
     "explained_per_segment": ("explained beams / segment", 1, 1, 1),
@@ -72,6 +73,30 @@ def markdown(table):
         name = "**%s**" % who[0] if who == OURS else who[0]
         lines.append("| %s | %s | %s |" % (name, who[1], " | ".join(cell(table[who], f)
                                                                    for f in shown)))
+    return lines
+
+
+def verdict(table, figure, better):
+    """Who is better, level or worse than ours, by the interval of the paired difference."""
+    heads, level, behind = [], [], []
+    for who in table:
+        if figure not in table[who]:
+            continue
+        _, low, high = table[who][figure]
+        if better < 0:
+            low, high = -high, -low
+        (heads if low > 0 else behind if high < 0 else level).append(
+            "%s (%s)" % who if table[who][figure][0] else who[0])
+    return heads, level, behind
+
+
+def verdicts(group, table, scans):
+    lines = []
+    for figure, better, name in (("f1_minus_cca", 1, "F1"), ("lateral_minus_cca", -1, "lateral error")):
+        heads, level, behind = verdict(table, figure, better)
+        if heads or level or behind:
+            lines.append("| %s | %s | %s | %s | %d |" % (
+                title(group, scans), name, ", ".join(heads) or "-", ", ".join(level) or "-", len(behind)))
     return lines
 
 
@@ -165,6 +190,9 @@ def main():
     for group, table in results.items():
         tables += ["", "### " + title(group, scans[group]), ""] + markdown(table)
     replace(document, "tables", tables)
+    paired = [line for g, table in results.items() for line in verdicts(g, table, scans[g])]
+    replace(document, "verdicts", ["", "| scans | figure | better than CCA | level | worse |",
+                                   "|---|---|---|---|---|"] + paired)
     lost = [line for group, table in results.items() for line in losses(group, table, scans[group])]
     replace(document, "losses", ["", "| scans | figure | CCA | best | intervals apart |",
                                  "|---|---|---|---|---|"] + lost)

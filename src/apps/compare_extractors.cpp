@@ -110,31 +110,52 @@ std::string tableHead() {
   return head + "\n" + rule;
 }
 
+/// Appends what a contender gave to comparison.csv.
+class Results {
+ public:
+  Results() {
+    csv_ << "group,range_noise,extractor,parameters,figure,value,low,high,scans\n";
+    csv_.precision(9);
+  }
+  void add(const ScanGroup& group, const Contender& contender, const std::string& figure,
+           const std::optional<Estimate>& e) {
+    if (!e) return;
+    csv_ << group.name << ',' << group.range_noise << ',' << contender.name << ','
+         << contender.parameters << ',' << figure << ',' << e->value << ',' << e->low << ','
+         << e->high << ',' << group.scans.size() << '\n';
+  }
+  std::string text() const { return csv_.str(); }
+
+ private:
+  std::ostringstream csv_;
+};
+
 void compare(const Options& options, const Parameters& parameters) {
-  std::ostringstream csv;
-  csv << "group,range_noise,extractor,parameters,figure,value,low,high,scans\n";
-  csv.precision(9);
+  Results results;
   for (const ScanGroup& group : gather(options, parameters.laser)) {
     std::printf("\n### %s\n\n%s\n", title(group).c_str(), tableHead().c_str());
+    std::vector<Trial> ours;
     for (const Contender& contender : contenders(parameters.mapping)) {
       if (!isChosen(options, contender.name)) continue;
       const std::vector<Trial> trials = run(contender, group.scans);
       std::vector<std::optional<Estimate>> estimates;
       for (const Figure& figure : figures()) {
         estimates.push_back(summarise(trials, figure));
-        if (!estimates.back()) continue;
-        const Estimate& e = *estimates.back();
-        csv << group.name << ',' << group.range_noise << ',' << contender.name << ','
-            << contender.parameters << ',' << figure.name << ',' << e.value << ',' << e.low << ','
-            << e.high << ',' << trials.size() << '\n';
+        results.add(group, contender, figure.name, estimates.back());
       }
       std::printf("%s\n", tableRow(contender, estimates).c_str());
       std::fflush(stdout);
+      if (contender.name == "cca") {
+        ours = trials;
+      } else if (!ours.empty()) {
+        results.add(group, contender, "f1_minus_cca", f1Difference(trials, ours));
+        results.add(group, contender, "lateral_minus_cca", lateralDifference(trials, ours));
+      }
     }
   }
   if (options.out.empty()) return;
   std::filesystem::create_directories(options.out);
-  writeFile(options.out + "/comparison.csv", csv.str());
+  writeFile(options.out + "/comparison.csv", results.text());
 }
 
 void fit(const Options& options, const Parameters& parameters) {

@@ -73,6 +73,31 @@ std::optional<Estimate> summarise(const std::vector<Trial>& trials, const Figure
   return figure.is_median ? bootstrapMedian(values) : bootstrapMean(values);
 }
 
+std::optional<Estimate> f1Difference(const std::vector<Trial>& theirs,
+                                     const std::vector<Trial>& ours) {
+  std::vector<double> differences;
+  for (std::size_t k = 0; k < theirs.size(); ++k) {
+    if (!theirs[k].score.f1 || !ours[k].score.f1) continue;
+    differences.push_back(*theirs[k].score.f1 - *ours[k].score.f1);
+  }
+  if (differences.empty()) return std::nullopt;
+  return bootstrapMean(differences);
+}
+
+std::optional<Estimate> lateralDifference(const std::vector<Trial>& theirs,
+                                          const std::vector<Trial>& ours) {
+  std::vector<double> differences;
+  for (std::size_t k = 0; k < theirs.size(); ++k) {
+    for (const EdgeMatch& a : theirs[k].score.matches) {
+      for (const EdgeMatch& b : ours[k].score.matches) {
+        if (a.edge == b.edge) differences.push_back(a.lateral - b.lateral);
+      }
+    }
+  }
+  if (differences.empty()) return std::nullopt;
+  return bootstrapMean(differences);
+}
+
 Fit fitParameters(const baselines::Baseline& baseline, const std::vector<LabelledScan>& scans,
                   int draws, std::uint64_t seed) {
   std::mt19937_64 random(seed);

@@ -106,6 +106,7 @@ void scoreAgainstTruth(const LabelledScan& truth, const std::vector<Segment2>& s
     (truth.rays[m.edge] >= kResolvableRays ? found : neutral) += 1;
     lateral += m.relation.distance;
     angular += m.relation.angle;
+    score.matches.push_back({m.edge, m.relation.distance, m.relation.angle});
   }
   const int claimed = static_cast<int>(segments.size()) - neutral;
   if (claimed > 0) score.precision = static_cast<double>(found) / claimed;

@@ -5,6 +5,8 @@
 
 #include <cmath>
 
+#include "cca_mrpt/evidence/comparison.hpp"
+
 namespace cca::evidence {
 namespace {
 
@@ -83,6 +85,18 @@ TEST(ExtractionScore, SegmentsTooFarOrTooOblique_DoNotMatch) {
   const double tilt = 6.0 * M_PI / 180.0;
   const auto oblique = segment(2 - 2 * std::tan(tilt), -2, 2 + 2 * std::tan(tilt), 2);
   EXPECT_DOUBLE_EQ(scoreExtraction(squareRoom(), {oblique}).recall.value(), 0.0);
+}
+
+TEST(LateralDifference, ComparesOnlyTheEdgesThatBothHaveFound) {
+  const LabelledScan room = squareRoom();
+  const auto trial = [&](const std::vector<LineSegment>& segments) {
+    return std::vector<Trial>{{scoreExtraction(room, segments), 0.0}};
+  };
+  const auto ours = trial({segment(2.01, -2, 2.01, 2), segment(2, 2.09, -2, 2.09)});
+  const auto theirs = trial({segment(2.03, -2, 2.03, 2), segment(-2, -2, 2, -2)});
+  EXPECT_NEAR(lateralDifference(theirs, ours)->value, 0.02, 1e-9);
+  EXPECT_FALSE(lateralDifference(trial({segment(-2, -2, 2, -2)}), ours).has_value());
+  EXPECT_DOUBLE_EQ(f1Difference(theirs, ours)->value, 0.0);
 }
 
 TEST(PredictedRanges, TakeTheNearerOfTwoSegmentsAndPassBetween) {

@@ -9,6 +9,12 @@
 
 namespace cca::evidence {
 
+/// A true edge that was found, and how far its segment lies from it: m, rad.
+struct EdgeMatch {
+  std::size_t edge = 0;
+  double lateral = 0.0, angular = 0.0;
+};
+
 /// How well segments describe one scan. What is not defined (the precision of no segment, the F1
 /// without truth) has no value. Distances in m, angles in rad.
 struct ExtractionScore {
@@ -19,6 +25,7 @@ struct ExtractionScore {
   std::optional<double> range_rmse;    ///< over returned rays that meet a segment
   std::optional<double> precision, recall, f1, covered;
   std::optional<double> lateral, angular;  ///< mean error over the matches
+  std::vector<EdgeMatch> matches;
 };
 
 /// Range at which each ray meets the segments first; infinity where it meets none.
