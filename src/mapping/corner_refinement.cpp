@@ -7,9 +7,9 @@ namespace cca {
 namespace {
 
 /// Points by which a boundary may move in one sweep.
-constexpr int kReach = 8;
+constexpr int kReach = 5;
 /// Longest line sought among loose points, and longest run that is shared out.
-constexpr int kLongestLoose = 12;
+constexpr int kLongestLoose = 8;
 /// nats, below any real gain: keeps rounding from moving a boundary to and fro.
 constexpr double kNoGain = 1e-6;
 
@@ -62,6 +62,9 @@ bool shareOut(const ScanPoints& points, const RunFitter& fitter, Runs* runs) {
   for (std::size_t k = 1; k + 1 < runs->size(); ++k) {
     FittedRun &a = (*runs)[k - 1], &b = (*runs)[k], &c = (*runs)[k + 1];
     if (a.size() == 0 || b.size() > 2 * kLongestLoose) continue;
+    if (b.kept_from == a.first && b.kept_to == c.last) continue;
+    b.kept_from = a.first;
+    b.kept_to = c.last;
     if (!areNeighbours(points, a, b) || !areNeighbours(points, b, c)) continue;
     const int middle =
         bestParting(fitter, a.first, b.first, b.last, c.last, a.price + b.price + c.price);
@@ -98,20 +101,20 @@ bool splitLines(const RunFitter& fitter, Runs* runs) {
 /// Appends the points first <= i < last as their best line and what is left on either side.
 void appendLinesAmong(const ScanPoints& points, const RunFitter& fitter, int first, int last,
                       Runs* runs) {
-  FittedRun best;
+  int best_first = first, best_last = first;
   double most = kNoGain;
   for (int i = first; i + kFewestPoints <= last; ++i) {
     for (int j = i + 2; j <= std::min(last, i + kLongestLoose); ++j) {
       if (points.breaksBetween(i, j - 1) > 0) break;
       if (j < i + kFewestPoints) continue;
-      const FittedRun run = fitter.fit(i, j);
-      const double gain = kPointPrice * run.size() - run.price;
+      const double gain = kPointPrice * (j - i) - fitter.price(i, j);
       if (gain <= most) continue;
       most = gain;
-      best = run;
+      best_first = i;
+      best_last = j;
     }
   }
-  if (best.size() == 0) {
+  if (best_last == best_first) {
     if (last <= first) return;
     FittedRun loose = fitter.fit(first, last);
     loose.is_line = false;
@@ -120,9 +123,9 @@ void appendLinesAmong(const ScanPoints& points, const RunFitter& fitter, int fir
     runs->push_back(loose);
     return;
   }
-  appendLinesAmong(points, fitter, first, best.first, runs);
-  runs->push_back(best);
-  appendLinesAmong(points, fitter, best.last, last, runs);
+  appendLinesAmong(points, fitter, first, best_first, runs);
+  runs->push_back(fitter.fit(best_first, best_last));
+  appendLinesAmong(points, fitter, best_last, last, runs);
 }
 
 bool tellLoosePoints(const ScanPoints& points, const RunFitter& fitter, Runs* runs) {

@@ -37,7 +37,9 @@ void reopenAtCorner(const PointNoise& noise, ScanPoints* points, RunFitter* fitt
     const int shift = run.first >= corner ? -corner : n - corner;
     run.first += shift;
     run.last += shift;
-    run.settled_with = run.compared_with = -1;
+    for (int* key : {&run.settled_with, &run.compared_with, &run.kept_from, &run.kept_to}) {
+      if (*key >= 0) *key += shift;
+    }
   }
   reopen(corner, points);
   *fitter = RunFitter(points->positions, noise);

@@ -67,7 +67,7 @@ std::vector<int> rankOrderGroups(const SimilarityMatrix& similarity, double cut)
   std::vector<int> order(static_cast<std::size_t>(similarity.size()));
   std::iota(order.begin(), order.end(), 0);
   std::vector<int> place = order, words(ones.column.size());
-  for (int sweep = 0; sweep < similarity.size(); ++sweep) {
+  for (int sweep = 0; sweep < kMostRankOrderSweeps; ++sweep) {
     if (!sortOnce(ones, &order, &place, &words)) break;
   }
   std::vector<int> group_of(order.size(), -1);

@@ -10,12 +10,12 @@
 namespace cca {
 namespace {
 
-/// King's algorithm as it is written: a dense matrix, words of zeros and ones, blocks by eye.
+/// King's algorithm as it is written: a dense matrix, words of zeros and ones, blocks by linkage.
 std::vector<int> naiveGroups(const std::vector<std::vector<int>>& ones) {
   const int n = static_cast<int>(ones.size());
   std::vector<int> order(n);
   std::iota(order.begin(), order.end(), 0);
-  for (int sweep = 0; sweep < n; ++sweep) {
+  for (int sweep = 0; sweep < kMostRankOrderSweeps; ++sweep) {
     std::vector<std::pair<std::vector<int>, int>> words;
     for (const int i : order) {
       std::vector<int> word;

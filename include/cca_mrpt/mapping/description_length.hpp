@@ -50,6 +50,8 @@ struct FittedRun : FittedSegment {
   // What is known of the run as it stands, so that corner refinement asks nothing twice.
   bool is_searched = false;  ///< no split, and no line among loose points, shortens the telling
   int settled_with = -1;     ///< end of the next run, with which the boundary was found to be best
+  int kept_from = -1;        ///< start of the run before and end of the one after,
+  int kept_to = -1;          ///< to which this one was not shared out
   int compared_with = -1;    ///< end of the next run, to which this is the similarity:
   double similarity = 0.0;
 

@@ -7,6 +7,9 @@
 
 namespace cca {
 
+/// Sorts of rows and columns before the order is taken as it is.
+inline constexpr int kMostRankOrderSweeps = 10;
+
 /// Groups the segments that describe one wall: Rank Order Clustering [King 1980].
 ///
 /// B_ij = [S_ij >= cut]; rows and columns are sorted as binary words until nothing moves; a group
@@ -16,9 +19,13 @@ namespace cca {
 /// its next row is similar to every member (complete linkage), for a curved wall is one long chain
 /// in which only neighbours are alike.
 ///
+/// Deviation: King sorts until nothing moves. Along a chain of likenesses the order creeps by one
+/// neighbourhood a sweep, up to n sweeps, long after the groups stand: it stops at
+/// kMostRankOrderSweeps. Groups keep complete linkage in any order, and merging is repeated.
+///
 /// @param cut  alpha-cut in (0, 1].
 /// @return     the group of each segment; groups are numbered from 0 on, in ROC order.
-/// Cost: O(n^2) a sweep, at most n sweeps.
+/// Cost: O(m log n) a sweep for m likenesses.
 std::vector<int> rankOrderGroups(const SimilarityMatrix& similarity, double cut);
 
 }  // namespace cca

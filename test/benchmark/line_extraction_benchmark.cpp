@@ -1,0 +1,191 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What each step from a scan to its lines costs, against the number of beams and of walls.
+#include <benchmark/benchmark.h>
+
+#include "cca_mrpt/mapping/corner_refinement.hpp"
+#include "cca_mrpt/mapping/k_means.hpp"
+#include "cca_mrpt/mapping/line_extraction.hpp"
+#include "cca_mrpt/mapping/point_clusters.hpp"
+#include "cca_mrpt/mapping/point_set.hpp"
+#include "cca_mrpt/mapping/poly_lines.hpp"
+#include "cca_mrpt/mapping/rank_order_clustering.hpp"
+#include "polygon_room.hpp"
+
+namespace cca {
+namespace {
+
+constexpr double kSigma = 0.03;
+constexpr int kPointsPerCluster = 5;
+constexpr int kWalls = 12;
+
+/// A star-shaped room of that many walls, 3 to 6 m away.
+PolygonRoom starRoom(int walls) {
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> radius(3.0, 6.0);
+  PolygonRoom room;
+  for (int k = 0; k < walls; ++k) {
+    const double bearing = 2.0 * M_PI * k / walls;
+    room.vertices.push_back(radius(random) * Eigen::Vector2d(std::cos(bearing), std::sin(bearing)));
+  }
+  return room;
+}
+
+Scan scanWith(int beams, int walls) {
+  std::mt19937 random(6);
+  return scanOf(starRoom(walls), -M_PI, 2.0 * M_PI / beams, beams, kSigma, &random);
+}
+
+/// A scan on its way, up to the step that is measured.
+struct Stage {
+  ScanPoints points;
+  PointNoise noise;
+  RunFitter fitter;
+  Runs clusters, merged, refined;
+
+  explicit Stage(int beams)
+      : points(scanPoints(scanWith(beams, kWalls))),
+        noise(rangeNoise(scanWith(beams, kWalls))),
+        fitter(points.positions, noise) {
+    for (const PointCluster& c : pointClusters(points, fitter.prefix(), noise, kPointsPerCluster)) {
+      clusters.push_back(fitter.fit(c.first, c.last));
+    }
+    merged = clusters;
+    while (mergeConsecutive(points, fitter, 0.5, &merged)) {
+    }
+    refined = merged;
+    while (refineCorners(points, fitter, &refined)) {
+    }
+  }
+};
+
+int beamsOf(const benchmark::State& state) { return static_cast<int>(state.range(0)); }
+
+void ScanToPoints(benchmark::State& state) {
+  const Scan scan = scanWith(beamsOf(state), kWalls);
+  for (auto _ : state) benchmark::DoNotOptimize(scanPoints(scan));
+  state.SetComplexityN(state.range(0));
+}
+
+void RangeNoise(benchmark::State& state) {
+  const Scan scan = scanWith(beamsOf(state), kWalls);
+  for (auto _ : state) benchmark::DoNotOptimize(rangeNoise(scan));
+  state.SetComplexityN(state.range(0));
+}
+
+void KMeansInOrder(benchmark::State& state) {
+  const Stage s(beamsOf(state));
+  for (auto _ : state) {
+    benchmark::DoNotOptimize(kMeansInOrder(s.points, beamsOf(state) / kPointsPerCluster, 3));
+  }
+  state.SetComplexityN(state.range(0));
+}
+
+void PointClusters(benchmark::State& state) {
+  const Stage s(beamsOf(state));
+  for (auto _ : state) {
+    benchmark::DoNotOptimize(
+        pointClusters(s.points, s.fitter.prefix(), s.noise, kPointsPerCluster));
+  }
+  state.SetComplexityN(state.range(0));
+}
+
+void SimilarityRankOrderMerge(benchmark::State& state) {
+  const Stage s(beamsOf(state));
+  for (auto _ : state) {
+    Runs runs = s.clusters;
+    while (mergeConsecutive(s.points, s.fitter, 0.5, &runs)) {
+    }
+    benchmark::DoNotOptimize(runs);
+  }
+  state.SetComplexityN(state.range(0));
+}
+
+void RefineCorners(benchmark::State& state) {
+  const Stage s(beamsOf(state));
+  for (auto _ : state) {
+    Runs runs = s.merged;
+    while (refineCorners(s.points, s.fitter, &runs)) {
+    }
+    benchmark::DoNotOptimize(runs);
+  }
+  state.SetComplexityN(state.range(0));
+}
+
+void GroupInterrupted(benchmark::State& state) {
+  const Stage s(beamsOf(state));
+  for (auto _ : state) {
+    benchmark::DoNotOptimize(groupInterrupted(s.points, s.fitter, 0.5, s.refined));
+  }
+  state.SetComplexityN(state.range(0));
+}
+
+void PolyLines(benchmark::State& state) {
+  const Stage s(beamsOf(state));
+  const auto groups = groupInterrupted(s.points, s.fitter, 0.5, s.refined);
+  for (auto _ : state) {
+    benchmark::DoNotOptimize(polyLines(s.points, s.fitter, s.refined, groups));
+  }
+  state.SetComplexityN(state.range(0));
+}
+
+void ExtractLinesOfScan(benchmark::State& state) {
+  const Scan scan = scanWith(beamsOf(state), kWalls);
+  for (auto _ : state) benchmark::DoNotOptimize(extractLines(scan));
+  state.SetComplexityN(state.range(0));
+}
+
+void ExtractLinesAgainstWalls(benchmark::State& state) {
+  const Scan scan = scanWith(1440, static_cast<int>(state.range(0)));
+  for (auto _ : state) benchmark::DoNotOptimize(extractLines(scan));
+  state.SetComplexityN(state.range(0));
+}
+
+void ExtractLinesOfPoints(benchmark::State& state) {
+  std::vector<SpatialPoint> points;
+  appendPoints(scanWith(beamsOf(state), kWalls), {}, &points);
+  for (auto _ : state) benchmark::DoNotOptimize(extractLines(points));
+  state.SetComplexityN(state.range(0));
+}
+
+/// The two sorts alone, on the similarities of n segments in walls of eight.
+void RankOrderClustering(benchmark::State& state) {
+  const int n = static_cast<int>(state.range(0));
+  SimilarityMatrix s(n);
+  for (int i = 0; i < n; ++i) {
+    for (int j = i + 1; j < n && j / 8 == i / 8; ++j) s.set(i, j, 0.9);
+  }
+  for (auto _ : state) benchmark::DoNotOptimize(rankOrderGroups(s, 0.5));
+  state.SetComplexityN(state.range(0));
+}
+
+#define AGAINST_BEAMS(step) \
+  BENCHMARK(step)->RangeMultiplier(2)->Range(90, 11520)->Unit(benchmark::kMicrosecond)->Complexity()
+AGAINST_BEAMS(ScanToPoints);
+AGAINST_BEAMS(RangeNoise);
+AGAINST_BEAMS(KMeansInOrder);
+AGAINST_BEAMS(PointClusters);
+AGAINST_BEAMS(SimilarityRankOrderMerge);
+AGAINST_BEAMS(RefineCorners);
+AGAINST_BEAMS(GroupInterrupted);
+AGAINST_BEAMS(PolyLines);
+AGAINST_BEAMS(ExtractLinesOfScan);
+BENCHMARK(ExtractLinesOfPoints)
+    ->RangeMultiplier(2)
+    ->Range(90, 2880)
+    ->Unit(benchmark::kMicrosecond)
+    ->Complexity();
+BENCHMARK(ExtractLinesAgainstWalls)
+    ->RangeMultiplier(2)
+    ->Range(4, 128)
+    ->Unit(benchmark::kMicrosecond)
+    ->Complexity();
+BENCHMARK(RankOrderClustering)
+    ->RangeMultiplier(2)
+    ->Range(8, 1024)
+    ->Unit(benchmark::kMicrosecond)
+    ->Complexity();
+
+}  // namespace
+}  // namespace cca
+
+BENCHMARK_MAIN();
