@@ -1,0 +1,199 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""The explore node with a simulated world: what it tells, does, and leaves behind. In order."""
+import csv
+import math
+import os
+import unittest
+
+import numpy
+import rospy
+import rostest
+from diagnostic_msgs.msg import DiagnosticArray
+from geometry_msgs.msg import PoseStamped
+from nav_msgs.msg import OccupancyGrid, Odometry, Path
+from sensor_msgs.msg import LaserScan
+from std_msgs.msg import String
+from std_srvs.srv import SetBool, Trigger
+from tf2_msgs.msg import TFMessage
+from visualization_msgs.msg import Marker, MarkerArray
+
+from cca_mrpt.msg import LineMap
+from ros_watch import Watch, cast, distance_to_walls, walls, yaw
+
+
+class ExploreSimulated(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        rospy.init_node("explore_simulated")
+        cls.walls = walls(rospy.get_param("~truth"))
+        cls.scan = Watch("scan", LaserScan)
+        cls.odom = Watch("odom", Odometry)
+        cls.tf = Watch("/tf", TFMessage)
+        cls.tf_static = Watch("/tf_static", TFMessage)
+        cls.status = Watch("status", String)
+        cls.lines = Watch("lines", LineMap)
+        cls.markers = Watch("line_markers", MarkerArray)
+        cls.goal = Watch("goal", PoseStamped)
+        cls.diagnostics = Watch("/diagnostics", DiagnosticArray)
+        for name in ("start", "stop", "pause", "save"):
+            rospy.wait_for_service("explore/" + name, 20)
+
+    def call(self, name):
+        return rospy.ServiceProxy("explore/" + name, Trigger)()
+
+    def pause(self, on):
+        return rospy.ServiceProxy("explore/pause", SetBool)(on)
+
+    def expect_status(self, word, seconds=10):
+        found = self.status.wait(lambda m: m.data.startswith(word), seconds)
+        self.assertIsNotNone(found, "no status '%s'; last: %s" % (word, self.status.messages[-1:]))
+
+    def speed(self):
+        return self.odom.messages[-1].twist.twist
+
+    def test_01_waits_for_start(self):
+        self.expect_status("stopped")
+        rospy.sleep(2.0)
+        self.assertEqual(self.speed().linear.x, 0.0)
+        self.assertFalse(self.pause(True).success, "nothing is running that could be paused")
+        self.assertFalse(self.call("save").success, "there is no map yet")
+
+    def test_02_rates_hold(self):
+        self.scan.clear(), self.odom.clear(), self.tf.clear()
+        begin = rospy.get_time()
+        rospy.sleep(8.0)
+        seconds = rospy.get_time() - begin
+        self.assertAlmostEqual(len(self.scan.messages) / seconds, 10.0, delta=1.0)
+        self.assertAlmostEqual(len(self.odom.messages) / seconds, 50.0, delta=4.0)
+        stamps = numpy.array([m.header.stamp.to_sec() for m in self.scan.messages])
+        numpy.testing.assert_allclose(numpy.diff(stamps), 0.1, atol=1e-6)
+
+    def test_03_one_tree_and_one_sender_for_each_transform(self):
+        self.assertEqual(self.tf.senders | self.tf_static.senders, {"/explore"})
+        parents = {}
+        for message in self.tf.messages + self.tf_static.messages:
+            for transform in message.transforms:
+                parents.setdefault(transform.child_frame_id, set()).add(transform.header.frame_id)
+        self.assertEqual(parents, {"odom": {"map"}, "base_link": {"odom"}, "laser": {"base_link"}})
+
+    def test_04_scan_is_that_of_the_true_walls(self):
+        scan = self.scan.wait()
+        self.assertEqual(scan.header.frame_id, "laser")
+        self.assertEqual(len(scan.ranges), 361)
+        self.assertAlmostEqual(scan.angle_max - scan.angle_min, 2 * math.pi, delta=1e-4)
+        self.assertAlmostEqual(scan.range_max, 3.0)
+        self.assertAlmostEqual(scan.scan_time, 0.1, delta=1e-6)
+        x, y, theta = 2.0, 3.0, 0.0  # the world's start: the robot has not moved yet
+        bearings = theta + scan.angle_min + scan.angle_increment * numpy.arange(361)
+        truth = cast(self.walls, x, y, bearings)
+        ranges = numpy.array(scan.ranges)
+        self.assertTrue(numpy.isposinf(ranges[truth > 3.0]).all(), "no return is +inf (REP-117)")
+        self.assertGreater(numpy.isposinf(ranges).sum(), 10)
+        near = truth < 3.0
+        # Two beams may pass a corner on its other side: the walls end half a cell off.
+        self.assertLessEqual((numpy.abs(ranges[near] - truth[near]) > 1e-3).sum(), 4)
+
+    def test_05_start_drives_and_sets_a_goal(self):
+        self.assertTrue(self.call("start").success)
+        self.expect_status("exploring")
+        self.assertIsNotNone(self.odom.wait(lambda m: m.twist.twist.linear.x > 0.1))
+        self.assertIsNotNone(self.goal.wait(lambda m: m.header.frame_id == "map"))
+
+    def test_06_pause_halts_and_goes_on(self):
+        self.assertTrue(self.pause(True).success)
+        self.expect_status("paused")
+        rospy.sleep(2.0)
+        self.assertEqual((self.speed().linear.x, self.speed().angular.z), (0.0, 0.0))
+        self.assertTrue(self.pause(False).success)
+        self.expect_status("exploring")
+        moves = lambda m: abs(m.twist.twist.linear.x) + abs(m.twist.twist.angular.z) > 0.1
+        self.odom.clear()
+        self.assertIsNotNone(self.odom.wait(moves))
+
+    def test_07_stop_halts_and_start_goes_on(self):
+        self.assertTrue(self.call("stop").success)
+        self.expect_status("stopped")
+        rospy.sleep(2.0)
+        self.assertEqual((self.speed().linear.x, self.speed().angular.z), (0.0, 0.0))
+        self.assertTrue(self.call("start").success)
+        self.expect_status("exploring")
+
+    def test_08_markers_equal_lines(self):
+        by_stamp = {m.header.stamp: m for m in self.lines.messages if m.lines}
+        compared = 0
+        for array in self.markers.messages:
+            marker = array.markers[0]
+            lines = by_stamp.get(marker.header.stamp)
+            if lines is None:
+                continue
+            self.assertEqual((marker.type, marker.header.frame_id), (Marker.LINE_LIST, "map"))
+            ends = [(p.x, p.y) for line in lines.lines for p in (line.start, line.end)]
+            self.assertEqual([(p.x, p.y) for p in marker.points], ends)
+            compared += 1
+        self.assertGreater(compared, 5)
+
+    def test_09_diagnostics_tell_rate_and_state(self):
+        message = self.diagnostics.wait(lambda m: "explore: scans" in [s.name for s in m.status])
+        values = {v.key: v.value for v in message.status[0].values}
+        self.assertAlmostEqual(float(values["scan rate [Hz]"]), 40.0, delta=12.0)  # of the wall
+        self.assertEqual(values["scans dropped"], "0")
+        self.assertIn("state", values)
+        self.assertGreater(float(values["time per scan, longest [ms]"]), 0.0)
+
+    def test_10_explores_to_the_end(self):
+        self.expect_status("finished", 60)
+        rospy.sleep(1.0)
+        self.assertEqual(self.speed().linear.x, 0.0)
+
+    def test_11_late_subscribers_see_the_whole(self):
+        late = {topic: Watch(topic, kind) for topic, kind in [
+            ("map", OccupancyGrid), ("lines", LineMap), ("line_markers", MarkerArray),
+            ("frontier_markers", MarkerArray), ("trajectory", Path), ("status", String)]}
+        for topic, watch in late.items():
+            self.assertIsNotNone(watch.wait(seconds=5), topic + " is not latched")
+        self.assertGreater(len(late["trajectory"].messages[0].poses), 20)
+        grid = late["map"].messages[0]
+        self.assertEqual(grid.header.frame_id, "map")
+        self.assertAlmostEqual(grid.info.resolution, 0.05, delta=1e-6)
+        cells = numpy.array(grid.data).reshape(grid.info.height, grid.info.width)
+        self.assertTrue(((cells >= -1) & (cells <= 100)).all())
+        free = (cells >= 0) & (cells < 20)
+        self.assertGreater(free.sum() * 0.05**2, 40.0)  # m^2; the rooms have 53
+        start = cells[int((3.0 - grid.info.origin.position.y) / 0.05),
+                      int((2.0 - grid.info.origin.position.x) / 0.05)]
+        self.assertTrue(0 <= start < 20, "the robot stood there")
+
+    def test_12_lines_are_the_true_walls(self):
+        lines = self.lines.messages[-1].lines
+        self.assertEqual(len({line.id for line in lines}), len(lines))
+        ends = numpy.array([[p.x, p.y] for line in lines for p in (line.start, line.end)])
+        mids = 0.5 * (ends[::2] + ends[1::2])
+        self.assertLess(distance_to_walls(self.walls, numpy.vstack([ends, mids])).max(), 0.1)
+        for line in lines:
+            a, b, c, d = line.covariance
+            self.assertTrue(a > 0 and d > 0 and a * d >= b * c, "a covariance")
+            self.assertGreater(line.support, 2)
+        # Every long wall has a line on it.
+        mapped = numpy.array([[l.start.x, l.start.y, l.end.x, l.end.y] for l in lines])
+        long_walls = self.walls[numpy.hypot(*(self.walls[:, 2:] - self.walls[:, :2]).T) > 1.0]
+        points = 0.5 * (long_walls[:, :2] + long_walls[:, 2:])
+        self.assertLess(distance_to_walls(mapped, points).max(), 0.1)
+
+    def test_13_save_writes_the_folder(self):
+        answer = self.call("save")
+        self.assertTrue(answer.success, answer.message)
+        out = rospy.get_param("~out")
+        self.assertEqual(answer.message, out)
+        with open(os.path.join(out, "lines.csv")) as file:
+            rows = list(csv.DictReader(file))
+        self.assertEqual(len(rows), len(self.lines.messages[-1].lines))
+        for name in ("map.png", "map.pgm", "map.yaml", "lines.geojson", "summary.json"):
+            self.assertGreater(os.path.getsize(os.path.join(out, name)), 0, name)
+
+    def test_14_start_after_the_end_is_refused(self):
+        self.assertFalse(self.call("start").success)
+
+
+if __name__ == "__main__":
+    rostest.rosrun("cca_mrpt", "explore_simulated", ExploreSimulated)
