@@ -31,11 +31,11 @@ Exploration::Exploration(ros::NodeHandle& node, ros::NodeHandle& private_node, S
     : settings_(std::move(settings)),
       explorer_(program.mapping, program.robot, program.exploration),
       publisher_(node, settings_.map_frame),
+      saver_(private_node, settings_.out, [this] { return products(); }),
       mode_(settings_.autostart ? Mode::kRunning : Mode::kStopped) {
   services_ = {private_node.advertiseService("start", &Exploration::onStart, this),
                private_node.advertiseService("stop", &Exploration::onStop, this),
-               private_node.advertiseService("pause", &Exploration::onPause, this),
-               private_node.advertiseService("save", &Exploration::onSave, this)};
+               private_node.advertiseService("pause", &Exploration::onPause, this)};
   setMode(mode_);
 }
 
@@ -44,6 +44,7 @@ Velocity Exploration::step(Observation observation, const ros::Time& stamp) {
   last_time_ = observation.time;
   if (!drives()) return {};
   observation.time = own_time_;
+  const std::lock_guard<std::mutex> lock(saver_.mutex());
   const Action action = explorer_.step(observation);
   record_.add(observation.scan, observation.T_map_robot);
   publisher_.show(explorer_, *record_.grid.grid(), observation.T_map_robot, action.goal, stamp);
@@ -60,18 +61,18 @@ void Exploration::tell(const Action& action) {
 void Exploration::finish(const ros::Time& stamp) {
   finished_ = true;
   publisher_.showAll(explorer_, *record_.grid.grid(), stamp);
-  end();
+  if (settings_.save_at_end) saver_.saveSoon();
 }
 
-void Exploration::save() {
-  nlohmann::ordered_json summary;
-  summary["finished"] = finished_;
-  summary["reason"] = state_;
-  saveMap(settings_.out, settings_.title, explorer_.lineMap(), record_, summary);
+MapProducts Exploration::products() const {
+  MapProducts products = record_.products(settings_.title, explorer_.lineMap());
+  products.summary["finished"] = finished_;
+  products.summary["reason"] = state_;
+  return products;
 }
 
 void Exploration::end() {
-  if (settings_.save_at_end && !record_.way.empty()) saveOrTell([this] { save(); });
+  if (settings_.save_at_end && !record_.way.empty()) saver_.saveOrTell();
 }
 
 void Exploration::setMode(Mode mode) {
@@ -104,12 +105,6 @@ bool Exploration::onPause(std_srvs::SetBool::Request& request,
   response.success = mode_ != Mode::kStopped && !finished_;
   response.message = response.success ? (request.data ? "paused" : "exploring") : "not exploring";
   if (response.success) setMode(request.data ? Mode::kPaused : Mode::kRunning);
-  return true;
-}
-
-bool Exploration::onSave(std_srvs::Trigger::Request& /*request*/,
-                         std_srvs::Trigger::Response& response) {
-  answer(response, settings_.out, [this] { save(); });
   return true;
 }
 

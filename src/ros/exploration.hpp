@@ -9,7 +9,8 @@
 
 #include "cca_mrpt/io/parameters.hpp"
 #include "exploration_publisher.hpp"
-#include "save_map.hpp"
+#include "map_record.hpp"
+#include "map_saver.hpp"
 
 namespace cca {
 
@@ -40,8 +41,6 @@ class Exploration {
   void wait(const std::string& reason) { publisher_.showStatus("waiting: " + reason); }
   const std::string& state() const { return state_; }
 
-  /// Writes the map's folder. @throws std::runtime_error naming the file and the reason.
-  void save();
   /// What Ctrl-C leaves behind: the map, where that is wanted and there is one.
   void end();
 
@@ -50,17 +49,18 @@ class Exploration {
 
   bool onStart(std_srvs::Trigger::Request&, std_srvs::Trigger::Response& response);
   bool onStop(std_srvs::Trigger::Request&, std_srvs::Trigger::Response& response);
-  bool onSave(std_srvs::Trigger::Request&, std_srvs::Trigger::Response& response);
   bool onHome(std_srvs::Trigger::Request&, std_srvs::Trigger::Response& response);
   bool onPause(std_srvs::SetBool::Request& request, std_srvs::SetBool::Response& response);
   void setMode(Mode mode);
   void finish(const ros::Time& stamp);
+  MapProducts products() const;
   void tell(const Action& action);
 
   Settings settings_;
   Explorer explorer_;
   MapRecord record_;
   ExplorationPublisher publisher_;
+  MapSaver saver_;
   Mode mode_;
   bool finished_ = false;
   double own_time_ = 0.0, last_time_ = 0.0;  // s

@@ -69,9 +69,9 @@ void exploreSimulated(const Settings& settings, ros::NodeHandle& node,
       diagnostics.setState(exploration.state());
     }
     robot.tick(exploration.drives() ? velocity : Velocity{});
-    if (exploration.finished() && settings.exit_at_end) return;
+    if (exploration.finished() && settings.exit_at_end) break;
   }
-  if (!exploration.finished()) exploration.end();
+  exploration.end();
 }
 
 void exploreWithRobot(const Settings& settings, ros::NodeHandle& node,
@@ -80,10 +80,10 @@ void exploreWithRobot(const Settings& settings, ros::NodeHandle& node,
   {
     RobotDriver driver(node, private_node, settings.driver, exploration);
     while (keepRunning(0.1)) {
-      if (exploration.finished() && settings.exit_at_end) return;
+      if (exploration.finished() && settings.exit_at_end) break;
     }
   }
-  if (!exploration.finished()) exploration.end();
+  exploration.end();
 }
 
 void explore() {

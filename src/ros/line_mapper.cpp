@@ -4,10 +4,11 @@
 // robot that something else drives.
 #include "cca_mrpt/mapping/line_map.hpp"
 #include "line_publisher.hpp"
+#include "map_record.hpp"
+#include "map_saver.hpp"
 #include "node_diagnostics.hpp"
 #include "node_main.hpp"
 #include "private_parameters.hpp"
-#include "save_map.hpp"
 #include "scan_feed.hpp"
 
 namespace cca {
@@ -41,40 +42,35 @@ class LineMapper {
         scans_(node, {parameters_.map_frame, ""}, 0.0,
                [this](const PlacedScan& scan) { insert(scan); }),
         diagnostics_(
-            node, private_node, [this]() -> const auto& { return scans_.dropped(); }) {
-    save_service_ = private_node.advertiseService("save", &LineMapper::onSave, this);
-  }
+            node, private_node, [this]() -> const auto& { return scans_.dropped(); }),
+        saver_(private_node, parameters_.out, [this] { return products(); }) {}
 
   void end() {
-    if (parameters_.save_at_end) saveOrTell([this] { save(); });
+    if (parameters_.save_at_end) saver_.saveOrTell();
   }
 
  private:
   void insert(const PlacedScan& scan) {
     const ros::WallTime begin = ros::WallTime::now();
+    const std::lock_guard<std::mutex> lock(saver_.mutex());
     line_map_.insert(scan.scan);
     record_.add(scan.scan, scan.T_map_robot);
     publisher_.publish(line_map_.lines(), scan.stamp);
     diagnostics_.scanUsed((ros::WallTime::now() - begin).toSec());
   }
 
-  void save() {
+  MapProducts products() {
     line_map_.finishBatch();
-    saveMap(parameters_.out, "line_mapper", line_map_, record_, {});
-  }
-
-  bool onSave(std_srvs::Trigger::Request& /*request*/, std_srvs::Trigger::Response& response) {
-    answer(response, parameters_.out, [this] { save(); });
-    return true;
+    return record_.products("line_mapper", line_map_);
   }
 
   LineMapperParameters parameters_;
   LineMap line_map_;
   MapRecord record_;
-  ros::ServiceServer save_service_;
   LinePublisher publisher_;
   ScanFeed scans_;
   NodeDiagnostics diagnostics_;
+  MapSaver saver_;
 };
 
 }  // namespace

@@ -9,6 +9,8 @@
 #include <csignal>
 #include <exception>
 
+#include "master_watch.hpp"
+
 namespace cca {
 namespace {
 
@@ -34,6 +36,7 @@ int runNode(int argc, char** argv, const std::string& name, const std::function<
   requests->bind("shutdown", onShutdownRequest);
   int status = 0;
   try {
+    const MasterWatch watch;
     body();
   } catch (const std::exception& error) {
     ROS_FATAL("%s", error.what());

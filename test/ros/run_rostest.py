@@ -32,7 +32,7 @@ def main():
     except ProcessLookupError:
         pass
     tests = failures = 0
-    for path in glob.glob(os.path.join(home, "**", "rostest-*.xml"), recursive=True):
+    for path in glob.glob(os.path.join(home, "cca_mrpt", "*.xml")):
         for suite in ElementTree.parse(path).getroot().iter("testsuite"):
             count = int(suite.get("tests"))
             bad = int(suite.get("failures")) + int(suite.get("errors"))

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "map_saver.hpp"
+
+#include <filesystem>
+#include <stdexcept>
+
+namespace cca {
+
+MapSaver::MapSaver(const ros::NodeHandle& private_node, std::string folder, Snapshot snapshot)
+    : folder_(std::filesystem::absolute(folder).string()),
+      snapshot_(std::move(snapshot)),
+      node_(private_node),
+      spinner_(1, &queue_) {
+  node_.setCallbackQueue(&queue_);
+  service_ = node_.advertiseService("save", &MapSaver::onSave, this);
+  spinner_.start();
+}
+
+void MapSaver::save() {
+  const std::lock_guard<std::mutex> one_at_a_time(writing_);
+  const MapProducts products = [this] {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    return snapshot_();
+  }();
+  prepareMapFolder(folder_, true);
+  writeMapFolder(folder_, products);
+  ROS_INFO("map saved to %s", folder_.c_str());
+}
+
+void MapSaver::saveOrTell() {
+  try {
+    save();
+  } catch (const std::runtime_error& error) {
+    ROS_ERROR("the map could not be saved: %s", error.what());
+  }
+}
+
+void MapSaver::saveSoon() {
+  const auto callback = [this](const ros::WallTimerEvent&) { saveOrTell(); };
+  soon_ = node_.createWallTimer(ros::WallDuration(0.001), callback, true);
+}
+
+bool MapSaver::onSave(std_srvs::Trigger::Request& /*request*/,
+                      std_srvs::Trigger::Response& response) {
+  try {
+    save();
+    response.success = true;
+    response.message = folder_;
+  } catch (const std::runtime_error& error) {
+    response.success = false;
+    response.message = error.what();
+  }
+  return true;
+}
+
+}  // namespace cca

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <ros/callback_queue.h>
+#include <ros/ros.h>
+#include <std_srvs/Trigger.h>
+
+#include <functional>
+#include <mutex>
+#include <string>
+
+#include "cca_mrpt/io/map_products.hpp"
+
+namespace cca {
+
+/// Writes the map's folder on `~save` and when asked to, in a thread of its own: pictures and
+/// scenes take a second, and for that long a robot must not be left alone with its last command.
+class MapSaver {
+ public:
+  /// A copy of all that is to be written; called under the mutex.
+  /// @throws std::runtime_error where there is nothing yet.
+  using Snapshot = std::function<MapProducts()>;
+
+  MapSaver(const ros::NodeHandle& private_node, std::string folder, Snapshot snapshot);
+
+  /// To be held wherever what the snapshot reads is changed.
+  std::mutex& mutex() { return mutex_; }
+  /// In the caller's thread. @throws std::runtime_error naming the file and the reason.
+  void save();
+  /// The same where nobody is there to catch: a failure is told on the console.
+  void saveOrTell();
+  /// As soon as may be, in the saver's thread.
+  void saveSoon();
+
+ private:
+  bool onSave(std_srvs::Trigger::Request&, std_srvs::Trigger::Response& response);
+
+  std::string folder_;
+  Snapshot snapshot_;
+  std::mutex mutex_, writing_;
+  ros::NodeHandle node_;
+  ros::CallbackQueue queue_;
+  ros::ServiceServer service_;
+  ros::WallTimer soon_;
+  ros::AsyncSpinner spinner_;  // last: its thread ends before anything that it uses
+};
+
+}  // namespace cca

@@ -1,0 +1,67 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""Simulator and explorer as separate processes, joined by scan, tf, odom and cmd_vel only."""
+import os
+import unittest
+
+import numpy
+import rospy
+import rostest
+from geometry_msgs.msg import Twist
+from rosgraph_msgs.msg import Log
+from std_msgs.msg import String
+from tf2_msgs.msg import TFMessage
+
+from cca_mrpt.msg import LineMap
+from ros_watch import Watch, distance_to_walls, walls
+
+
+class ExploreRobot(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        rospy.init_node("explore_robot")
+        cls.status = Watch("status", String)
+        cls.lines = Watch("lines", LineMap)
+        cls.commands = Watch("cmd_vel", Twist)
+        cls.tf = Watch("/tf", TFMessage)
+        cls.tf_static = Watch("/tf_static", TFMessage)
+        cls.log = Watch("/rosout_agg", Log)
+
+    def test_1_explores_to_the_end(self):
+        self.assertIsNotNone(self.status.wait(lambda m: m.data.startswith("finished"), 80),
+                             self.status.messages[-1:])
+
+    def test_2_commands_stay_within_the_limits_and_end_with_zero(self):
+        self.assertGreater(len(self.commands.messages), 50)
+        self.assertEqual(self.commands.senders, {"/explore"})
+        for twist in self.commands.messages:
+            self.assertLessEqual(abs(twist.linear.x), 0.7 + 1e-9)
+            self.assertLessEqual(abs(twist.angular.z), 1.5 + 1e-9)
+        rospy.sleep(1.0)
+        last = self.commands.messages[-1]
+        self.assertEqual((last.linear.x, last.angular.z), (0.0, 0.0))
+
+    def test_3_nothing_was_touched(self):
+        self.assertFalse([m.msg for m in self.log.messages if "collision" in m.msg])
+
+    def test_4_only_the_robot_sends_transforms(self):
+        self.assertEqual(self.tf.senders | self.tf_static.senders, {"/simulator"})
+
+    def test_5_lines_are_the_true_walls(self):
+        truth = walls(rospy.get_param("~truth"))
+        lines = self.lines.messages[-1].lines
+        mapped = numpy.array([[l.start.x, l.start.y, l.end.x, l.end.y] for l in lines])
+        middles = 0.5 * (mapped[:, :2] + mapped[:, 2:])
+        self.assertLess(distance_to_walls(truth, middles).max(), 0.1)
+        long_walls = truth[numpy.hypot(*(truth[:, 2:] - truth[:, :2]).T) > 1.0]
+        points = numpy.vstack([a + t * (b - a) for t in numpy.linspace(0.02, 0.98, 25)
+                               for a, b in ((w[:2], w[2:]) for w in long_walls)])
+        self.assertGreater((distance_to_walls(mapped, points) < 0.05).mean(), 0.9)
+
+    def test_6_the_map_was_saved_at_the_end(self):
+        rospy.sleep(4.0)
+        self.assertTrue(os.path.exists(os.path.join(rospy.get_param("~out"), "summary.json")))
+
+
+if __name__ == "__main__":
+    rostest.rosrun("cca_mrpt", "explore_robot", ExploreRobot)

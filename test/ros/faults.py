@@ -1,0 +1,143 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""What the explorer does where the robot fails it: it stands within half a second, says why, and goes
+on when all is well again. In order, each test ends with the robot driving."""
+import math
+import time
+import unittest
+
+import rospy
+import rostest
+from diagnostic_msgs.msg import DiagnosticArray
+from std_msgs.msg import String
+from std_srvs.srv import Trigger
+
+from fake_robot import FakeRobot
+from ros_watch import Watch, walls
+
+
+class Faults(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        rospy.init_node("faults")
+        cls.status = Watch("status", String)
+        cls.diagnostics = Watch("/diagnostics", DiagnosticArray)
+        cls.robot = FakeRobot(walls(rospy.get_param("~truth")), 12.0, 9.5)
+        cls.robot.sends_transforms = False
+
+    def tearDown(self):
+        self.robot.sends_scans = self.robot.sends_transforms = True
+        self.robot.delay = 0.0
+        self.robot.spoil = lambda scan: None
+
+    def expect_status(self, word, seconds=5):
+        self.assertIsNotNone(self.status.wait(lambda m: word in m.data, seconds), "no '%s'; last: %s"
+                             % (word, [m.data for m in self.status.messages[-3:]]))
+
+    def expect_stop_and_recovery(self, fault, mend, why, seconds=2.0):
+        self.assertTrue(self.robot.wait_until_moves(), "the robot should drive before the fault")
+        fault()
+        self.assertLess(self.robot.seconds_until_told_to_stop(), 0.5)
+        self.expect_status(why)
+        begin = time.time()
+        while time.time() < begin + seconds:
+            self.assertFalse(self.robot.moves(), "drives blind")
+            time.sleep(0.02)
+        mend()
+        self.assertTrue(self.robot.wait_until_moves(), "the robot should go on")
+        self.expect_status("exploring")
+
+    def dropped(self, reason):
+        rospy.sleep(1.2)
+        values = {v.key: v.value for m in self.diagnostics.messages[-3:] for s in m.status
+                  for v in s.values if s.name == "explore: scans"}
+        return int(values.get("dropped: " + reason, 0))
+
+    def test_01_without_transforms_it_never_moves(self):
+        rospy.sleep(4.0)
+        self.assertFalse(any((v, w) != (0.0, 0.0) for _, v, w in self.robot.commands))
+        self.expect_status("waiting")
+
+    def test_02_with_transforms_it_drives(self):
+        self.assertTrue(self.robot.wait_until_moves())
+        self.expect_status("exploring")
+
+    def test_03_scan_stops_for_five_seconds(self):
+        self.expect_stop_and_recovery(lambda: setattr(self.robot, "sends_scans", False),
+                                      lambda: setattr(self.robot, "sends_scans", True),
+                                      "no usable scan", seconds=5.0)
+
+    def test_04_transforms_stop(self):
+        self.expect_stop_and_recovery(lambda: setattr(self.robot, "sends_transforms", False),
+                                      lambda: setattr(self.robot, "sends_transforms", True),
+                                      "no usable scan")
+
+    def test_05_scans_of_nan(self):
+        def blind(scan):
+            scan.ranges = [math.nan] * len(scan.ranges)
+        self.expect_stop_and_recovery(lambda: setattr(self.robot, "spoil", blind),
+                                      lambda: setattr(self.robot, "spoil", lambda scan: None),
+                                      "blind")
+        self.assertGreater(self.dropped("blind"), 5)
+
+    def test_06_empty_scans(self):
+        def empty(scan):
+            scan.ranges = []
+        self.expect_stop_and_recovery(lambda: setattr(self.robot, "spoil", empty),
+                                      lambda: setattr(self.robot, "spoil", lambda scan: None),
+                                      "blind")
+
+    def test_07_scans_that_no_laser_can_have_meant(self):
+        def broken(scan):
+            scan.angle_increment = math.nan
+        self.expect_stop_and_recovery(lambda: setattr(self.robot, "spoil", broken),
+                                      lambda: setattr(self.robot, "spoil", lambda scan: None),
+                                      "malformed")
+        self.assertGreater(self.dropped("malformed"), 5)
+
+    def test_08_scans_from_the_past(self):
+        def late(scan):
+            scan.header.stamp -= rospy.Duration(3.0)
+        self.expect_stop_and_recovery(lambda: setattr(self.robot, "spoil", late),
+                                      lambda: setattr(self.robot, "spoil", lambda scan: None),
+                                      "not newer")
+
+    def test_09_scans_from_the_future(self):
+        def early(scan):
+            scan.header.stamp += rospy.Duration(60.0)
+        self.expect_stop_and_recovery(lambda: setattr(self.robot, "spoil", early),
+                                      lambda: setattr(self.robot, "spoil", lambda scan: None),
+                                      "future")
+
+    def test_10_the_pose_leaps_and_comes_back(self):
+        self.expect_stop_and_recovery(lambda: setattr(self.robot, "leap", 30.0),
+                                      lambda: setattr(self.robot, "leap", 0.0),
+                                      "leapt", seconds=0.3)
+
+    def test_11_nobody_listens_to_cmd_vel(self):
+        self.assertTrue(self.robot.wait_until_moves())
+        self.robot.go_deaf()
+        self.expect_status("nobody listens")
+        rospy.sleep(1.0)
+        self.robot.listen()
+        self.assertTrue(self.robot.wait_until_moves())
+        self.expect_status("exploring")
+
+    def test_12_the_stopped_robot_is_left_to_others(self):
+        self.assertTrue(rospy.ServiceProxy("explore/stop", Trigger)().success)
+        self.assertLess(self.robot.seconds_until_told_to_stop(), 0.5)
+        rospy.sleep(1.5)
+        said = len(self.robot.commands)
+        rospy.sleep(1.0)
+        self.assertEqual(len(self.robot.commands), said, "zero is said for a second only")
+
+    def test_13_a_new_place_is_believed_after_a_second(self):
+        self.assertTrue(rospy.ServiceProxy("explore/start", Trigger)().success)
+        self.assertTrue(self.robot.wait_until_moves())
+        self.robot.leap = 60.0
+        self.assertLess(self.robot.seconds_until_told_to_stop(), 0.5)
+        self.assertTrue(self.robot.wait_until_moves(5.0), "should go on at the new place")
+
+
+if __name__ == "__main__":
+    rostest.rosrun("cca_mrpt", "faults", Faults)
