@@ -1,6 +1,9 @@
 # Messages and the catkin package; included before any target that uses them.
 add_message_files(DIRECTORY msg FILES LineSegment.msg LineMap.msg)
 generate_messages(DEPENDENCIES geometry_msgs std_msgs)
+# The layers are exported as CMake targets, by cca_mrpt-extras.cmake.
+#catkin_lint: ignore missing_export_lib unused_include_path
 catkin_package(INCLUDE_DIRS include
-               CATKIN_DEPENDS roscpp geometry_msgs message_runtime std_msgs
+               CATKIN_DEPENDS geometry_msgs message_runtime nav_msgs roscpp rosgraph_msgs sensor_msgs std_msgs
+                              std_srvs visualization_msgs
                CFG_EXTRAS cca_mrpt-extras.cmake)
