@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
 // rosrun cca_mrpt explore [_world:=FILE.yaml _strategy:=NAME]: explores a simulated world in one
-// process; with an empty `~world`, explores with a robot that has `scan`, tf and `cmd_vel`.
+// process; with `_world:=none`, explores with a robot that has `scan`, tf and `cmd_vel`.
 #include <filesystem>
 
 #include "exploration.hpp"
@@ -15,6 +15,8 @@
 
 namespace cca {
 namespace {
+
+constexpr const char* kNoWorld = "none";  // the robot is out there
 
 struct Settings {
   SimulatorParameters simulator;
@@ -44,7 +46,7 @@ Settings readSettings() {
   parameters.refuseUnknown();
   s.exploration.map_frame = s.driver.frames.map;
   s.driver.publish_map_to_odom = s.pose == "odometry";
-  if (!s.simulator.world.empty()) {
+  if (s.simulator.world != kNoWorld) {
     s.exploration.title = std::filesystem::path(s.simulator.world).stem().string();
   }
   return s;
@@ -53,7 +55,8 @@ Settings readSettings() {
 void exploreSimulated(const Settings& settings, ros::NodeHandle& node,
                       ros::NodeHandle& private_node) {
   SimulatedRobot robot(node, makeSimulation(settings.simulator, settings.program),
-                       settings.driver.frames, settings.simulator.scan_rate);
+                       settings.driver.frames, settings.simulator.scan_rate,
+                       settings.simulator.record);
   Exploration exploration(node, private_node, settings.exploration, settings.program);
   const std::map<std::string, long> none_dropped;
   NodeDiagnostics diagnostics(
@@ -89,7 +92,7 @@ void exploreWithRobot(const Settings& settings, ros::NodeHandle& node,
 void explore() {
   ros::NodeHandle node, private_node("~");
   const Settings settings = readSettings();
-  if (settings.simulator.world.empty()) {
+  if (settings.simulator.world == kNoWorld) {
     exploreWithRobot(settings, node, private_node);
   } else {
     exploreSimulated(settings, node, private_node);

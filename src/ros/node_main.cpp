@@ -34,6 +34,7 @@ int runNode(int argc, char** argv, const std::string& name, const std::function<
   const auto& requests = ros::XMLRPCManager::instance();
   requests->unbind("shutdown");
   requests->bind("shutdown", onShutdownRequest);
+  const ros::NodeHandle keeps_console_alive;  // with the last handle the console goes, too
   int status = 0;
   try {
     const MasterWatch watch;

@@ -29,12 +29,13 @@ geometry_msgs::TransformStamped stamped(const Pose2& pose, const std::string& pa
 }  // namespace
 
 SimulatedRobot::SimulatedRobot(ros::NodeHandle& node, Simulation simulation, FrameNames frames,
-                               double scan_rate)
+                               double scan_rate, const std::string& bag)
     : simulation_(std::move(simulation)),
       frames_(std::move(frames)),
       keeps_clock_(ros::Time::isSimTime()),
       scan_period_(1.0 / scan_rate),
       ticks_per_scan_(static_cast<int>(std::ceil(kPoseRate / scan_rate))),
+      bag_(bag),
       transforms_(node.advertise<tf2_msgs::TFMessage>("/tf", 100)),
       fixed_transforms_(node.advertise<tf2_msgs::TFMessage>("/tf_static", 10, true)),
       odometry_(node.advertise<nav_msgs::Odometry>("odom", 50)),
@@ -58,6 +59,7 @@ void SimulatedRobot::publishMount() {
   message.transforms.push_back(stamped({}, frames_.base, frames_.laser, now()));
   message.transforms.back().transform.translation.z = kLaserHeight;
   fixed_transforms_.publish(message);
+  bag_.write("/tf_static", now(), message, true);
 }
 
 void SimulatedRobot::publishPose() {
@@ -73,6 +75,7 @@ void SimulatedRobot::publishPose() {
   message.transforms.push_back(stamped(T_map_odom, frames_.map, frames_.odom, stamp));
   message.transforms.push_back(stamped(T_odom_robot, frames_.odom, frames_.base, stamp));
   transforms_.publish(message);
+  bag_.write("/tf", stamp, message);
 
   nav_msgs::Odometry odometry;
   odometry.header = message.transforms.back().header;
@@ -81,6 +84,7 @@ void SimulatedRobot::publishPose() {
   odometry.twist.twist.linear.x = simulation_.velocity().linear;
   odometry.twist.twist.angular.z = simulation_.velocity().angular;
   odometry_.publish(odometry);
+  bag_.write(odometry_.getTopic(), stamp, odometry);
 }
 
 Observation SimulatedRobot::scan() {
@@ -89,7 +93,9 @@ Observation SimulatedRobot::scan() {
   header.stamp = now();
   header.frame_id = frames_.laser;
   const LaserLimits limits{0.0, simulation_.parameters().laser.range, scan_period_, 0.0};
-  scans_.publish(scanToMessage(observation.scan, limits, header));
+  const auto message = scanToMessage(observation.scan, limits, header);
+  scans_.publish(message);
+  bag_.write(scans_.getTopic(), header.stamp, message);
   return observation;
 }
 

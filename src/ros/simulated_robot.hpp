@@ -5,6 +5,7 @@
 
 #include <string>
 
+#include "bag_recorder.hpp"
 #include "cca_mrpt/simulation/simulation.hpp"
 
 namespace cca {
@@ -20,7 +21,9 @@ struct FrameNames {
 class SimulatedRobot {
  public:
   /// @param scan_rate  Hz, positive. Poses are told at least 50 times a second.
-  SimulatedRobot(ros::NodeHandle& node, Simulation simulation, FrameNames frames, double scan_rate);
+  /// @param bag        file that scan, odom and tf are recorded in; empty: none.
+  SimulatedRobot(ros::NodeHandle& node, Simulation simulation, FrameNames frames, double scan_rate,
+                 const std::string& bag);
 
   /// Drives for one tick towards the command, then tells the time and where the robot is.
   void tick(const Velocity& command);
@@ -49,6 +52,7 @@ class SimulatedRobot {
   double scan_period_, tick_;
   int ticks_per_scan_;
   long ticks_ = 0;
+  BagRecorder bag_;
   ros::Publisher clock_, transforms_, fixed_transforms_, odometry_, scans_;
 };
 

@@ -40,7 +40,7 @@ void simulate() {
   const Settings settings = readSettings();
   ros::NodeHandle node;
   SimulatedRobot robot(node, makeSimulation(settings.simulator, settings.program), settings.frames,
-                       settings.simulator.scan_rate);
+                       settings.simulator.scan_rate, settings.simulator.record);
   Velocity command;
   double commanded_at = -kCommandHolds;
   const auto take = [&](const geometry_msgs::Twist::ConstPtr& twist) {

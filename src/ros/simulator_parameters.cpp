@@ -44,6 +44,7 @@ void readParameters(PrivateParameters& parameters, SimulatorParameters& p) {
   parameters.number("speed", p.speed, 0.01, 1000.0, "times real time");
   parameters.number("scan_rate", p.scan_rate, 1.0, 100.0, "Hz");
   parameters.number("seed", p.seed, 0.0, 1e9, "");
+  parameters.text("record", p.record);
 }
 
 Simulation makeSimulation(const SimulatorParameters& p, const Parameters& program) {

@@ -17,6 +17,7 @@ struct SimulatorParameters {
   double speed = 1.0;       ///< simulated seconds a second of the wall
   double scan_rate = 10.0;  ///< Hz
   double seed = 1.0;
+  std::string record;  ///< bag to write; empty: none
 };
 
 /// Reads them from the node's private parameters.

@@ -1,0 +1,82 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Tests that start nodes themselves, each with a master of its own: rostest cannot restart a master,
+nor look at the exit status of a node."""
+import os
+import socket
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+
+DEVEL = os.path.abspath(sys.argv[1])
+NODES = os.path.join(DEVEL, "lib", "cca_mrpt")
+
+
+def free_port():
+    with socket.socket() as s:
+        s.bind(("", 0))
+        return s.getsockname()[1]
+
+
+def until(condition, seconds=20.0):
+    end = time.time() + seconds
+    while time.time() < end:
+        if condition():
+            return True
+        time.sleep(0.2)
+    return False
+
+
+class OwnMaster(unittest.TestCase):
+    def setUp(self):
+        self.home = tempfile.TemporaryDirectory(prefix="cca_node_ends_")
+        self.out = os.path.join(self.home.name, "map")
+        self.port = free_port()
+        os.environ.update(ROS_HOME=self.home.name, ROS_HOSTNAME="localhost",
+                          ROS_MASTER_URI="http://localhost:%d" % self.port)
+        self.running = []
+        self.master = self.start_master()
+
+    def tearDown(self):
+        for process in reversed(self.running):
+            if process.poll() is None:
+                process.kill()
+            process.communicate()
+        self.home.cleanup()
+
+    def start(self, *command):
+        process = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
+                                   text=True)
+        self.running.append(process)
+        return process
+
+    def start_master(self):
+        # The bare master: roscore's own children would hide it from a signal.
+        master = subprocess.Popen(["rosmaster", "--core", "-p", str(self.port)],
+                                  stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        self.running.append(master)
+        self.assertTrue(until(lambda: self.ask("rosparam", "list") is not None))
+        return master
+
+    def ask(self, *command, seconds=10):
+        try:
+            done = subprocess.run(command, capture_output=True, text=True, timeout=seconds)
+        except subprocess.TimeoutExpired:
+            return None
+        return done.stdout if done.returncode == 0 else None
+
+    def node(self, name, *arguments):
+        return self.start(os.path.join(NODES, name), *arguments)
+
+    def says(self, topic, word):
+        return until(lambda: word in (self.ask("rostopic", "echo", "-n1", topic, seconds=5) or ""))
+
+
+def main():
+    """DEVEL_SPACE [names of tests]: runs them in the environment of that space."""
+    if not os.environ.get("CMAKE_PREFIX_PATH", "").startswith(DEVEL):
+        os.environ["PATH"] = "/usr/bin:/bin:" + os.environ["PATH"]
+        again = '. "$0/setup.sh" && exec /usr/bin/python3 "$@"'
+        os.execvp("sh", ["sh", "-c", again, DEVEL] + sys.argv)
+    unittest.main(argv=sys.argv[:1] + sys.argv[2:], verbosity=2)
