@@ -10,7 +10,7 @@ from own_master import OwnMaster, main, until
 
 class NodeEnds(OwnMaster):
     def exploring(self):
-        node = self.node("explore", "_world:=two_rooms", "_out:=" + self.out)
+        node = self.node("explore", "_world:=office", "_out:=" + self.out)
         self.assertTrue(self.says("/status", "exploring"))
         time.sleep(1.0)
         return node
@@ -35,7 +35,7 @@ class NodeEnds(OwnMaster):
         self.expect_saved()
 
     def test_ctrl_c_stops_the_robot(self):
-        self.node("simulator", "_world:=two_rooms")
+        self.node("simulator", "_world:=office")
         node = self.node("explore", "_world:=none", "_out:=" + self.out)
         self.assertTrue(self.says("/status", "exploring"))
         heard = self.start("rostopic", "echo", "-p", "/cmd_vel")
