@@ -35,14 +35,15 @@ Exploration::Exploration(ros::NodeHandle& node, ros::NodeHandle& private_node, S
       mode_(settings_.autostart ? Mode::kRunning : Mode::kStopped) {
   services_ = {private_node.advertiseService("start", &Exploration::onStart, this),
                private_node.advertiseService("stop", &Exploration::onStop, this),
-               private_node.advertiseService("pause", &Exploration::onPause, this)};
+               private_node.advertiseService("pause", &Exploration::onPause, this),
+               private_node.advertiseService("home", &Exploration::onHome, this)};
   setMode(mode_);
 }
 
 Velocity Exploration::step(Observation observation, const ros::Time& stamp) {
   own_time_ += std::clamp(observation.time - last_time_, 0.0, kLongestStep);
   last_time_ = observation.time;
-  if (!drives()) return {};
+  if (mode_ == Mode::kStopped || finished_) return {};
   observation.time = own_time_;
   const std::lock_guard<std::mutex> lock(saver_.mutex());
   const Action action = explorer_.step(observation);
@@ -77,6 +78,7 @@ void Exploration::end() {
 
 void Exploration::setMode(Mode mode) {
   mode_ = mode;
+  explorer_.pause(mode == Mode::kPaused);
   if (finished_) return;
   state_ = mode == Mode::kStopped  ? "stopped: call ~start to explore"
            : mode == Mode::kPaused ? "paused: call ~pause with false to go on"
@@ -97,6 +99,17 @@ bool Exploration::onStop(std_srvs::Trigger::Request& /*request*/,
   setMode(Mode::kStopped);
   response.success = true;
   response.message = "stopped";
+  return true;
+}
+
+bool Exploration::onHome(std_srvs::Trigger::Request& /*request*/,
+                         std_srvs::Trigger::Response& response) {
+  response.success = !record_.way.empty();
+  response.message = response.success ? "returning" : "it has not left yet";
+  if (!response.success) return true;
+  explorer_.returnToStart();
+  finished_ = false;
+  setMode(Mode::kRunning);
   return true;
 }
 

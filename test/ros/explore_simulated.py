@@ -36,7 +36,7 @@ class ExploreSimulated(unittest.TestCase):
         cls.markers = Watch("line_markers", MarkerArray)
         cls.goal = Watch("goal", PoseStamped)
         cls.diagnostics = Watch("/diagnostics", DiagnosticArray)
-        for name in ("start", "stop", "pause", "save"):
+        for name in ("start", "stop", "pause", "save", "home"):
             rospy.wait_for_service("explore/" + name, 20)
 
     def call(self, name):
@@ -195,6 +195,13 @@ class ExploreSimulated(unittest.TestCase):
 
     def test_14_start_after_the_end_is_refused(self):
         self.assertFalse(self.call("start").success)
+
+    def test_15_home_drives_back_to_the_start(self):
+        self.assertTrue(self.call("home").success)
+        self.expect_status("returning")
+        self.expect_status("finished", 40)
+        last = Watch("trajectory", Path).wait(seconds=5).poses[-1].pose.position
+        self.assertLess(math.hypot(last.x - 1.2, last.y - 1.2), 0.5)
 
 
 if __name__ == "__main__":
