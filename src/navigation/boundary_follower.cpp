@@ -11,13 +11,14 @@ constexpr double kAhead = 4.0;  // m, traced in front of the robot
 constexpr double kAheadClosely = 0.6;
 constexpr double kLookedAt = 0.15;  // m
 constexpr double kSensed = 8.0;     // m, traced each way for the first d_followed
+constexpr double kBeside = 1.0;     // m
 constexpr double kLost = 0.3;       // m, how far the boundary may move between two steps
 constexpr double kNarrow = 0.3;     // m, ahead
 constexpr double kHidden = 0.1;     // m, beyond what a beam sees
 
 bool isInSight(const LocalView& view, const Eigen::Vector2d& p_map) {
   const double distance = (p_map - view.T_map_sensor.position()).norm();
-  return distance <= view.seenDistanceTowards(p_map) + kHidden;
+  return distance <= view.seenDistanceTowards(p_map) + kHidden + 2.0 * view.range_sigma;
 }
 
 }  // namespace
@@ -42,13 +43,16 @@ std::optional<Eigen::Vector2d> BoundaryFollower::step(const Eigen::Vector2d& goa
                                                       const ConfigurationSpace& trace_space,
                                                       const ConfigurationSpace& way_space,
                                                       double d_reach) {
-  if (!findAnchor(view, trace_space)) return std::nullopt;
-  const auto seen = [&](const Eigen::Vector2d& p_map) { return isInSight(view, p_map); };
-  auto trace = traceBoundary(trace_space, trace_[anchor_].center_map, on_the_right_,
-                             closely_ ? kAheadClosely : kAhead, seen);
-  if (trace.empty()) return std::nullopt;
-  trace_ = std::move(trace);
   const Eigen::Vector2d x = view.T_map_robot.position();
+  const auto seen = [&](const Eigen::Vector2d& p_map) { return isInSight(view, p_map); };
+  // Out of sight, the boundary beside the robot is the one that it has been following.
+  const bool found = findAnchor(view, trace_space);
+  auto trace = traceBoundary(trace_space, found ? trace_[anchor_].center_map : x, on_the_right_,
+                             closely_ ? kAheadClosely : kAhead, seen);
+  if (trace.empty() || (!found && (trace.front().center_map - x).norm() > kBeside)) {
+    return std::nullopt;
+  }
+  trace_ = std::move(trace);
   include(trace_, goal_map);
   noteNarrowPlace();
   std::size_t target = trace_.size() - 1;

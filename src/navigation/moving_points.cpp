@@ -5,8 +5,6 @@
 #include <cmath>
 #include <utility>
 
-#include "cca_mrpt/mapping/range_noise.hpp"
-
 namespace cca {
 namespace {
 
@@ -76,7 +74,7 @@ std::vector<std::pair<std::size_t, std::size_t>> runsInFreeSpace(
 
 }  // namespace
 
-std::vector<bool> MovingPoints::update(const Scan& scan, double time) {
+std::vector<bool> MovingPoints::update(const Scan& scan, double range_sigma, double time) {
   std::vector<bool> moving(scan.size(), false);
   const std::vector<Eigen::Vector2d> points = pointsOf(scan);
   while (past_.size() > 1 && past_[1].time <= time - kAge) past_.pop_front();
@@ -85,7 +83,7 @@ std::vector<bool> MovingPoints::update(const Scan& scan, double time) {
                 places_.end());
   if (!past_.empty() && past_.front().time < time) {
     const Past& earlier = past_.front();
-    const double clearly = kClearly + 4.0 * rangeNoise(scan).range_sigma;
+    const double clearly = kClearly + 4.0 * range_sigma;
     for (const auto& [first, last] : runsInFreeSpace(scan, points, earlier.scan, clearly)) {
       markBody(points, first, last, moving);
       places_.push_back({points[(first + last) / 2], time});

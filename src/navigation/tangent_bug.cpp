@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "cca_mrpt/mapping/range_noise.hpp"
 #include "cca_mrpt/navigation/motion_control.hpp"
 #include "cca_mrpt/navigation/safe_velocity.hpp"
 #include "cca_mrpt/navigation/scan_smoothing.hpp"
@@ -18,14 +19,19 @@ constexpr double kLeave = 0.1;            // m, by which d_reach must be below d
 constexpr double kUnsure = 0.03;          // of the distance: beams are sparse far away
 constexpr double kInVain = 0.4;           // m
 constexpr double kSlack = 0.4;            // of the margin, given up on the way
+constexpr double kSafe = 0.4;             // of the margin, never given up
 constexpr double kTraceSlack = 0.1;       // of the margin, given up along a boundary
 constexpr double kOnTheBoundary = 0.001;  // m
 constexpr double kSameArea = 1.0;         // m
 constexpr int kMostTimesStuck = 8;        // there, before it gives up
+constexpr double kLost = 1.0;             // s
+constexpr int kMostStarts = 10;           // of following, without coming nearer to the goal
 constexpr double kWalkingSpeed = 1.0;     // m/s, of what moves, in any direction
 constexpr double kAmongMovers = 0.45;     // m/s, where somebody may come around the corner
 constexpr double kWaitFor = 2.5;          // m
 constexpr std::array<double, 3> kLookAhead{-0.2, 0.0, 0.2};  // rad
+constexpr double kNoiseAllowance = 0.5;  // of the noise beyond the usual one, for each distance
+constexpr double kUsualSigma = 0.01;     // m
 constexpr int kBearings = 360;
 constexpr double kControlPeriod = 0.1;  // s
 
@@ -39,6 +45,10 @@ void TangentBug::setGoal(const Eigen::Vector2d& goal_map) {
   in_vain_map_.clear();
   shut_map_.clear();
   stuck_at_map_.reset();
+  started_at_map_.reset();
+  lost_since_.reset();
+  starts_ = 0;
+  least_distance_ = std::numeric_limits<double>::infinity();
   progress_ = {};
 }
 
@@ -46,9 +56,15 @@ Velocity TangentBug::step(const Scan& scan, const Pose2& T_map_robot, const Velo
                           double time) {
   observe(scan, T_map_robot, time);
   target_.reset();
+  time_ = time;
+  const double distance = (goal_map_ - T_map_robot.position()).norm();
+  if (distance < least_distance_ - kLeave) {
+    least_distance_ = distance;
+    starts_ = 0;
+  }
   const bool under_way =
       state_ == TangentBugState::kMotionToGoal || state_ == TangentBugState::kBoundaryFollowing;
-  if (under_way && (goal_map_ - T_map_robot.position()).norm() <= kGoalTolerance) {
+  if (under_way && distance <= kGoalTolerance) {
     state_ = TangentBugState::kReached;
   }
   // Without any valid beam the robot is blind: it stops, and what it knew stays as it was.
@@ -88,11 +104,14 @@ void TangentBug::shutWhatIsTooNarrow() {
 }
 
 void TangentBug::observe(const Scan& raw_scan, const Pose2& T_map_robot, double time) {
-  const double radius = robot_.radius + robot_.safety_margin;
   const Eigen::Vector2d x = T_map_robot.position();
-  const Scan scan = smoothScan(raw_scan);
+  const double sigma = rangeNoise(raw_scan).range_sigma;
+  noise_allowance_ = std::max(0.0, kNoiseAllowance * (sigma - kUsualSigma));
+  const double radius = robot_.radius + robot_.safety_margin + noise_allowance_;
+  const Scan scan = smoothScan(raw_scan, sigma);
   LocalView view =
-      makeLocalView(scan, moving_points_.update(scan, time), T_map_robot, 2.0 * radius);
+      makeLocalView(scan, moving_points_.update(scan, sigma, time), T_map_robot, 2.0 * radius);
+  view.range_sigma = sigma;
   memory_.update(view_, view, time);
   view_ = std::move(view);
   for (const auto& points : {memory_.points(), shut_map_}) {
@@ -160,6 +179,10 @@ std::optional<Eigen::Vector2d> TangentBug::startFollowing() {
   const Eigen::Vector2d last =
       motion_to_goal_.lastDirection().value_or(view_.T_map_robot.heading());
   const bool on_the_right = towards_goal.x() * last.y() - towards_goal.y() * last.x() > 0.0;
+  if (!started_at_map_ || (x - *started_at_map_).norm() > kSameArea) {
+    started_at_map_ = x;
+    ++starts_;
+  }
   follower_.start(hit, on_the_right, goal_map_, view_, trace_space_);
   if (follower_.trace().empty()) {  // out of sight: the boundary beside the robot then
     follower_.start(x, on_the_right, goal_map_, view_, trace_space_);
@@ -178,15 +201,22 @@ std::optional<Eigen::Vector2d> TangentBug::followBoundary() {
                                       follower_.onTheRight());
     return reach_map_;
   }
-  if (follower_.circled()) {
+  if (follower_.circled() || starts_ > kMostStarts) {
     state_ = TangentBugState::kUnreachable;
     return std::nullopt;
   }
-  if (!target) {  // what was followed has gone
+  if (target) {
+    lost_since_.reset();
+    return target;
+  }
+  // Noise hides a boundary for a moment; what moved away takes it along.
+  if (!lost_since_) lost_since_ = time_;
+  if (time_ - *lost_since_ > kLost) {
+    lost_since_.reset();
     state_ = TangentBugState::kMotionToGoal;
     motion_to_goal_.start();
   }
-  return target;
+  return std::nullopt;
 }
 
 // Whether at least one of three beams around the heading is valid.
@@ -216,7 +246,8 @@ Velocity TangentBug::drive(const Velocity& velocity, double time) const {
     hazards.push_back({inRobot(p_map), kWalkingSpeed});
   }
   return safeVelocity(wanted, velocity, hazards, robot_,
-                      robot_.radius + kSlack * robot_.safety_margin, kControlPeriod);
+                      robot_.radius + kSafe * robot_.safety_margin + noise_allowance_,
+                      kControlPeriod);
 }
 
 }  // namespace cca

@@ -26,7 +26,7 @@ TEST(MovingPoints, FindsNobodyInAStillWorldWhileTheRobotDrivesAndTurns) {
     for (int i = 0; i < 40; ++i) {
       Scan scan = query.world.scan(pose, 8.0);
       for (double& r : scan.ranges) r += isReturn(r) ? noise(generator) : 0.0;
-      false_alarms += movingBeams(points.update(scan, 0.1 * i));
+      false_alarms += movingBeams(points.update(scan, 0.01, 0.1 * i));
       beams += static_cast<long>(scan.size());
       const Pose2 next = pose * Pose2{0.05, 0.0, 0.06};
       if (query.world.clearance(next.position()) > 0.3) pose = next;
@@ -51,7 +51,7 @@ TEST_P(MovingPointsWalk, FindsAWalkerWithinHalfASecond) {
   for (int i = 0; i <= 6; ++i) {
     world.discs = {{GetParam().from + GetParam().velocity * 0.1 * i, 0.25}};
     scan = world.scan({5, 5, 0}, 8.0);
-    moving = points.update(scan, 0.1 * i);
+    moving = points.update(scan, 0.01, 0.1 * i);
   }
   long on_walker = 0, found = 0;
   for (std::size_t i = 0; i < scan.size(); ++i) {
@@ -73,9 +73,9 @@ INSTANTIATE_TEST_SUITE_P(Directions, MovingPointsWalk,
 
 TEST(MovingPoints, TakesScansWithoutBeamsOrReturns) {
   MovingPoints points;
-  EXPECT_TRUE(points.update({}, 0.0).empty());
-  EXPECT_EQ(movingBeams(points.update(BoxWorld{}.scan({}, 8.0), 0.5)), 0);
-  EXPECT_EQ(movingBeams(points.update(BoxWorld{}.scan({}, 8.0), 1.0)), 0);
+  EXPECT_TRUE(points.update({}, 0.01, 0.0).empty());
+  EXPECT_EQ(movingBeams(points.update(BoxWorld{}.scan({}, 8.0), 0.01, 0.5)), 0);
+  EXPECT_EQ(movingBeams(points.update(BoxWorld{}.scan({}, 8.0), 0.01, 1.0)), 0);
 }
 
 }  // namespace

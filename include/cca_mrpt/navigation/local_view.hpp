@@ -19,7 +19,8 @@ struct LocalView {
   std::vector<double> seen;  ///< m, beam by beam: seen free up to here; 0 for an invalid beam
   double angle_min = 0.0;
   double angle_increment = 0.0;
-  double horizon = 0.0;  ///< m, the farthest that any beam sees
+  double range_sigma = 0.0;  ///< m, of the scan before it was smoothed
+  double horizon = 0.0;      ///< m, the farthest that any beam sees
 
   /// @return the beam next to the point's bearing; -1 outside the field of view.
   int beamTowards(const Eigen::Vector2d& p_map) const;

@@ -18,9 +18,9 @@ namespace cca {
 /// stays one for kMemory. Beyond kFarthest beams are too sparse to tell a thin pole from somebody.
 class MovingPoints {
  public:
-  /// @param scan  smoothed. @param time  s, never falling.
+  /// @param scan  smoothed. @param range_sigma  m, before. @param time  s, never falling.
   /// @return      by beam.
-  std::vector<bool> update(const Scan& scan, double time);
+  std::vector<bool> update(const Scan& scan, double range_sigma, double time);
 
   /// Whether movers have been seen within the last minute: there may be more around the corner.
   bool areAround(double time) const { return time - last_seen_ < 60.0; }

@@ -22,7 +22,10 @@ enum class TangentBugState {
   kMotionToGoal,
   kBoundaryFollowing,
   kReached,
-  kUnreachable,  ///< the boundary has been circled, or the robot can move nowhere
+  /// The boundary has been circled; or the robot can move nowhere, or follows one boundary after
+  /// the other and comes no nearer (noise and moving obstacles break the paper's proof, not its
+  /// end).
+  kUnreachable,
 };
 
 /// The local planner [Kamon, Rimon & Rivlin 1998], for a finite-range laser, in configuration
@@ -66,7 +69,13 @@ class TangentBug {
   std::vector<Eigen::Vector2d> shut_map_;  ///< places in gaps that proved too narrow
   std::optional<Eigen::Vector2d> stuck_at_map_;
   int times_stuck_ = 0;
+  double least_distance_ = 0.0;  ///< m, between the robot and the goal, so far
+  int starts_ = 0;               ///< of boundary following, since the robot came nearer than ever
+  std::optional<Eigen::Vector2d> started_at_map_;
+  std::optional<double> lost_since_;
+  double time_ = 0.0;
   MovingPoints moving_points_;
+  double noise_allowance_ = 0.0;  ///< m, added to every distance that is kept
   ShortMemory memory_;
   LocalView view_;
   ConfigurationSpace way_space_, trace_space_;
