@@ -31,6 +31,9 @@ constexpr double kAmongMovers = 0.45;     // m/s, where somebody may come around
 constexpr double kWaitFor = 2.5;          // m
 constexpr std::array<double, 3> kLookAhead{-0.2, 0.0, 0.2};  // rad
 constexpr double kNoiseAllowance = 0.5;  // of the noise beyond the usual one, for each distance
+constexpr std::size_t kLately = 5;       // scans
+constexpr double kNear = 0.15;           // m, beyond the radius
+constexpr double kPreciseSigma = 0.006;  // m
 constexpr double kUsualSigma = 0.01;     // m
 constexpr int kBearings = 360;
 constexpr double kControlPeriod = 0.1;  // s
@@ -80,7 +83,21 @@ Velocity TangentBug::step(const Scan& scan, const Pose2& T_map_robot, const Velo
   if (still && progress_.stuck(T_map_robot.position(), follower_.length(), time, moverIsNear())) {
     shutWhatIsTooNarrow();
   }
-  return drive(velocity, time);
+  const Velocity command = drive(velocity, time);
+  rememberWhatIsNear();
+  return command;
+}
+
+// Where ranges are noisy, one scan that reads far must not be enough to go a step nearer: a robot
+// that waits beside a wall would creep into it, scan by scan.
+void TangentBug::rememberWhatIsNear() {
+  if (lately_near_map_.size() >= kLately) lately_near_map_.pop_front();
+  lately_near_map_.emplace_back();
+  if (view_.range_sigma < kPreciseSigma) return;
+  const Eigen::Vector2d x = view_.T_map_robot.position();
+  for (const Eigen::Vector2d& p_map : view_.obstacles) {
+    if ((p_map - x).norm() < way_space_.radius + kNear) lately_near_map_.back().push_back(p_map);
+  }
 }
 
 bool TangentBug::moverIsNear() const {
@@ -242,6 +259,9 @@ Velocity TangentBug::drive(const Velocity& velocity, double time) const {
   std::vector<Hazard> hazards;
   hazards.reserve(view_.obstacles.size() + view_.movers.size());
   for (const Eigen::Vector2d& p_map : view_.obstacles) hazards.push_back({inRobot(p_map), 0.0});
+  for (const auto& points : lately_near_map_) {
+    for (const Eigen::Vector2d& p_map : points) hazards.push_back({inRobot(p_map), 0.0});
+  }
   for (const Eigen::Vector2d& p_map : view_.movers) {
     hazards.push_back({inRobot(p_map), kWalkingSpeed});
   }

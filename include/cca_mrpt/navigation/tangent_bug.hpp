@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <deque>
 #include <optional>
 #include <vector>
 
@@ -52,6 +53,7 @@ class TangentBug {
 
  private:
   bool moverIsNear() const;
+  void rememberWhatIsNear();
   void shutWhatIsTooNarrow();
   void observe(const Scan& scan, const Pose2& T_map_robot, double time);
   void findReach();
@@ -76,6 +78,7 @@ class TangentBug {
   double time_ = 0.0;
   MovingPoints moving_points_;
   double noise_allowance_ = 0.0;  ///< m, added to every distance that is kept
+  std::deque<std::vector<Eigen::Vector2d>> lately_near_map_;  ///< by scan, where ranges are noisy
   ShortMemory memory_;
   LocalView view_;
   ConfigurationSpace way_space_, trace_space_;
