@@ -25,6 +25,7 @@ struct Options {
   int polygons = 0, scans = 100, fit = 0;
   std::uint64_t seed = 1;
   std::string out;
+  bool pieces = false;
 };
 
 bool isChosen(const Options& options, const std::string& name) {
@@ -56,6 +57,7 @@ std::vector<ScanGroup> gather(const Options& options, const LaserParameters& las
     sampling.laser = laser;
     sampling.laser.range_noise = noise;
     sampling.seed = options.seed;
+    sampling.hidden_walls = options.pieces ? HiddenWalls::kPieces : HiddenWalls::kWhole;
     for (const std::string& input : options.inputs) {
       if (isWorld(input)) append(group.scans, sampleWorld(input, sampling));
     }
@@ -199,6 +201,9 @@ void addCompareExtractorsCommand(CLI::App& program) {
       ->add_option("--fit", options->fit,
                    "draw so many parameter sets for each baseline and print the best")
       ->check(CLI::Range(0, 100000));
+  command->add_flag(
+      "--pieces", options->pieces,
+      "a wall that something partly hides counts as several, one for each visible piece");
   command->add_option("--out", options->out, "folder for comparison.csv");
   auto parameters =
       std::make_shared<ParameterOptions>(*command, std::vector<std::string>{"mapping", "laser"});

@@ -38,7 +38,36 @@ Hit meet(const Eigen::Vector2d& u, const Segment2& edge) {
 /// The stretch of an edge that rays have met.
 struct Seen {
   double low = 1.0, high = 0.0;
-  int rays = 0;
+  int rays = 0, first_beam = 0, last_beam = 0;
+
+  void add(const Seen& other) {
+    low = std::min(low, other.low);
+    high = std::max(high, other.high);
+    rays += other.rays;
+    last_beam = other.last_beam;
+  }
+};
+
+/// The stretches of one edge, by beam.
+class Stretches {
+ public:
+  void meet(double along, int beam, HiddenWalls rule) {
+    const bool goes_on =
+        !seen_.empty() && (rule == HiddenWalls::kWhole || seen_.back().last_beam + 1 == beam);
+    if (!goes_on) seen_.push_back({1.0, 0.0, 0, beam, beam});
+    seen_.back().add({along, along, 1, beam, beam});
+  }
+  /// Joins what the seam between the last beam and the first has cut.
+  const std::vector<Seen>& close(int beams) {
+    if (seen_.size() > 1 && seen_.front().first_beam == 0 && seen_.back().last_beam == beams - 1) {
+      seen_.front().add(seen_.back());
+      seen_.pop_back();
+    }
+    return seen_;
+  }
+
+ private:
+  std::vector<Seen> seen_;
 };
 
 std::vector<Segment2> inFrame(const Pose2& T_map_sensor, const std::vector<Segment2>& edges_map) {
@@ -107,7 +136,8 @@ std::string truthPath(const std::string& yaml_path) {
 }
 
 LabelledScan sweepOverEdges(const std::vector<Segment2>& edges_map, const Pose2& T_map_sensor,
-                            const LaserParameters& laser, Random& random) {
+                            const LaserParameters& laser, Random& random,
+                            HiddenWalls hidden_walls) {
   const std::vector<Segment2> edges = inFrame(T_map_sensor, edges_map);
   LabelledScan labelled;
   labelled.has_truth = true;
@@ -117,7 +147,7 @@ LabelledScan sweepOverEdges(const std::vector<Segment2>& edges_map, const Pose2&
   scan.angle_increment = laser.beams > 1 ? view / (laser.beams - 1) : 0.0;
   scan.free_range_without_return = laser.range;
   scan.T_map_sensor = T_map_sensor;
-  std::vector<Seen> seen(edges.size());
+  std::vector<Stretches> seen(edges.size());
   for (int beam = 0; beam < laser.beams; ++beam) {
     const double bearing = scan.bearing(static_cast<std::size_t>(beam)) +
                            laser.angle_noise_deg * M_PI / 180.0 * random.normal();
@@ -130,15 +160,16 @@ LabelledScan sweepOverEdges(const std::vector<Segment2>& edges_map, const Pose2&
     }
     scan.ranges.push_back(noisyReading(nearest.range, laser, random));
     if (!isReturn(scan.ranges.back())) continue;
-    seen[owner].low = std::min(seen[owner].low, nearest.along);
-    seen[owner].high = std::max(seen[owner].high, nearest.along);
-    ++seen[owner].rays;
+    seen[owner].meet(nearest.along, beam, hidden_walls);
   }
   for (std::size_t k = 0; k < edges.size(); ++k) {
-    if (seen[k].rays < 2) continue;
     const Eigen::Vector2d d = edges[k].end - edges[k].start;
-    labelled.edges.push_back({edges[k].start + seen[k].low * d, edges[k].start + seen[k].high * d});
-    labelled.rays.push_back(seen[k].rays);
+    for (const Seen& stretch : seen[k].close(laser.beams)) {
+      if (stretch.rays < 2) continue;
+      labelled.edges.push_back(
+          {edges[k].start + stretch.low * d, edges[k].start + stretch.high * d});
+      labelled.rays.push_back(stretch.rays);
+    }
   }
   return labelled;
 }
@@ -158,7 +189,8 @@ std::vector<LabelledScan> sampleWorld(const std::string& yaml_path, const Sampli
     const Eigen::Vector2d p = world.origin() + Eigen::Vector2d(x, y);
     const Pose2 T_map_sensor{p.x(), p.y(), places.uniform(-M_PI, M_PI)};
     if (world.clearance(p, sampling.clearance) < sampling.clearance) continue;
-    LabelledScan labelled = sweepOverEdges(edges, T_map_sensor, sampling.laser, noise);
+    LabelledScan labelled =
+        sweepOverEdges(edges, T_map_sensor, sampling.laser, noise, sampling.hidden_walls);
     const auto returns =
         std::count_if(labelled.scan.ranges.begin(), labelled.scan.ranges.end(), isReturn);
     if (static_cast<double>(returns) < kFewestReturns * sampling.laser.beams) continue;
@@ -174,7 +206,8 @@ std::vector<LabelledScan> samplePolygons(const Sampling& sampling) {
   laser.range = std::max(laser.range, 12.0);
   std::vector<LabelledScan> scans;
   for (int i = 0; i < sampling.scans; ++i) {
-    scans.push_back(sweepOverEdges(randomPolygon(places), Pose2{}, laser, noise));
+    scans.push_back(
+        sweepOverEdges(randomPolygon(places), Pose2{}, laser, noise, sampling.hidden_walls));
     scans.back().source = "polygons";
   }
   return scans;

@@ -41,6 +41,23 @@ TEST(SweepOverEdges, AHiddenWallHasNoLabel) {
   EXPECT_NEAR(s.edges[0].start.x(), 2.0, 1e-12);
 }
 
+TEST(SweepOverEdges, AWallBehindAPillarIsOneEdgeOrTwoAsAsked) {
+  const std::vector<Segment2> walls{{{3.0, -2.0}, {3.0, 2.0}}, {{1.5, -0.2}, {1.5, 0.2}}};
+  LaserParameters laser;
+  Random random(1);
+  EXPECT_EQ(sweepOverEdges(walls, Pose2{}, laser, random, HiddenWalls::kWhole).edges.size(), 2u);
+  EXPECT_EQ(sweepOverEdges(walls, Pose2{}, laser, random, HiddenWalls::kPieces).edges.size(), 3u);
+}
+
+TEST(SweepOverEdges, TheSeamBehindTheSensorCutsNoWall) {
+  LaserParameters laser;
+  Random random(1);
+  const LabelledScan s =
+      sweepOverEdges({{{-2.0, -1.0}, {-2.0, 1.0}}}, Pose2{}, laser, random, HiddenWalls::kPieces);
+  ASSERT_EQ(s.edges.size(), 1u);
+  EXPECT_NEAR(s.edges[0].length(), 2.0, 0.1);
+}
+
 TEST(SamplePolygons, SurroundTheSensorAndRepeatBySeed) {
   Sampling sampling;
   sampling.scans = 20;

@@ -13,12 +13,18 @@
 /// What the claims rest on: scans with known truth, scores, statistics.
 namespace cca::evidence {
 
+/// What of a wall that something partly hides an ideal extractor would find.
+enum class HiddenWalls {
+  kWhole,   ///< one edge, from the first to the last of its rays
+  kPieces,  ///< an edge for each stretch of neighbouring rays
+};
+
 /// A scan, and what an ideal extractor would find in it.
 struct LabelledScan {
   std::string source;
   Scan scan;
   bool has_truth = false;
-  std::vector<Segment2> edges;  ///< sensor frame; from the first to the last of its rays
+  std::vector<Segment2> edges;  ///< sensor frame
   std::vector<int> rays;        ///< for each edge: the rays that it receives
 };
 
@@ -28,6 +34,7 @@ struct Sampling {
   int scans = 100;
   LaserParameters laser;
   double clearance = 0.3;  ///< m, of the sensor from obstacles
+  HiddenWalls hidden_walls = HiddenWalls::kWhole;
   std::uint64_t seed = 1;
 };
 
@@ -41,7 +48,8 @@ std::string truthPath(const std::string& yaml_path);
 /// One sweep over exact segments (no grid: a wall has no stair-case of cells), with its labels.
 /// @param edges_map  true walls, map frame.
 LabelledScan sweepOverEdges(const std::vector<Segment2>& edges_map, const Pose2& T_map_sensor,
-                            const LaserParameters& laser, Random& random);
+                            const LaserParameters& laser, Random& random,
+                            HiddenWalls hidden_walls = HiddenWalls::kWhole);
 
 /// Scans at random free places of a world, facing at random.
 /// @throws std::runtime_error for files that cannot be read, or where no place is free enough.

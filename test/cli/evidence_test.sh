@@ -1,0 +1,46 @@
+#!/usr/bin/env bash
+# compare-extractors and tune as a user runs them: evidence_test.sh PROGRAM MAPS
+set -eu
+program=$1 maps=$2
+tmp=$(mktemp -d)
+trap 'rm -rf "$tmp"' EXIT
+fail() { echo "FAILED: $1"; exit 1; }
+
+# compare-extractors: a table on the terminal, rows in a file, the same twice (times aside).
+compare() {
+  "$program" compare-extractors "$maps/two_rooms.yaml" --scans 3 --polygons 3 --noise 0,0.02 \
+    --extractors cca,split-and-merge --out "$1" >"$1.txt"
+}
+compare "$tmp/a" && compare "$tmp/b"
+[ "$(grep -c '^### Simulated' "$tmp/a.txt")" -eq 2 ] || fail "a table for each noise"
+[ "$(grep -c '^| split-and-merge' "$tmp/a.txt")" -eq 4 ] || fail "both parameter sets, both noises"
+grep -q ',f1_minus_cca,' "$tmp/a/comparison.csv" || fail "paired differences"
+diff <(grep -v microseconds "$tmp/a/comparison.csv") <(grep -v microseconds "$tmp/b/comparison.csv") ||
+  fail "the same seed, the same results"
+"$program" compare-extractors >/dev/null 2>"$tmp/error" && fail "nothing to compare on"
+grep -q 'polygons' "$tmp/error" || fail "says what is missing"
+"$program" compare-extractors --polygons 1 --extractors nobody >/dev/null 2>&1 && fail "unknown extractor"
+status=0; "$program" compare-extractors --polygons 1 --extractors nobody >/dev/null 2>&1 || status=$?
+[ $status -eq 2 ] || fail "unknown extractor is a usage error, got $status"
+
+# tune: shards merged say what one run says; a killed run goes on; another design is refused.
+tune() {
+  "$program" tune "$maps/two_rooms.yaml" "$maps/maze.yaml" --points-per-cluster 3,5 \
+    --similarity-cut 0.3,0.5 --scans-per-batch 1,2 --noise 0.01 --seeds 1 --scans 2 --poses 8 "$@"
+}
+tune --out "$tmp/whole" >"$tmp/whole.txt" 2>/dev/null
+tune --out "$tmp/parts" --shard 1/2 >/dev/null 2>&1
+tune --out "$tmp/parts" --shard 2/2 >/dev/null 2>&1
+tune --out "$tmp/parts" --merge >"$tmp/parts.txt"
+diff "$tmp/whole.txt" "$tmp/parts.txt" || fail "two shards merged equal one run"
+grep -q '16 of 16 runs' "$tmp/whole.txt" || fail "all runs"
+rows="$tmp/whole/rows-1-of-1.csv"
+sort "$rows" >"$tmp/before"
+truncate -s -30 "$rows"
+tune --out "$tmp/whole" >/dev/null 2>&1
+sort "$rows" | diff "$tmp/before" - || fail "a killed run goes on where it was"
+"$program" tune "$maps/maze.yaml" --out "$tmp/whole" >/dev/null 2>"$tmp/error" && fail "another design"
+grep -q 'another design' "$tmp/error" || fail "says that the design differs"
+status=0; tune --out "$tmp/x" --shard 3/2 >/dev/null 2>&1 || status=$?
+[ $status -eq 2 ] || fail "a bad shard is a usage error, got $status"
+echo passed
