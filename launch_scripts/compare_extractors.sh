@@ -9,6 +9,8 @@ cmake -S . -B build -DPYTHON_EXECUTABLE=/usr/bin/python3 >/dev/null
 cmake --build build --target cca-mrpt -j"$(nproc)"
 program=$(find build -name cca-mrpt -type f -perm -u+x | head -1)
 
+worlds=()
+for truth in maps/*.truth.csv; do worlds+=("${truth%.truth.csv}.yaml"); done
 logs=("$@")
 if [ ${#logs[@]} -eq 0 ]; then
   shared=${CCA_SHARED_DATA:-../shared/data}
@@ -19,6 +21,6 @@ if [ ${#logs[@]} -eq 0 ]; then
 fi
 out=$(mktemp -d)
 trap 'rm -rf "$out"' EXIT
-"$program" compare-extractors maps/*.yaml ${logs[@]+"${logs[@]}"} --scans 20 --polygons 60 \
+"$program" compare-extractors "${worlds[@]}" ${logs[@]+"${logs[@]}"} --scans 20 --polygons 60 \
   --noise 0,0.01,0.03,0.1 --out "$out"
 python3 launch_scripts/comparison_report.py "$out" docs/comparison.md docs/images

@@ -2,10 +2,12 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Runs the experiments of docs/experiments.md and puts their tables and pictures there.
 
-usage: experiments.py PROGRAM [NAME...]     NAME: static, dynamic, noise, complexity; default all
+usage: experiments.py PROGRAM [NAME...] [--worlds WORLD,...]
 
+NAME: static, dynamic, noise, complexity; default all. Worlds are named as in maps/; default all.
 PROGRAM is cca-mrpt. Runs are deterministic but for the times.
 """
+import argparse
 import json
 import os
 import re
@@ -75,42 +77,42 @@ def keep_picture(folder, name):
         shutil.copy(picture, target)
 
 
-def static(program, tmp):
+def static(program, tmp, worlds):
     lines = list(HEAD)
-    for world in WORLDS:
+    for world in worlds:
         folder = os.path.join(tmp, "static-" + world)
         lines.append(row(world, explore(program, world, folder, "--seed", "1")))
-        if world == "office":
+        if world == "apartment":
             keep_picture(folder, "experiment_static.png")
     return lines
 
 
-def dynamic(program, tmp):
+def dynamic(program, tmp, worlds):
     lines = list(HEAD)
-    for world in WORLDS:
+    for world in worlds:
         movers = os.path.join("maps", world + ".movers.yaml")
         if not os.path.exists(os.path.join(ROOT, movers)):
             continue
         folder = os.path.join(tmp, "dynamic-" + world)
         lines.append(row(world, explore(program, world, folder, "--seed", "1", "--movers", movers)))
-        if world == "office":
+        if world == "corridor_loop":
             keep_picture(folder, "experiment_dynamic.png")
     return lines
 
 
-def noise(program, tmp):
+def noise(program, tmp, worlds):
     lines = list(HEAD)
-    for world in ("two_rooms", "apartment"):
+    for world in [w for w in ("two_rooms", "apartment") if w in worlds]:
         for sigma in ("0", "0.01", "0.03", "0.1"):
             folder = os.path.join(tmp, "noise-%s-%s" % (world, sigma))
             result = explore(program, world, folder, "--seed", "1", "--range-noise", sigma)
             lines.append(row("%s, %g mm" % (world, 1e3 * float(sigma)), result))
-            if world == "apartment" and sigma == "0.03":
+            if world == "two_rooms" and sigma == "0.1":
                 keep_picture(folder, "experiment_noise.png")
     return lines
 
 
-def complexity(program, tmp):
+def complexity(program, tmp, worlds):
     """Median time of a scan against the number of beams."""
     lines = ["| beams | CCA µs / scan | split-and-merge | seeded region growing | Hough |",
              "|---|---|---|---|---|"]
@@ -145,12 +147,18 @@ EXPERIMENTS = {"static": static, "dynamic": dynamic, "noise": noise, "complexity
 
 
 def main():
-    if len(sys.argv) < 2 or any(name not in EXPERIMENTS for name in sys.argv[2:]):
-        raise SystemExit(__doc__)
-    program = os.path.abspath(sys.argv[1])
+    parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
+    parser.add_argument("program", help="cca-mrpt")
+    parser.add_argument("names", nargs="*", metavar="NAME", help=", ".join(EXPERIMENTS))
+    parser.add_argument("--worlds", default=",".join(WORLDS), help="default: %(default)s")
+    given = parser.parse_args()
+    worlds = given.worlds.split(",")
+    unknown = [n for n in given.names if n not in EXPERIMENTS] + [w for w in worlds if w not in WORLDS]
+    if unknown:
+        parser.error("unknown: " + ", ".join(unknown))
     with tempfile.TemporaryDirectory() as tmp:
-        for name in sys.argv[2:] or EXPERIMENTS:
-            replace(name, EXPERIMENTS[name](program, tmp))
+        for name in given.names or EXPERIMENTS:
+            replace(name, EXPERIMENTS[name](os.path.abspath(given.program), tmp, worlds))
 
 
 main()

@@ -8,5 +8,7 @@ export PATH=/usr/bin:/bin:/usr/sbin:/sbin:$PATH
 cmake -S . -B build -DPYTHON_EXECUTABLE=/usr/bin/python3 >/dev/null
 cmake --build build --target cca-mrpt -j"$(nproc)"
 program=$(find build -name cca-mrpt -type f -perm -u+x | head -1)
-"$program" tune maps/*.yaml --out build/tuning "$@" | tee build/tuning.txt
+worlds=()
+for truth in maps/*.truth.csv; do worlds+=("${truth%.truth.csv}.yaml"); done
+"$program" tune "${worlds[@]}" --out build/tuning "$@" | tee build/tuning.txt
 python3 launch_scripts/tuning_report.py build/tuning build/tuning.txt docs/tuning.md docs/images
