@@ -52,23 +52,27 @@ void addLog(const std::string& path, MapProducts& products) {
   products.grid = grid.grid();
 }
 
-/// The grid that lies beside a map of our own, where no log is given.
-void addGridBeside(const std::string& map, MapProducts& products) {
-  const auto yaml = std::filesystem::path(map).parent_path() / "map.yaml";
-  if (!std::filesystem::exists(yaml)) return;
+/// What lies beside a map of our own: its poly-lines, and without a log its grid and trajectory.
+void addWhatLiesBeside(const std::string& map, bool with_log, MapProducts& products) {
+  const auto folder = std::filesystem::path(map).parent_path();
+  const std::string chains = (folder / "lines.geojson").string();
+  if (std::filesystem::path(map).filename() == "lines.csv" && std::filesystem::exists(chains)) {
+    auto [poly_lines, trajectory] = readLinesGeoJson(readFile(chains), chains);
+    products.poly_lines = std::move(poly_lines);
+    if (!with_log) products.trajectory = std::move(trajectory);
+  }
+  const std::string yaml = (folder / "map.yaml").string();
+  if (with_log || !std::filesystem::exists(yaml)) return;
   auto grid = std::make_shared<mrpt::maps::COccupancyGridMap2D>();
-  if (grid->loadFromROSMapServerYAML(yaml.string())) products.grid = grid;
+  if (grid->loadFromROSMapServerYAML(yaml)) products.grid = grid;
 }
 
 void renderPicture(const RenderOptions& options) {
   MapProducts products;
   products.title = std::filesystem::path(options.map).string();
   products.lines = readLinesCsv(readFile(options.map), options.map);
-  if (options.log.empty()) {
-    addGridBeside(options.map, products);
-  } else {
-    addLog(options.log, products);
-  }
+  addWhatLiesBeside(options.map, !options.log.empty(), products);
+  if (!options.log.empty()) addLog(options.log, products);
   if (options.solid) {
     writeSolidPicture(options.out, products, options.picture.longest_side);
   } else {

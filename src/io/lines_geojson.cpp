@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <stdexcept>
 
 #include "cca_mrpt/io/line_formats.hpp"
 
@@ -41,10 +42,35 @@ Json polyLineFeature(const PolyLine& chain) {
                  std::move(coordinates));
 }
 
+Json trajectoryFeature(const std::vector<Pose2>& trajectory) {
+  Json coordinates = Json::array();
+  for (const Pose2& pose : trajectory) coordinates.push_back(position(pose.position()));
+  return feature({{"kind", "trajectory"}}, std::move(coordinates));
+}
+
+std::vector<Eigen::Vector2d> vertices(const Json& feature) {
+  std::vector<Eigen::Vector2d> vertices;
+  for (const Json& p : feature.at("geometry").at("coordinates")) {
+    vertices.emplace_back(p.at(0).get<double>(), p.at(1).get<double>());
+  }
+  return vertices;
+}
+
+std::vector<Pose2> alongTheWay(const std::vector<Eigen::Vector2d>& positions) {
+  std::vector<Pose2> poses;
+  for (std::size_t k = 0; k < positions.size(); ++k) {
+    const Eigen::Vector2d step = k > 0 ? positions[k] - positions[k - 1] : Eigen::Vector2d(0, 0);
+    const double before = k > 0 ? poses.back().theta : 0.0;
+    const double heading = step.isZero() ? before : std::atan2(step.y(), step.x());
+    poses.push_back({positions[k].x(), positions[k].y(), heading});
+  }
+  return poses;
+}
+
 }  // namespace
 
-std::string linesGeoJson(const std::vector<MapLine>& lines,
-                         const std::vector<PolyLine>& poly_lines) {
+std::string linesGeoJson(const std::vector<MapLine>& lines, const std::vector<PolyLine>& poly_lines,
+                         const std::vector<Pose2>& trajectory) {
   // One feature a row: such files are looked at, and compared, line by line.
   std::string text = "{\"type\": \"FeatureCollection\", \"features\": [";
   const char* separator = "\n";
@@ -54,7 +80,25 @@ std::string linesGeoJson(const std::vector<MapLine>& lines,
   };
   for (const MapLine& line : lines) append(lineFeature(line));
   for (const PolyLine& chain : poly_lines) append(polyLineFeature(chain));
+  if (trajectory.size() > 1) append(trajectoryFeature(trajectory));
   return text + "\n]}\n";
+}
+
+ChainsAndTrajectory readLinesGeoJson(const std::string& text, const std::string& name) try {
+  ChainsAndTrajectory read;
+  for (const Json& feature : Json::parse(text).at("features")) {
+    const Json& properties = feature.at("properties");
+    const std::string kind = properties.at("kind");
+    if (kind == "poly_line") {
+      read.poly_lines.push_back(
+          {vertices(feature), properties.at("line_ids").get<std::vector<std::uint64_t>>()});
+    } else if (kind == "trajectory") {
+      read.trajectory = alongTheWay(vertices(feature));
+    }
+  }
+  return read;
+} catch (const nlohmann::json::exception& error) {
+  throw std::runtime_error(name + ": not a line map's GeoJSON: " + error.what());
 }
 
 }  // namespace cca

@@ -51,7 +51,7 @@ void writeMapFolder(const std::string& folder, const MapProducts& products) {
   prepareMapFolder(folder, true);
   const auto& [title, lines, poly_lines, trajectory, grid, summary] = products;
   writeFile(inFolder(folder, "lines.csv"), linesCsv(lines));
-  writeFile(inFolder(folder, "lines.geojson"), linesGeoJson(lines, poly_lines));
+  writeFile(inFolder(folder, "lines.geojson"), linesGeoJson(lines, poly_lines, trajectory));
   writeFile(inFolder(folder, "lines.svg"), linesSvg(lines, poly_lines, trajectory));
   writeFile(inFolder(folder, "lines.dxf"), linesDxf(lines, poly_lines, trajectory));
   writePicture(inFolder(folder, "map.png"), products);

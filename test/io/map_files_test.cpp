@@ -111,6 +111,19 @@ TEST(GeoJson, HoldsLinesAndPolyLinesWithTheirProperties) {
   EXPECT_EQ(chain["geometry"]["coordinates"].size(), 3U);
 }
 
+TEST(GeoJson, ReadsBackChainsAndTrajectory) {
+  const auto products = corner();
+  const auto back = readLinesGeoJson(
+      linesGeoJson(products.lines, products.poly_lines, products.trajectory), "lines.geojson");
+  ASSERT_EQ(back.poly_lines.size(), 1U);
+  EXPECT_EQ(back.poly_lines[0].line_ids, products.poly_lines[0].line_ids);
+  EXPECT_EQ(back.poly_lines[0].vertices, products.poly_lines[0].vertices);
+  ASSERT_EQ(back.trajectory.size(), 3U);
+  EXPECT_NEAR(back.trajectory[2].theta, 0.5 * M_PI, 1e-9);  // it went along y
+  EXPECT_THROW(readLinesGeoJson("{}", "a"), std::runtime_error);
+  EXPECT_THROW(readLinesGeoJson("no JSON", "a"), std::runtime_error);
+}
+
 TEST(GeoJson, EmptyMapIsValid) {
   EXPECT_TRUE(nlohmann::json::parse(linesGeoJson({}, {}))["features"].empty());
 }

@@ -21,9 +21,18 @@ std::vector<MapLine> readLinesCsv(const std::string& text, const std::string& na
 /// A line map as a GeoJSON FeatureCollection in metres of the map frame (not longitude, latitude).
 /// Each line is a LineString with `kind` "line", `id`, `support`, `length` and `covariance`
 /// (offset-offset, offset-angle, angle-angle; m^2, m rad, rad^2); each poly-line one more with
-/// `kind` "poly_line", `length` and `line_ids`.
-std::string linesGeoJson(const std::vector<MapLine>& lines,
-                         const std::vector<PolyLine>& poly_lines);
+/// `kind` "poly_line", `length` and `line_ids`; the trajectory, where there is one, a last with
+/// `kind` "trajectory".
+std::string linesGeoJson(const std::vector<MapLine>& lines, const std::vector<PolyLine>& poly_lines,
+                         const std::vector<Pose2>& trajectory = {});
+
+/// The poly-lines and the trajectory's positions (headings along the way) of a linesGeoJson().
+/// @throws std::runtime_error naming the file where the text is no such thing.
+struct ChainsAndTrajectory {
+  std::vector<PolyLine> poly_lines;
+  std::vector<Pose2> trajectory;
+};
+ChainsAndTrajectory readLinesGeoJson(const std::string& text, const std::string& name);
 
 /// A floor plan to scale (1 : 100, when printed unscaled) as SVG: poly-lines as polylines, what is
 /// part of none as lines; ids and supports as data attributes.
