@@ -86,7 +86,8 @@ std::string linesGeoJson(const std::vector<MapLine>& lines, const std::vector<Po
 
 ChainsAndTrajectory readLinesGeoJson(const std::string& text, const std::string& name) try {
   ChainsAndTrajectory read;
-  for (const Json& feature : Json::parse(text).at("features")) {
+  const Json collection = Json::parse(text);
+  for (const Json& feature : collection.at("features")) {
     const Json& properties = feature.at("properties");
     const std::string kind = properties.at("kind");
     if (kind == "poly_line") {

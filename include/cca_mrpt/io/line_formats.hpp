@@ -26,12 +26,14 @@ std::vector<MapLine> readLinesCsv(const std::string& text, const std::string& na
 std::string linesGeoJson(const std::vector<MapLine>& lines, const std::vector<PolyLine>& poly_lines,
                          const std::vector<Pose2>& trajectory = {});
 
-/// The poly-lines and the trajectory's positions (headings along the way) of a linesGeoJson().
-/// @throws std::runtime_error naming the file where the text is no such thing.
+/// What linesGeoJson() holds besides the lines.
 struct ChainsAndTrajectory {
   std::vector<PolyLine> poly_lines;
-  std::vector<Pose2> trajectory;
+  std::vector<Pose2> trajectory;  ///< headings are those of the way
 };
+
+/// Reads linesGeoJson() back.
+/// @throws std::runtime_error naming the file where the text is no such thing.
 ChainsAndTrajectory readLinesGeoJson(const std::string& text, const std::string& name);
 
 /// A floor plan to scale (1 : 100, when printed unscaled) as SVG: poly-lines as polylines, what is
