@@ -16,13 +16,20 @@ constexpr int kNeighbours = 3;
 /// 99.9 % of normal residuals lie within this many deviations.
 constexpr double kResidualGate = 3.29;
 
+/// Whether two neighbours may be one wall: every beam between them returned, and a step in depth
+/// lies between two lines at least, for points across a step are soon in line with the beam.
+bool mayFollow(const ScanPoints& points, const FittedRun& a, const FittedRun& b) {
+  if (points.silentBetween(a.last - 1, b.first) > 0) return false;
+  return (a.is_line && b.is_line) || points.breaksBetween(a.last - 1, b.first) == 0;
+}
+
 /// Similarity of a run to the next one, remembered until either changes.
 double similarityToNext(const ScanPoints& points, const RunFitter& fitter, const FittedRun& next,
                         FittedRun* run) {
   if (run->compared_with == next.last) return run->similarity;
   run->compared_with = next.last;
   run->similarity = 0.0;
-  if (points.silentBetween(run->last - 1, next.first) > 0) return 0.0;
+  if (!mayFollow(points, *run, next)) return 0.0;
   const FittedSegment joint = fitter.fit(fitter.prefix().run(run->first, next.last));
   run->similarity = memberships(*run, next, joint, 0.0, 0.0).similarity();
   return run->similarity;
@@ -39,7 +46,7 @@ SimilarityMatrix consecutiveSimilarity(const ScanPoints& points, const RunFitter
       const int next = j + 1;
       if (next >= n || next > i + kNeighbours) break;
       const FittedRun &last = (*runs)[j], &far = (*runs)[next];
-      if (points.silentBetween(last.last - 1, far.first) > 0) break;
+      if (!mayFollow(points, last, far)) break;
       const FittedSegment before = fitter.fit((*runs)[i].first, last.last);
       const FittedSegment joint = fitter.fit((*runs)[i].first, far.last);
       similarity = memberships(before, far, joint, 0.0, 0.0).similarity();

@@ -16,7 +16,7 @@ namespace {
 
 constexpr int kLloydSweeps = 5;
 constexpr double kResidualGate = 3.29;           // 99.9 % of normal residuals lie within
-constexpr double kGrazing = 5.0 * M_PI / 180.0;  // no wall is seen at less
+constexpr double kGrazing = 4.0 * M_PI / 180.0;  // no wall is seen at less
 constexpr double kOdds[] = {0.1, 0.4, 1.0};      // as for a scan, and the cut itself
 constexpr int kReassignments = 3;
 

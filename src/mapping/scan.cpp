@@ -34,7 +34,7 @@ std::size_t cutOfCircle(const std::vector<double>& ranges) {
 }
 
 /// A wall seen at less than this angle cannot be told from a step in depth [Borges & Aldon 2004].
-constexpr double kGrazing = 5.0 * M_PI / 180.0;
+constexpr double kGrazing = 4.0 * M_PI / 180.0;
 
 /// Neighbours nearer than this [m] are on one surface, however it is seen.
 constexpr double kNoStep = 0.1;

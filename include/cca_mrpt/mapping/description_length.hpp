@@ -13,12 +13,13 @@ namespace cca {
 // no line has a price of its own. Two pieces of wall are one where one line tells their points in
 // fewer nats than two lines do, a corner is where two do.
 
-/// Price of a line: its four parameters raise the likelihood by more than e^17 in one of a million
-/// trials on noise alone (chi-square 34, four degrees of freedom). A scan offers some 10^5 ways to
-/// part it: about one false line in ten scans.
-inline constexpr double kLinePrice = 17.0;
-/// Price of a point on no line: a residual of sqrt(2 * 10) = 4.5 deviations, one in 10^5 points.
-inline constexpr double kPointPrice = 10.0;
+/// Price of a line: noise alone lets its four parameters raise the likelihood by more than e^16 in
+/// one of 500 000 trials (chi-square 32, four degrees of freedom). A scan offers some 10^5 ways to
+/// part it: about one false line in five scans at the very most, for the ways are far from
+/// independent.
+inline constexpr double kLinePrice = 16.0;
+/// Price of a point on no line: a residual of sqrt(2 * 9) = 4.2 deviations, one in 45 000 points.
+inline constexpr double kPointPrice = 9.0;
 /// Two points always fit a line: three are the fewest that can speak against it.
 inline constexpr int kFewestPoints = 3;
 
