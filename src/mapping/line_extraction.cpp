@@ -49,7 +49,7 @@ void reopenAtCorner(const PointNoise& noise, ScanPoints* points, RunFitter* fitt
 
 std::vector<LineSegment> extractLines(const Scan& scan, const CcaParameters& parameters) {
   const PointNoise noise = rangeNoise(scan);
-  ScanPoints points = scanPoints(scan);
+  ScanPoints points = scanPoints(scan, std::max(noise.range_sigma, noise.straightness));
   RunFitter fitter(points.positions, noise);
   Runs runs = fittedClusters(points, fitter, noise, parameters.points_per_cluster);
 

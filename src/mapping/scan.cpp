@@ -36,19 +36,20 @@ std::size_t cutOfCircle(const std::vector<double>& ranges) {
 /// A wall seen at less than this angle cannot be told from a step in depth [Borges & Aldon 2004].
 constexpr double kGrazing = 4.0 * M_PI / 180.0;
 
-/// Neighbours nearer than this [m] are on one surface, however it is seen.
-constexpr double kNoStep = 0.1;
+/// 99.9 % of normal differences lie within this many deviations.
+constexpr double kNoiseGate = 3.29;
 
 /// Counts a step where neighbours lie farther apart than any wall would place them.
 void countBreaks(ScanPoints* points) {
   points->breaks = points->silent;
   const double widest = std::sin(points->beam_spacing) / std::sin(kGrazing);
+  const double noise = kNoiseGate * std::sqrt(2.0) * points->point_sigma;
   int steps = 0;
   for (std::size_t i = 1; i < points->size(); ++i) {
     const Eigen::Vector2d &p = points->positions[i - 1], &q = points->positions[i];
     const double beams = points->beams[i] - points->beams[i - 1];
     const double reach = beams * widest * std::sqrt(std::min(p.squaredNorm(), q.squaredNorm()));
-    if ((q - p).squaredNorm() > (reach + kNoStep) * (reach + kNoStep)) ++steps;
+    if ((q - p).squaredNorm() > (reach + noise) * (reach + noise)) ++steps;
     points->breaks[i] += steps;
   }
 }
@@ -71,8 +72,9 @@ void reopen(int first, ScanPoints* points) {
   countBreaks(points);
 }
 
-ScanPoints scanPoints(const Scan& scan) {
+ScanPoints scanPoints(const Scan& scan, double point_sigma) {
   ScanPoints points;
+  points.point_sigma = point_sigma;
   points.beam_spacing = std::abs(scan.angle_increment);
   if (!std::isfinite(scan.angle_min) || !std::isfinite(points.beam_spacing) ||
       points.beam_spacing <= 0.0) {

@@ -43,7 +43,7 @@ struct Stage {
   Runs clusters, merged, refined;
 
   explicit Stage(int beams)
-      : points(scanPoints(scanWith(beams, kWalls))),
+      : points(scanPoints(scanWith(beams, kWalls), kSigma)),
         noise(rangeNoise(scanWith(beams, kWalls))),
         fitter(points.positions, noise) {
     for (const PointCluster& c : pointClusters(points, fitter.prefix(), noise, kPointsPerCluster)) {

@@ -14,7 +14,7 @@ std::vector<PointCluster> clustersOf(const ScanPoints& points, const PointNoise&
 
 TEST(PointClusters, CoverAllPointsOnceInOrder) {
   std::mt19937 random(4);
-  const ScanPoints points = scanPoints(turnIn(rectangle(-2.0, -1.0, 3.0, 2.0), 0.1, &random));
+  const ScanPoints points = scanPoints(turnIn(rectangle(-2.0, -1.0, 3.0, 2.0), 0.1, &random), 0.1);
   for (const int size : {2, 5, 20}) {
     int next = 0;
     for (const PointCluster& c : clustersOf(points, {0.1, 0.001, 0.0}, size)) {

@@ -40,6 +40,7 @@ struct ScanPoints {
   int beam_count = 0;                      ///< of the scan
   int silent_in_all = 0;                   ///< beams without return of the whole scan
   double beam_spacing = 0.0;               ///< rad, > 0
+  double point_sigma = 0.0;                ///< m, as given
   bool closed = false;                     ///< the last beam is a neighbour of the first
 
   std::size_t size() const { return positions.size(); }
@@ -59,9 +60,11 @@ inline constexpr double kLongestRange = 1e4;
 /// A scan of a full turn has no first beam: the circle is cut after a missing return, else at the
 /// sharpest bend of the ranges, so that the seam falls on a corner or a step in depth, not into the
 /// middle of a wall.
+/// @param point_sigma  m, deviation of a point from the surface that it saw: noise is no step in
+/// depth.
 /// @return  no points for a scan without returns, or with a spacing that is zero or not finite.
 /// Cost: O(N).
-ScanPoints scanPoints(const Scan& scan);
+ScanPoints scanPoints(const Scan& scan, double point_sigma = 0.0);
 
 /// Lets a closed scan begin at point `first`.
 void reopen(int first, ScanPoints* points);
