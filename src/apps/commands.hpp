@@ -14,6 +14,7 @@ void addMapCommand(CLI::App& program);
 void addRenderCommand(CLI::App& program);
 void addGenerateWorldCommand(CLI::App& program);
 void addCompareExtractorsCommand(CLI::App& program);
+void addCompareStrategiesCommand(CLI::App& program);
 void addTuneCommand(CLI::App& program);
 void addEvaluateCommand(CLI::App& program);
 

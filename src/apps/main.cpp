@@ -24,6 +24,7 @@ int main(int argc, char** argv) {
   cca::apps::addRenderCommand(program);
   cca::apps::addGenerateWorldCommand(program);
   cca::apps::addCompareExtractorsCommand(program);
+  cca::apps::addCompareStrategiesCommand(program);
   cca::apps::addTuneCommand(program);
   cca::apps::addEvaluateCommand(program);
   try {

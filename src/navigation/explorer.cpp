@@ -58,7 +58,7 @@ Action Explorer::explore(const Observation& observation) {
     }
     return {{}, {}, ExplorationStatus::kFinished, plan.reason};
   }
-  if (plan.path.empty()) return {{}, {}, ExplorationStatus::kExploring, "the pose is not known"};
+  if (plan.path.empty()) return {{}, {}, ExplorationStatus::kExploring, "waiting for a scan"};
   Action action{{}, plan.path.back(), ExplorationStatus::kExploring, plan.reason};
   const bool is_last = parameters_.path == "paper" || plan.path.size() <= 2;
   action.velocity = driveTo(is_last ? plan.path.back() : plan.path[1], observation);

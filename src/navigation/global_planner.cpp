@@ -14,6 +14,7 @@ constexpr double kGainRange = 3.0;           // m, around what is to be seen
 constexpr std::size_t kMostViewPoints = 60;  // of a decision; the nearest frontiers
 constexpr double kReconsiderAfter = 0.3;     // m driven
 constexpr std::size_t kWorthReconsidering = 20;  // cells newly seen
+constexpr std::size_t kWorthAnotherTry = 200;    // cells newly seen: half a square metre
 constexpr std::size_t kRetryAfter = 4000;        // cells newly seen: 10 m^2
 constexpr double kPassed = 0.1;                  // m, of a corner
 constexpr double kMuchShorter = 0.5;             // m
@@ -51,7 +52,7 @@ bool GlobalPlanner::isOnGrid(const Eigen::Vector2d& p_map) const {
 
 const Plan& GlobalPlanner::update(const Scan& scan, const Eigen::Vector2d& robot_map) {
   observe(scan, robot_map);
-  if (!isOnGrid(robot_map)) return plan_;
+  if (!isOnGrid(robot_map) || grid_.revealed() == 0) return plan_;
   if (!goalStands() || isTimeToReconsider(robot_map)) {
     decide(robot_map);
   } else {
@@ -135,6 +136,7 @@ void GlobalPlanner::decide(const Eigen::Vector2d& robot_map) {
   field_.search(space_, grid_.resolution(), grid_.cellOf(robot_map));
   findViewPoints();
   keepPresentGoal();
+  if (view_points_.empty() && recallAside()) findViewPoints();
   while (const auto best = choose()) {
     const ViewPoint chosen = view_points_[*best];
     plan_.path = shortestPath(space_, grid_.resolution(), field_, chosen.cell);
@@ -187,7 +189,7 @@ void GlobalPlanner::findViewPoints() {
     const double gain = unknownAreaInView(grid_, candidate.target, kGainRange);
     if (gain < parameters_.smallest_gain) continue;
     auto view_point = nearestViewPoint(grid_, space_, field_, scanned_, candidate.target, reach());
-    if (!view_point) continue;
+    if (!view_point || !isWithinLimits(view_point->cell)) continue;
     view_point->gain = gain;
     view_points_.push_back(*view_point);
   }
@@ -235,6 +237,17 @@ void GlobalPlanner::setGoalAside() {
 
 void GlobalPlanner::noteArrival() {
   if (goal_) scanned_[FreeSpace::blockOf(goal_->cell)] = 1;
+}
+
+// Before it ends, what was set aside gets another chance if enough has been seen since then.
+bool GlobalPlanner::recallAside() {
+  const auto stale = [this](const Aside& a) {
+    return grid_.revealed() > a.revealed_then + kWorthAnotherTry;
+  };
+  const auto kept = std::remove_if(aside_.begin(), aside_.end(), stale);
+  const bool any = kept != aside_.end();
+  aside_.erase(kept, aside_.end());
+  return any;
 }
 
 bool GlobalPlanner::isAside(Cell target) const {

@@ -28,7 +28,9 @@ struct GlobalPlannerParameters {
 /// Where to go next, and how.
 struct Plan {
   bool finished = false;
-  std::vector<Eigen::Vector2d> path;  ///< m, map frame, from the robot to the goal; corner points
+  /// m, map frame, from the robot to the goal: corner points, two at least. Empty where finished,
+  /// and before the first scan that shows something.
+  std::vector<Eigen::Vector2d> path;
   std::string reason;
 };
 
@@ -89,6 +91,7 @@ class GlobalPlanner {
   void findViewPoints();
   void keepPresentGoal();
   std::optional<std::size_t> choose();
+  bool recallAside();
   bool isAside(Cell target) const;
   bool isWithinLimits(Cell c) const;
   double reach() const;

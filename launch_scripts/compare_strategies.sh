@@ -1,0 +1,27 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: BSD-3-Clause
+# Every exploration strategy on the same worlds, starts and seeds: a table, and the curves of
+# coverage over distance with their 95 % bands. Needs a build in build/.
+#
+#   compare_strategies.sh [WORLD.yaml ...] [options of 'cca-mrpt compare-strategies']
+#
+# Without worlds: those of maps/, and five random ones.
+set -eu
+cd "$(dirname "$0")/.."
+program=${CCA_MRPT:-build/src/apps/cca-mrpt}
+out=${OUT:-out/strategies}
+worlds=()
+while [ $# -gt 0 ] && [[ $1 == *.yaml ]]; do
+  worlds+=("$1")
+  shift
+done
+mkdir -p "$out"
+if [ ${#worlds[@]} -eq 0 ]; then
+  worlds=(maps/*.yaml)
+  for seed in 1 2 3 4 5; do
+    "$program" generate-world random --seed "$seed" --name "random_$seed" --out "$out" --force
+    worlds+=("$out/random_$seed.yaml")
+  done
+fi
+"$program" compare-strategies "${worlds[@]}" --out "$out" "$@"
+/usr/bin/python3 launch_scripts/plot_strategies.py "$out"

@@ -1,0 +1,248 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <atomic>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <optional>
+#include <random>
+#include <stdexcept>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "cca_mrpt/navigation/explorer.hpp"
+#include "cca_mrpt/simulation/coverage.hpp"
+#include "cca_mrpt/simulation/simulation.hpp"
+#include "commands.hpp"
+#include "parameter_options.hpp"
+
+namespace cca::apps {
+
+namespace {
+
+constexpr double kLevels[] = {0.90, 0.95, 0.99};
+
+struct CompareOptions {
+  std::vector<std::string> worlds, strategies;
+  int starts = 3;
+  std::string out = "out/strategies";
+};
+
+struct Run {
+  std::string world, strategy;
+  int number = 0;  ///< of the start; the seed too
+  Pose2 T_map_start;
+};
+
+struct CurvePoint {
+  double distance, coverage;
+};
+
+struct Result {
+  std::vector<CurvePoint> curve;
+  double distance = 0.0, duration = 0.0, coverage = 0.0;
+  int collisions = 0;
+  bool finished = false;
+};
+
+/// Start 0 is the world's own; the others are drawn among the places where the robot can stand and
+/// that can be seen from there by driving.
+std::vector<Pose2> drawStarts(const World& world, const Parameters& parameters, int count) {
+  std::vector<Pose2> starts{defaultStart(world, parameters.robot.radius)};
+  const auto visible = visibleCells(world, starts.front().position(), parameters.robot.radius, 8.0);
+  const auto width = static_cast<std::size_t>(world.grid().getSizeX());
+  std::mt19937 random(1);
+  for (int tries = 0; static_cast<int>(starts.size()) < count && tries < 100000; ++tries) {
+    const std::size_t cell = random() % visible.size();
+    if (!visible[cell]) continue;
+    const Pose2 T{world.grid().idx2x(static_cast<int>(cell % width)),
+                  world.grid().idx2y(static_cast<int>(cell / width)), 0.0};
+    try {
+      Simulation stands(world, T, SimulationParameters{});
+    } catch (const std::runtime_error&) {
+      continue;
+    }
+    starts.push_back(T);
+  }
+  return starts;
+}
+
+Result perform(const Run& run, const World& world, const Parameters& parameters) {
+  SimulationParameters simulated;
+  simulated.robot = parameters.robot;
+  simulated.laser = parameters.laser;
+  simulated.odometry = parameters.odometry;
+  simulated.seed = static_cast<std::uint64_t>(run.number) + 1;
+  Simulation simulation(world, run.T_map_start, simulated);
+  ExplorerParameters exploration = parameters.exploration;
+  exploration.strategy = run.strategy;
+  Explorer explorer(parameters.mapping, parameters.robot, exploration);
+  Coverage coverage(world, run.T_map_start.position(), parameters.robot.radius,
+                    parameters.laser.range);
+  Result result;
+  std::vector<double> distances;
+  constexpr double kLookEvery = 0.1;  // m
+  while (simulation.time() < parameters.run.longest_time) {
+    const Observation observation = simulation.observe();
+    const Action action = explorer.step(observation);
+    if (distances.empty() || simulation.distance() >= distances.back() + kLookEvery) {
+      coverage.look(simulation.T_map_robot());
+      distances.push_back(simulation.distance());
+    }
+    result.finished = action.status == ExplorationStatus::kFinished;
+    if (result.finished) break;
+    simulation.drive(action.velocity, parameters.run.control_period);
+  }
+  const auto seen = coverage.curve();
+  for (std::size_t i = 0; i < seen.size(); ++i) result.curve.push_back({distances[i], seen[i]});
+  result.distance = simulation.distance();
+  result.duration = simulation.time();
+  result.coverage = seen.empty() ? 0.0 : seen.back();
+  result.collisions = simulation.collisions();
+  return result;
+}
+
+std::optional<double> distanceTo(const Result& result, double level) {
+  for (const CurvePoint& p : result.curve) {
+    if (p.coverage >= level) return p.distance;
+  }
+  return {};
+}
+
+std::string inMetres(const std::optional<double>& distance) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.1f", distance.value_or(0.0));
+  return distance ? text : "-";
+}
+
+std::FILE* openFile(const std::string& path) {
+  std::FILE* file = std::fopen(path.c_str(), "w");
+  if (!file) throw std::runtime_error(path + ": cannot be written");
+  return file;
+}
+
+void writeTable(const std::string& path, const std::vector<Run>& runs,
+                const std::vector<Result>& results) {
+  std::FILE* file = openFile(path);
+  std::fprintf(file,
+               "world,strategy,start,to_90_m,to_95_m,to_99_m,distance_m,duration_s,coverage,"
+               "collisions,finished\n");
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    std::fprintf(file, "%s,%s,%d", runs[i].world.c_str(), runs[i].strategy.c_str(), runs[i].number);
+    for (const double level : kLevels)
+      std::fprintf(file, ",%s", inMetres(distanceTo(results[i], level)).c_str());
+    std::fprintf(file, ",%.2f,%.1f,%.5f,%d,%d\n", results[i].distance, results[i].duration,
+                 results[i].coverage, results[i].collisions, results[i].finished ? 1 : 0);
+  }
+  std::fclose(file);
+}
+
+void writeCurves(const std::string& path, const std::vector<Run>& runs,
+                 const std::vector<Result>& results) {
+  std::FILE* file = openFile(path);
+  std::fprintf(file, "world,strategy,start,distance_m,coverage\n");
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    for (const CurvePoint& p : results[i].curve) {
+      std::fprintf(file, "%s,%s,%d,%.2f,%.5f\n", runs[i].world.c_str(), runs[i].strategy.c_str(),
+                   runs[i].number, p.distance, p.coverage);
+    }
+  }
+  std::fclose(file);
+}
+
+/// Means over the starts; '-' where a start did not get to the level.
+void writeMarkdown(const std::string& path, const CompareOptions& options,
+                   const std::vector<Run>& runs, const std::vector<Result>& results) {
+  std::map<std::pair<std::string, std::string>, std::vector<std::size_t>> cells;
+  std::vector<std::string> worlds;
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    if (worlds.empty() || worlds.back() != runs[i].world) worlds.push_back(runs[i].world);
+    cells[{runs[i].world, runs[i].strategy}].push_back(i);
+  }
+  std::FILE* file = openFile(path);
+  std::fprintf(file, "| world |");
+  for (const auto& strategy : options.strategies) std::fprintf(file, " %s |", strategy.c_str());
+  std::fprintf(file, "\n|---|");
+  for (std::size_t k = 0; k < options.strategies.size(); ++k) std::fprintf(file, "---|");
+  for (const auto& world : worlds) {
+    std::fprintf(file, "\n| %s |", world.c_str());
+    for (const auto& strategy : options.strategies) {
+      const auto& cell = cells[{world, strategy}];
+      for (const double level : kLevels) {
+        std::optional<double> mean = 0.0;
+        for (const std::size_t i : cell) {
+          const auto distance = distanceTo(results[i], level);
+          mean = mean && distance
+                     ? std::optional<double>(*mean + *distance / static_cast<double>(cell.size()))
+                     : std::nullopt;
+        }
+        std::fprintf(file, "%s%s", level == kLevels[0] ? " " : " / ", inMetres(mean).c_str());
+      }
+      std::fprintf(file, " |");
+    }
+  }
+  std::fprintf(file, "\n");
+  std::fclose(file);
+}
+
+void compare(const CompareOptions& options, const Parameters& parameters) {
+  for (const auto& strategy : options.strategies) strategyNamed(strategy);  // before any work
+  std::vector<World> worlds;
+  std::vector<Run> runs;
+  std::vector<std::size_t> world_of_run;
+  for (const auto& path : options.worlds) {
+    worlds.push_back(loadWorld(path));
+    const auto starts = drawStarts(worlds.back(), parameters, options.starts);
+    for (const auto& strategy : options.strategies) {
+      for (std::size_t k = 0; k < starts.size(); ++k) {
+        runs.push_back({worlds.back().name, strategy, static_cast<int>(k), starts[k]});
+        world_of_run.push_back(worlds.size() - 1);
+      }
+    }
+  }
+  std::filesystem::create_directories(options.out);
+  std::vector<Result> results(runs.size());
+  std::atomic<std::size_t> next{0};
+  std::vector<std::thread> threads;
+  for (unsigned t = 0; t < std::max(1u, std::thread::hardware_concurrency()); ++t) {
+    threads.emplace_back([&] {
+      for (std::size_t i; (i = next++) < runs.size();) {
+        results[i] = perform(runs[i], worlds[world_of_run[i]], parameters);
+        std::fprintf(stderr, "%s, %s, start %d: %.1f m, %.2f %% seen\n", runs[i].world.c_str(),
+                     runs[i].strategy.c_str(), runs[i].number, results[i].distance,
+                     100.0 * results[i].coverage);
+      }
+    });
+  }
+  for (auto& thread : threads) thread.join();
+  writeTable(options.out + "/runs.csv", runs, results);
+  writeCurves(options.out + "/curves.csv", runs, results);
+  writeMarkdown(options.out + "/strategies.md", options, runs, results);
+  std::printf("%s/strategies.md, runs.csv, curves.csv\n", options.out.c_str());
+}
+
+}  // namespace
+
+void addCompareStrategiesCommand(CLI::App& program) {
+  auto* command = program.add_subcommand(
+      "compare-strategies",
+      "every strategy on the same worlds, starts and seeds: how far it drives");
+  auto options = std::make_shared<CompareOptions>();
+  options->strategies = {"view_tour", "greedy", "nearest_frontier", "gain_distance", "information"};
+  command->add_option("WORLD", options->worlds, "worlds, map_server YAML files")->required();
+  command->add_option("--strategies", options->strategies, "names, comma-separated")
+      ->delimiter(',')
+      ->capture_default_str();
+  command->add_option("--starts", options->starts, "starts in each world")
+      ->check(CLI::Range(1, 1000))
+      ->capture_default_str();
+  command->add_option("--out", options->out, "folder for the results")->capture_default_str();
+  auto parameters = std::make_shared<ParameterOptions>(
+      *command,
+      std::vector<std::string>{"run", "mapping", "exploration", "robot", "laser", "odometry"});
+  command->callback([options, parameters] { compare(*options, parameters->resolve()); });
+}
+
+}  // namespace cca::apps

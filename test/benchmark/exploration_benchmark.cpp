@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// What a step of the global planner costs in a place of 100 x 100 m at 5 cm: rooms of 10 m with
+// doors, half of them known.
+#include <benchmark/benchmark.h>
+
+#include <chrono>
+
+#include <cmath>
+#include <limits>
+
+#include "cca_mrpt/navigation/beam.hpp"
+#include "cca_mrpt/navigation/global_planner.hpp"
+
+namespace {
+
+constexpr double kResolution = 0.05;
+constexpr int kSide = 2000, kRoom = 200;  // cells
+
+bool isWall(cca::Cell c) {
+  if (c.x < 0 || c.y < 0 || c.x >= kSide || c.y >= kSide) return true;
+  const int x = c.x % kRoom, y = c.y % kRoom;
+  const bool door_x = y > 80 && y<104, door_y = x> 80 && x < 104;  // 1.15 m wide
+  return (x < 3 && !door_x) || (y < 3 && !door_y) || c.x < 3 || c.y < 3;
+}
+
+cca::Scan scanFrom(double x, double y) {
+  cca::Scan scan;
+  scan.angle_min = -M_PI;
+  scan.angle_increment = M_PI / 180.0;
+  scan.free_range_without_return = 8.0;
+  scan.T_map_sensor = {x, y, 0.0};
+  for (std::size_t k = 0; k <= 360; ++k) {
+    double range = std::numeric_limits<double>::infinity();
+    const double angle = scan.bearing(k);
+    cca::walkBeam({x / kResolution, y / kResolution}, {std::cos(angle), std::sin(angle)},
+                  8.0 / kResolution, [&](cca::Cell c, double entered) {
+                    if (!isWall(c)) return true;
+                    range = entered * kResolution;
+                    return false;
+                  });
+    scan.ranges.push_back(range);
+  }
+  return scan;
+}
+
+/// Half of the place known, the rest to be explored.
+cca::GlobalPlanner halfway() {
+  cca::GlobalPlanner planner;
+  std::vector<cca::Cell> free, occupied;
+  for (int y = 0; y < kSide; ++y) {
+    for (int x = 0; x < kSide / 2; ++x) (isWall({x, y}) ? occupied : free).push_back({x, y});
+  }
+  planner.seed(free, cca::CellState::kFree);
+  planner.seed(occupied, cca::CellState::kOccupied);
+  return planner;
+}
+
+/// Steps of a point that follows the plan; `worst_ms` is the slowest one.
+void BM_PlanningStep(benchmark::State& state) {
+  cca::GlobalPlanner planner = halfway();
+  Eigen::Vector2d robot(45.0, 45.0);
+  double worst = 0.0;
+  for (auto _ : state) {
+    state.PauseTiming();
+    const cca::Scan scan = scanFrom(robot.x(), robot.y());
+    state.ResumeTiming();
+    const auto start = std::chrono::steady_clock::now();
+    const cca::Plan& plan = planner.update(scan, robot);
+    const std::chrono::duration<double, std::milli> took = std::chrono::steady_clock::now() - start;
+    worst = std::max(worst, took.count());
+    state.PauseTiming();
+    if (plan.path.size() > 1 && plan.path[1] != robot)
+      robot += std::min(0.07, (plan.path[1] - robot).norm()) * (plan.path[1] - robot).normalized();
+    state.ResumeTiming();
+  }
+  state.counters["worst_ms"] = worst;
+}
+BENCHMARK(BM_PlanningStep)->Unit(benchmark::kMillisecond)->Iterations(400);
+
+}  // namespace

@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "cca_mrpt/navigation/global_planner.hpp"
+
+#include <gtest/gtest.h>
+
+#include "known_world.hpp"
+
+namespace cca {
+namespace {
+
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+
+/// Squares of half a metre: two rooms, a door between them, and a pocket behind a wall.
+const KnownWorld kTwoRooms{{"####################", "#........#.........#", "#........#.........#",
+                            "#...#....#....#....#", "#...#.........#....#", "#...#.........######",
+                            "#........#.........#", "#........#.........#", "####################"},
+                           10};
+
+struct Drive {
+  double distance = 0.0;
+  Plan last;
+  std::vector<Eigen::Vector2d> goals;
+};
+
+/// A point that follows the plan, with a scan every 10 cm.
+Drive drive(GlobalPlanner& planner, const KnownWorld& world, Eigen::Vector2d robot,
+            double longest = 300.0) {
+  Drive drive;
+  while (drive.distance < longest) {
+    drive.last = planner.update(world.scanFrom({robot.x(), robot.y(), 0.0}, 4.0), robot);
+    if (drive.last.finished) break;
+    if (drive.last.path.size() < 2) {
+      ADD_FAILURE() << "neither a path nor finished";
+      break;
+    }
+    drive.goals.push_back(drive.last.path.back());
+    const Eigen::Vector2d step = drive.last.path[1] - robot;
+    const double length = std::min(0.1, step.norm());
+    if (length > 0.0) robot += length * step.normalized();
+    drive.distance += std::max(length, 0.01);
+  }
+  return drive;
+}
+
+class EveryStrategy : public testing::TestWithParam<const char*> {};
+
+TEST_P(EveryStrategy, SeesTwoRoomsToTheLastSquareAndFinishes) {
+  GlobalPlannerParameters parameters;
+  parameters.strategy = GetParam();
+  GlobalPlanner planner(parameters);
+  const Drive d = drive(planner, kTwoRooms, {1.0, 1.0});
+  EXPECT_TRUE(d.last.finished);
+  EXPECT_EQ(d.last.reason, "no reachable frontier of useful size is left");
+  int unseen = 0;
+  for (int y = 0; y < kTwoRooms.height(); ++y) {
+    for (int x = 0; x < kTwoRooms.width(); ++x) {
+      if (kTwoRooms.isOccupied({x, y})) continue;
+      const CellState state = planner.grid().at({x, y});
+      unseen += state != CellState::kFree && state != CellState::kPresumedFree;
+    }
+  }
+  const double area = unseen * 0.05 * 0.05;
+  EXPECT_LT(area, 0.5) << "m^2 of 28 unseen";
+}
+
+INSTANTIATE_TEST_SUITE_P(Strategies, EveryStrategy,
+                         testing::Values("view_tour", "greedy", "nearest_frontier", "gain_distance",
+                                         "information"));
+
+TEST(GlobalPlanner, FinishesAtOnceWhereAllIsInSight) {
+  const KnownWorld room{{"######", "#....#", "#....#", "#....#", "######"}, 10};
+  GlobalPlanner planner;
+  EXPECT_LT(drive(planner, room, {1.3, 1.2}).distance, 0.5);
+}
+
+TEST(GlobalPlanner, SaysSoWhereTheRobotIsShutIn) {
+  const KnownWorld cell{{"###", "#.#", "###"}, 8};  // 0.4 m wide
+  GlobalPlanner planner;
+  const Drive d = drive(planner, cell, {0.6, 0.6});
+  EXPECT_TRUE(d.last.finished);
+  EXPECT_EQ(d.last.reason, "the robot stands where nothing around it is known to be free");
+}
+
+TEST(GlobalPlanner, WaitsForAFirstScanAndAPose) {
+  GlobalPlanner planner;
+  EXPECT_FALSE(planner.update(Scan{}, {0.0, 0.0}).finished);
+  EXPECT_FALSE(planner.update(kTwoRooms.scanFrom({1.0, 1.0, 0.0}), {kNaN, 0.0}).finished);
+  EXPECT_TRUE(planner.plan().path.empty());
+  EXPECT_FALSE(planner.update(kTwoRooms.scanFrom({1.0, 1.0, 0.0}), {1.0, 1.0}).path.empty());
+}
+
+TEST(GlobalPlanner, DoesNotGoBackAtOnceToAGoalThatWasSetAside) {
+  GlobalPlanner planner;
+  const Scan scan = kTwoRooms.scanFrom({1.0, 1.0, 0.0}, 4.0);
+  std::vector<Eigen::Vector2d> goals;
+  for (int i = 0; i < 100 && !planner.update(scan, {1.0, 1.0}).finished; ++i) {
+    goals.push_back(planner.plan().path.back());
+    planner.setGoalAside();
+  }
+  EXPECT_TRUE(planner.plan().finished) << "goals that cannot be reached must run out";
+  EXPECT_GE(goals.size(), 1u);
+}
+
+TEST(GlobalPlanner, KeepsItsGoalsWithinItsLimits) {
+  GlobalPlanner planner;
+  planner.limitTo({{0.0, 0.0}, {4.6, 0.0}, {4.6, 4.5}, {0.0, 4.5}});  // the left room
+  const Drive limited = drive(planner, kTwoRooms, {1.0, 1.0});
+  EXPECT_TRUE(limited.last.finished);
+  for (const auto& goal : limited.goals) EXPECT_LT(goal.x(), 4.6);
+}
+
+TEST(GlobalPlanner, HasNothingToDoInAPlaceKnownFromASavedMap) {
+  GlobalPlanner planner;
+  std::vector<Cell> free, occupied;
+  for (int y = -1; y <= kTwoRooms.height(); ++y) {
+    for (int x = -1; x <= kTwoRooms.width(); ++x)
+      (kTwoRooms.isOccupied({x, y}) ? occupied : free).push_back({x, y});
+  }
+  planner.seed(free, CellState::kFree);
+  planner.seed(occupied, CellState::kOccupied);
+  EXPECT_TRUE(planner.update(kTwoRooms.scanFrom({1.0, 1.0, 0.0}, 4.0), {1.0, 1.0}).finished);
+}
+
+TEST(GlobalPlanner, IsDeterministic) {
+  GlobalPlanner a, b;
+  const Drive first = drive(a, kTwoRooms, {1.0, 1.0}), second = drive(b, kTwoRooms, {1.0, 1.0});
+  EXPECT_EQ(first.distance, second.distance);
+  EXPECT_EQ(first.goals, second.goals);
+}
+
+TEST(GlobalPlanner, NamesTheStrategiesThatThereAre) {
+  GlobalPlannerParameters parameters;
+  parameters.strategy = "cleverest";
+  EXPECT_THROW(GlobalPlanner{parameters}, std::runtime_error);
+}
+
+}  // namespace
+}  // namespace cca
