@@ -135,7 +135,6 @@ void ExplorationGrid::add(Cell cell, int weight) {
   counted = scans_;
   const int before = evidence_.at(cell);
   const int base = before <= kWallPresumed ? 0 : before;
-  revealed_ += before <= kWallPresumed;
   write(cell, static_cast<Evidence>(std::clamp(base + weight, kFreest, kSurest)));
 }
 
@@ -148,6 +147,7 @@ void ExplorationGrid::set(Cell cell, CellState state) {
 
 void ExplorationGrid::write(Cell cell, Evidence value) {
   Evidence& evidence = evidence_[cell];
+  revealed_ += evidence <= kWallPresumed && value > kWallPresumed;
   if (stateOf(evidence) != stateOf(value)) {
     changed_.push_back(cell);
     if (evidence == kNever) {

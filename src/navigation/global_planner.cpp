@@ -204,7 +204,7 @@ void GlobalPlanner::keepPresentGoal() {
   }
   constexpr double kMuchTheSame = 20.0;  // cells
   auto view_point = nearestViewPoint(grid_, space_, field_, scanned_, goal_->target, reach());
-  if (!view_point) {
+  if (!view_point || !isWithinLimits(view_point->cell)) {
     goal_.reset();
     return;
   }
