@@ -75,7 +75,7 @@ start explore "$node" _world:="$world" _speed:=10 _out:="$work/map" "$@"
 
 timeout 40 bash -c 'until rostopic info /line_markers 2>/dev/null | grep -q "/rviz"; do sleep 0.5; done' ||
   give_up "rviz does not come up"
-timeout "$longest" bash -c 'rostopic echo /status | grep -m1 -q finished' ||
+timeout "$longest" bash -c 'until timeout 8 rostopic echo -n1 /status | grep -q finished; do sleep 0.5; done' ||
   give_up "the exploration has not finished in $longest s"
 sleep 4  # a few frames of a software renderer
 import -window root "$work/picture.png" || give_up "no picture can be taken"
