@@ -39,6 +39,7 @@ class NodeEnds(OwnMaster):
         node = self.node("explore", "_world:=none", "_out:=" + self.out)
         self.assertTrue(self.says("/status", "exploring"))
         heard = self.start("rostopic", "echo", "-p", "/cmd_vel")
+        self.assertTrue(until(lambda: "/rostopic" in (self.ask("rostopic", "info", "/cmd_vel") or "")))
         time.sleep(2.0)
         node.send_signal(signal.SIGINT)
         self.assertEqual(node.wait(timeout=20), 0)
