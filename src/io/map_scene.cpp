@@ -19,7 +19,7 @@ namespace {
 
 constexpr float kWallHeight = 1.0F;      // m
 constexpr double kFloorGrid = 5.0;       // m
-constexpr double kCameraDistance = 1.5;  // of the map's longer side
+constexpr double kCameraDistance = 2.1;  // of the map's longer side
 
 mrpt::math::TPoint3Df at(const Eigen::Vector2d& p, float height) {
   return {static_cast<float>(p.x()), static_cast<float>(p.y()), height};
