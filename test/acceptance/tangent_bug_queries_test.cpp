@@ -27,7 +27,7 @@ constexpr double kRanges[] = {4.0, 8.0, 12.0};
 TEST(TangentBugQueries, TheVerdictIsThatOfABreadthFirstSearch) {
   unsigned reached = 0, unreachable = 0, undecided = 0;
   double distance = 0.0;
-  for (unsigned seed = 0; seed < queries(25); ++seed) {
+  for (unsigned seed = 0; seed < queries(20); ++seed) {
     SCOPED_TRACE(seed);
     const Query query = randomQuery(seed);
     RunOptions options;
@@ -57,7 +57,7 @@ TEST(TangentBugQueries, TheVerdictIsThatOfABreadthFirstSearch) {
 // With noise of 1 to 5 cm: no collision, and every drive ends.
 TEST(TangentBugQueries, NoNoiseLeadsIntoAWall) {
   unsigned right = 0, decided = 0, ended = 0;
-  const unsigned count = queries(10);
+  const unsigned count = queries(6);
   for (unsigned seed = 0; seed < count; ++seed) {
     SCOPED_TRACE(seed);
     const Query query = randomQuery(10000 + seed);
