@@ -59,7 +59,9 @@ constexpr double kDrift = 0.1;  // m
 constexpr int kBridgedBins = 4;
 
 constexpr double kShortestLine = 0.3;
-constexpr double kFewestHits = 10.0;
+constexpr double kLoosest = 1.2;
+constexpr double kLooseShare = 0.08;
+constexpr double kFewestHits = 12.0;
 
 LineSegment segmentOf(const Wall& wall, const BinRange& range, const MapNoise& noise) {
   SupportBin sum;
@@ -84,6 +86,13 @@ LineSegment segmentOf(const Wall& wall, const BinRange& range, const MapNoise& n
   s.covariance(1, 1) =
       noise.angleVariance() / visits + (tt > 0.0 ? std::min(1.0, noise.rangeVariance() / tt) : 1.0);
   return s;
+}
+
+/// Short heaps of returns, broader than noise makes a wall, are clutter.
+bool isLoose(const LineSegment& segment, const MapNoise& noise) {
+  const double breadth =
+      std::sqrt(fitLine(segment.moments).residual_sum_sq / segment.moments.weight);
+  return breadth > kLoosest * noise.lateralSigma() && breadth > kLooseShare * segment.length();
 }
 
 /// The id of the old piece that the segment covers most, if no new piece has it yet; otherwise 0.
@@ -128,6 +137,22 @@ void absorb(Wall& wall, const Wall& other) {
   }
 }
 
+bool yieldOverlap(Wall& lesser, Wall& greater, double gate) {
+  const FrameChange change(greater, lesser);
+  bool moved = false;
+  for (int i = lesser.profile.first(); i < lesser.profile.last(); ++i) {
+    SupportBin& bin = lesser.profile.bin(i);
+    if (bin.hits <= 0.0) continue;
+    const Eigen::Vector2d p = lesser.toMap(bin.t / bin.hits, bin.d / bin.hits);
+    const Eigen::Vector2d td = greater.toWall(p);
+    if (!greater.hitNear(p) || std::abs(greater.offLine(td)) > gate) continue;
+    greater.profile.add(change(bin));
+    bin = SupportBin{};
+    moved = true;
+  }
+  return moved;
+}
+
 BinSums sumsInFrameOf(const Wall& wall, const Wall& other) {
   return FrameChange(wall, other)(other.profile.sums());
 }
@@ -159,6 +184,7 @@ void recut(Wall& wall, const MapNoise& noise, std::uint64_t& next_id) {
     line.segment = segmentOf(wall, range, noise);
     line.support = line.segment.moments.weight;
     if (line.segment.length() < kShortestLine || line.support < kFewestHits) continue;
+    if (isLoose(line.segment, noise)) continue;
     line.id = takeId(wall.pieces, line.segment, pieces);
     pieces.push_back(line);
   }

@@ -10,12 +10,15 @@ namespace {
 using Slot = Walls::Slot;
 
 constexpr double kLineCost = 10.0;  // nat, four coordinates of 20 m at 2 cm
-const double kLargestGap = 1.0;    // m
+const double kLargestGap = 1.0;     // m
 constexpr double kCheckHits = 100;
 constexpr double kDuplicate = 1.42;
 constexpr double kThinWall = 0.85;
 constexpr double kThinFloor = 0.07;
-constexpr double kDupFloor = 0.11;
+constexpr double kDupFloor = 0.1;
+constexpr double kSideBySide = 0.97;
+constexpr double kShareFloor = 0.07;
+constexpr double kShare = 0.7;
 constexpr double kAnneal = 0.6;
 
 struct Extent {
@@ -58,6 +61,18 @@ bool oneWall(const Wall& wall, const Wall& other, const MapNoise& noise) {
   return same_side && loss < 2.0 * sigma * sigma * kAnneal * kLineCost;
 }
 
+/// Where two walls that are not one run side by side all the same, the longer one takes it all.
+void shareOverlap(Slot a, Slot b, Walls& walls, const MapNoise& noise) {
+  const double cosine = walls[a].fittedDirection().dot(walls[b].fittedDirection());
+  if (cosine < kSideBySide) return;
+  const bool a_lesser = extentOf(walls[a]).length() < extentOf(walls[b]).length();
+  const Slot lesser = a_lesser ? a : b, greater = a_lesser ? b : a;
+  const double gate = std::max(kShareFloor, 3.0 * noise.lateralSigma() * kShare);
+  if (!yieldOverlap(walls[lesser], walls[greater], gate)) return;
+  walls.touch(lesser);
+  walls.touch(greater);
+}
+
 void mergeWithNeighbours(Slot slot, Walls& walls, const MapNoise& noise) {
   const Extent extent = extentOf(walls[slot]);
   std::vector<Slot> near;
@@ -65,7 +80,12 @@ void mergeWithNeighbours(Slot slot, Walls& walls, const MapNoise& noise) {
   for (const Slot other_slot : near) {
     Wall& wall = walls[slot];
     Wall& other = walls[other_slot];
-    if (other_slot == slot || other.profile.empty() || !oneWall(wall, other, noise)) continue;
+    if (other_slot == slot || other.profile.empty()) continue;
+    if (!oneWall(wall, other, noise)) {
+      shareOverlap(slot, other_slot, walls, noise);
+      if (walls[slot].profile.sums().w <= 0.0) return;
+      continue;
+    }
     const bool opposed = wall.fittedDirection().dot(other.fittedDirection()) < 0.0;
     wall.two_sided = wall.two_sided || other.two_sided || opposed;
     absorb(wall, other);
@@ -132,6 +152,12 @@ void seeToTouched(Walls& walls, const MapNoise& noise, std::uint64_t& next_id) {
       splitWhereBent(slot, walls, noise);
       mergeWithNeighbours(slot, walls, noise);
       Wall& wall = walls[slot];
+      wall.profile.prune();
+      if (wall.profile.empty()) {
+        walls.remove(slot);
+        continue;
+      }
+      refit(wall);
       wall.hits_at_check = wall.hits;
       wall.length_at_check = wall.profile.last() - wall.profile.first();
     }

@@ -60,6 +60,9 @@ struct Wall {
 
 /// Adds the other wall's bins, turned into this wall's frame.
 void absorb(Wall& wall, const Wall& other);
+/// Moves the bins of `lesser` that lie beside bins of `greater`, within `gate` [m] of its line,
+/// over to it. True where something moved.
+bool yieldOverlap(Wall& lesser, Wall& greater, double gate);
 /// The other wall's bin sums in this wall's frame.
 BinSums sumsInFrameOf(const Wall& wall, const Wall& other);
 /// Fits the line, and moves the frame onto it where the two have drifted apart.
