@@ -9,7 +9,7 @@ namespace {
 
 constexpr double kMostHits = 200.0;  // per bin; more only makes the past heavier
 constexpr int kWindow = 2;           // bins on either side that speak for a place
-constexpr double kHitsOfHalfWeight = 3.0;
+constexpr double kHitsOfHalfWeight = 2.0;
 constexpr double kFewestRays = 2.0;  // that can refute a place
 constexpr double kRaysPerHit = 0.5;
 

@@ -58,7 +58,7 @@ struct FrameChange {
 constexpr double kDrift = 0.1;  // m
 constexpr int kBridgedBins = 4;
 
-constexpr double kShortestLine = 0.3;
+constexpr double kShortestLine = 0.27;
 constexpr double kLoosest = 1.2;
 constexpr double kLooseShare = 0.08;
 constexpr double kFewestHits = 12.0;

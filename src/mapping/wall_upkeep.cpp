@@ -9,12 +9,12 @@ namespace {
 
 using Slot = Walls::Slot;
 
-constexpr double kLineCost = 10.0;  // nat, four coordinates of 20 m at 2 cm
+constexpr double kLineCost = 8.0;  // nat, four coordinates of 20 m at 2 cm
 const double kLargestGap = 1.0;     // m
 constexpr double kCheckHits = 100;
 constexpr double kDuplicate = 1.42;
-constexpr double kThinWall = 0.85;
-constexpr double kThinFloor = 0.07;
+constexpr double kThinWall = 0.65;
+constexpr double kThinFloor = 0.06;
 constexpr double kDupFloor = 0.1;
 constexpr double kSideBySide = 0.97;
 constexpr double kShareFloor = 0.07;
