@@ -93,8 +93,6 @@ double BinSums::residual() const {
   return std::max(0.0, var_d - cov * cov / var_t);
 }
 
-int SupportProfile::binOf(double t) { return static_cast<int>(std::floor(t / kBinLength)); }
-
 void SupportProfile::grow(int i) {
   if (bins_.empty()) first_ = i;
   if (i < first_) {

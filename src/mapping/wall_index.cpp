@@ -23,11 +23,6 @@ WallIndex& WallIndex::operator=(const WallIndex& other) {
   return *this = std::move(copy);
 }
 
-WallIndex::Cell WallIndex::cellOf(const Eigen::Vector2d& point) {
-  return {static_cast<int>(std::floor(point.x() / kCellSize)),
-          static_cast<int>(std::floor(point.y() / kCellSize))};
-}
-
 std::int64_t WallIndex::keyOf(const Cell& cell) {
   const std::int64_t x = cell.x() >> kBlockBits, y = cell.y() >> kBlockBits;
   return (x << 32) ^ (y & 0xffffffffLL);

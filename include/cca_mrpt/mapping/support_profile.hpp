@@ -47,7 +47,11 @@ struct BinRange {
 class SupportProfile {
  public:
   static constexpr double kBinLength = 0.05;  ///< m
-  static int binOf(double t);
+  static int binOf(double t) {
+    const double x = t / kBinLength;
+    const int i = static_cast<int>(x);  // towards zero; std::floor is a call on a plain x86-64
+    return x < i ? i - 1 : i;
+  }
 
   bool empty() const { return bins_.empty(); }
   int first() const { return first_; }

@@ -23,7 +23,9 @@ class WallIndex {
   WallIndex(WallIndex&&) = default;
   WallIndex& operator=(WallIndex&&) = default;
 
-  static Cell cellOf(const Eigen::Vector2d& point);
+  static Cell cellOf(const Eigen::Vector2d& point) {
+    return {below(point.x() / kCellSize), below(point.y() / kCellSize)};
+  }
 
   /// The walls of a cell, in order of insertion; empty where nothing is.
   const std::vector<Slot>& at(const Cell& cell) const;
@@ -35,6 +37,10 @@ class WallIndex {
   void remove(Slot slot, const std::vector<Cell>& cells);
 
  private:
+  static int below(double x) {
+    const int i = static_cast<int>(x);
+    return x < i ? i - 1 : i;
+  }
   static constexpr int kBlockBits = 4;
   struct Block {
     std::vector<Slot> cells[1 << (2 * kBlockBits)];
