@@ -15,7 +15,7 @@ namespace {
 using Slot = Walls::Slot;
 
 constexpr double kLargestGap = 0.4;  // m, across which a wall is still the same to even odds
-constexpr double kNewLength = 0.1;  // m
+constexpr double kNewLength = 0.1;   // m
 constexpr double kSteepest =
     0.2;  // rad, deviation of orientation up to which a line can found a wall
 constexpr double kGates = 3.0;
@@ -35,12 +35,20 @@ double gapBetween(const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Wall
   return std::max({first - std::max(a.x(), b.x()), std::min(a.x(), b.x()) - last, 0.0});
 }
 
+bool grownTooLong(const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Wall& wall) {
+  const double first = wall.profile.first() * SupportProfile::kBinLength;
+  const double last = wall.profile.last() * SupportProfile::kBinLength;
+  const double grown = std::max({last, a.x(), b.x()}) - std::min({first, a.x(), b.x()});
+  return grown > kLongestWall && grown > last - first + SupportProfile::kBinLength;
+}
+
 double similarityOf(const NewLine& line, const Wall& wall, const MapNoise& noise) {
   const double cosine = line.segment.direction().dot(wall.fittedDirection());
   if ((wall.two_sided ? std::abs(cosine) : cosine) < kSameDirection) return 0.0;
   const Eigen::Vector2d a = wall.toWall(line.segment.start), b = wall.toWall(line.segment.end);
   const double off = 0.5 * (wall.offLine(a) + wall.offLine(b));
   if (std::abs(off) > kOffGate * noise.lateralSigma()) return 0.0;
+  if (grownTooLong(a, b, wall)) return 0.0;
   return mapMemberships(line.segment, wall.whole, gapBetween(a, b, wall) / kLargestGap, true)
       .similarity();
 }

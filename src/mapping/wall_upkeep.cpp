@@ -10,7 +10,7 @@ namespace {
 using Slot = Walls::Slot;
 
 constexpr double kLineCost = 8.0;  // nat, four coordinates of 20 m at 2 cm
-const double kLargestGap = 1.0;     // m
+const double kLargestGap = 1.0;    // m
 constexpr double kCheckHits = 100;
 constexpr double kDuplicate = 1.42;
 constexpr double kThinWall = 0.65;
@@ -43,7 +43,8 @@ bool oneWall(const Wall& wall, const Wall& other, const MapNoise& noise) {
   if (std::abs(cosine) < 0.9) return false;
   const Extent mine = extentOf(wall), theirs = extentOf(other, wall);
   const double overlap = std::min(mine.last, theirs.last) - std::max(mine.first, theirs.first);
-  if (-overlap > kLargestGap) return false;
+  const double whole = mine.length() + theirs.length() - overlap;
+  if (-overlap > kLargestGap || (whole > kLongestWall && overlap < theirs.length())) return false;
   const BinSums a = wall.profile.sums(), b = sumsInFrameOf(wall, other);
   if (a.w <= 0.0 || b.w <= 0.0) return false;
   const bool same_side = cosine > 0.0 || wall.two_sided || other.two_sided;

@@ -58,6 +58,10 @@ struct Wall {
   double offLine(const Eigen::Vector2d& td) const { return td.y() - fit.at(td.x()); }
 };
 
+/// A wall does not grow beyond this [m], so that the work on a wall is bounded; what goes on behind
+/// it is another wall.
+inline constexpr double kLongestWall = 20.0;
+
 /// Adds the other wall's bins, turned into this wall's frame.
 void absorb(Wall& wall, const Wall& other);
 /// Moves the bins of `lesser` that lie beside bins of `greater`, within `gate` [m] of its line,
