@@ -184,7 +184,10 @@ TEST(LineMap, ARoundRoomHasNoLongChords) {
   LineMap map;
   std::mt19937 random(7);
   drive(map, world, random);
-  for (const Eigen::Vector2d& p : pointsOn(map.lines())) EXPECT_LT(world.distance(p), 0.06);
+  // A chord of n returns with sagitta s is parted where n s^2 / 24, in squared straightnesses of a
+  // wall, exceeds the price of a line: for n = 19 at s = 0.157 m. The ends of its fitted line lie
+  // two thirds of that off the circle.
+  for (const Eigen::Vector2d& p : pointsOn(map.lines())) EXPECT_LT(world.distance(p), 0.105);
   EXPECT_GT(recall(world, map.lines(), 0.06), 0.97);
 }
 
