@@ -8,6 +8,7 @@ packages="build-essential ca-certificates cmake libboost-dev libcairo2-dev libcl
   libmrpt-dev libnanoflann-dev mrpt-common nlohmann-json3-dev pkg-config zlib1g-dev"
 if [ "${1:-}" = --tests ]; then
   packages="$packages catkin catkin-lint clang clang-format ffmpeg gdal-bin git imagemagick libbenchmark-dev
+    libclang-rt-14-dev
     libdiagnostic-updater-dev libgeometry-msgs-dev libgl1-mesa-dri libgmock-dev
     libgtest-dev libnav-msgs-dev librosbag-dev libroscpp-dev libroslib-dev librostest-dev
     libsensor-msgs-dev libstd-msgs-dev libstd-srvs-dev libtf2-dev libtf2-msgs-dev
