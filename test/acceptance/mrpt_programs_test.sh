@@ -20,7 +20,7 @@ ini="$work/icp.ini"
 sed -e 's/^\(SHOW_PROGRESS_3D_REAL_TIME\)[ \t]*=.*/\1=0/' -e "s|^logOutput_dir.*|logOutput_dir=$work/icp|" \
     -e 's/^SAVE_3D_SCENE.*/SAVE_3D_SCENE=0/' \
     /usr/share/mrpt/config_files/icp-slam/icp-slam_demo_classic.ini >"$ini"
-timeout 200 icp-slam "$ini" "$work/run/run.rawlog" >"$work/icp.log" 2>&1 || { tail -5 "$work/icp.log"; fail icp-slam; }
+timeout 200 icp-slam "$ini" "$work/run/run.rawlog" </dev/null >"$work/icp.log" 2>&1 || { tail -5 "$work/icp.log"; fail icp-slam; }
 ls "$work"/icp/*.simplemap >/dev/null 2>&1 || fail "icp-slam left no simplemap"
 
 # And the way back: what MRPT's SLAM made is a log for us.
