@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "cca_mrpt/io/parameters.hpp"
+#include "cca_mrpt/simulation/coverage.hpp"
+#include "cca_mrpt/simulation/simulation.hpp"
+
+namespace cca {
+namespace {
+
+struct Result {
+  bool finished = false;
+  std::string reason;
+  double coverage = 0.0, distance = 0.0, time = 0.0;
+  int collisions = 0, mover_contacts = 0;
+  std::vector<MapLine> lines;
+  std::vector<TimedPose> trajectory;
+};
+
+World shipped(const std::string& name) {
+  return loadWorld(std::string(CCA_MAPS_FOLDER) + "/" + name + ".yaml");
+}
+
+/// The loop of `cca-mrpt explore`, without its files.
+Result explore(const World& world, const Pose2& start, int seed, double longest_time,
+               const std::vector<Mover>& movers = {}) {
+  const Parameters parameters;
+  SimulationParameters simulated;
+  simulated.seed = static_cast<std::uint64_t>(seed);
+  Simulation simulation(world, start, simulated, movers);
+  Explorer explorer(parameters.mapping, parameters.robot, parameters.exploration);
+  Coverage coverage(simulation.world(), start.position(), simulated.robot.radius,
+                    simulated.laser.range);
+  Result result;
+  while (!result.finished && simulation.time() < longest_time) {
+    const Action action = explorer.step(simulation.observe());
+    coverage.look(simulation.T_map_robot());
+    result.finished = action.status == ExplorationStatus::kFinished;
+    result.reason = action.reason;
+    if (!result.finished) simulation.drive(action.velocity, parameters.run.control_period);
+  }
+  result.coverage = coverage.curve().back();
+  result.distance = simulation.distance();
+  result.time = simulation.time();
+  result.collisions = simulation.collisions();
+  result.mover_contacts = simulation.moverContacts();
+  result.lines = explorer.lineMap().lines();
+  result.trajectory = simulation.trajectory();
+  return result;
+}
+
+struct Case {
+  const char* world;
+  Pose2 start;
+  int seed;
+  /// s, simulated: five times what a robot of 0.7 m/s took when this was written. Ends hangs.
+  double longest_time;
+};
+
+class Worlds : public testing::TestWithParam<Case> {};
+
+TEST_P(Worlds, AreSeenToNinetyNinePercentWithoutACollision) {
+  const auto& [name, start, seed, longest_time] = GetParam();
+  const World world = shipped(name);
+  const Result result = explore(world, start, seed, longest_time);
+  EXPECT_TRUE(result.finished) << "after " << result.distance << " m";
+  EXPECT_GE(result.coverage, 0.99) << result.reason;
+  EXPECT_EQ(result.collisions, 0);
+  double nearest = 1.0;
+  for (const TimedPose& pose : result.trajectory) {
+    nearest = std::min(nearest, world.clearance(pose.T_map_robot.position(), 1.0));
+  }
+  EXPECT_GE(nearest, 0.25 - 1e-6);
+  EXPECT_GT(result.lines.size(), 4u);
+}
+
+INSTANTIATE_TEST_SUITE_P(Small, Worlds,
+                         testing::Values(Case{"two_rooms", {2.0, 3.0, 0.0}, 1, 200.0},
+                                         Case{"two_rooms", {9.18, 5.08, 1.57}, 2, 200.0},
+                                         Case{"corridor_loop", {1.2, 1.2, 0.0}, 1, 600.0},
+                                         Case{"corridor_loop", {7.22, 15.18, -2.36}, 2, 600.0},
+                                         Case{"maze", {1.0, 1.0, 0.0}, 1, 1500.0},
+                                         Case{"gallery", {2.0, 8.0, 0.0}, 3, 1500.0},
+                                         Case{"random", {3.475, 2.025, 0.0}, 1, 1500.0}),
+                         [](const auto& one) {
+                           return std::string(one.param.world) + "_" + std::to_string(one.index);
+                         });
+
+TEST(Exploration, OfEqualSeedsIsEqualToTheLastBit) {
+  const World world = shipped("two_rooms");
+  const Result a = explore(world, *world.start, 5, 200.0);
+  const Result b = explore(world, *world.start, 5, 200.0);
+  EXPECT_EQ(a.distance, b.distance);
+  EXPECT_EQ(a.time, b.time);
+  ASSERT_EQ(a.lines.size(), b.lines.size());
+  for (std::size_t i = 0; i < a.lines.size(); ++i) {
+    EXPECT_EQ(a.lines[i].segment.start, b.lines[i].segment.start);
+    EXPECT_EQ(a.lines[i].segment.end, b.lines[i].segment.end);
+  }
+}
+
+TEST(Exploration, AmongMoversEndsWithoutTheRobotsCollision) {
+  const World world = shipped("corridor_loop");
+  const auto movers =
+      loadMovers(std::string(CCA_MAPS_FOLDER) + "/corridor_loop.movers.yaml", world);
+  const Result result = explore(world, *world.start, 1, 1500.0, movers);
+  EXPECT_TRUE(result.finished);
+  EXPECT_GE(result.coverage, 0.99);
+  EXPECT_EQ(result.collisions, 0);
+}
+
+}  // namespace
+}  // namespace cca

@@ -1,0 +1,85 @@
+#!/usr/bin/env bash
+# `cca-mrpt explore` and `generate-world` as a user runs them: the folder, equal bytes for equal
+# seeds, clear errors with their exit status, Ctrl-C.
+#   explore_command_test.sh CCA_MRPT_PROGRAM MAPS_FOLDER
+set -u
+program=$(realpath "$1") maps=$(realpath "$2")
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+cd "$work"
+failures=0
+
+fail() { echo "FAILED: $*"; failures=$((failures + 1)); }
+
+expect_error() {  # expect_error STATUS PART_OF_THE_MESSAGE ARGUMENTS...
+  local status=$1 part=$2 said
+  shift 2
+  said=$("$program" "$@" 2>&1)
+  local got=$?
+  [ $got -eq "$status" ] || fail "status $got instead of $status: $*"
+  case "$said" in *"$part"*) ;; *) fail "'$part' is not said by: $* (said: $said)" ;; esac
+}
+
+# The folder holds every file, and stdout names picture and map.
+said=$("$program" explore "$maps/two_rooms.yaml" --seed 7 --out a) || fail "two_rooms: status $?"
+for file in lines.csv lines.geojson lines.svg map.png map.pgm map.yaml scene.3Dscene summary.json \
+  trajectory.csv run.rawlog coverage.csv; do
+  [ -s "a/$file" ] || fail "a/$file is missing or empty"
+done
+case "$said" in *a/map.png*a/lines.csv*) ;; *) fail "picture and map are not named: $said" ;; esac
+[ "$(head -n 1 a/trajectory.csv)" = t,x,y,theta ] || fail "header of trajectory.csv"
+[ "$(head -n 1 a/coverage.csv)" = t,distance,coverage ] || fail "header of coverage.csv"
+for key in finished reason distance_m duration_s wall_s coverage goals collisions map_lines \
+  scan_us_median scan_us_p99; do
+  grep -q "\"$key\":" a/summary.json || fail "summary.json lacks $key"
+done
+
+# Same seed, same bytes, wall-time figures aside.
+"$program" explore "$maps/two_rooms.yaml" --seed 7 --out b --quiet || fail "second run: status $?"
+sed -i -E '/"(wall_s|scan_us_median|scan_us_p99)"/d' a/summary.json b/summary.json
+diff -rq a b || fail "equal seeds gave unequal files"
+
+# Nothing is overwritten unasked; without --out each run has a folder of its own.
+expect_error 1 "summary.json" explore "$maps/two_rooms.yaml" --out b
+"$program" explore "$maps/two_rooms.yaml" --out b --force --quiet || fail "--force: status $?"
+"$program" explore "$maps/two_rooms.yaml" --quiet && "$program" explore "$maps/two_rooms.yaml" --quiet
+[ -s out/two_rooms-001/map.png ] && [ -s out/two_rooms-002/map.png ] || fail "numbered folders"
+
+# No progress where there is no terminal, nothing at all when quiet.
+said=$("$program" explore "$maps/two_rooms.yaml" --out c --quiet 2>&1)
+[ -z "$said" ] || fail "--quiet said: $said"
+
+# What is not right is told before any work, and leaves no folder behind.
+printf 'image: gone.png\nresolution: 0.05\norigin: [0, 0, 0]\noccupied_thresh: 0.65\nfree_thresh: 0.196\n' >gone.yaml
+expect_error 1 "gone.yaml: image:" explore gone.yaml --out d
+expect_error 1 "nowhere.yaml: cannot be read" explore nowhere.yaml --out d
+expect_error 1 "touches an obstacle" explore "$maps/two_rooms.yaml" --start 5,1,0 --out d
+expect_error 1 "outside the world" explore "$maps/two_rooms.yaml" --start=-5,1,0 --out d
+expect_error 2 "strategy" explore "$maps/two_rooms.yaml" --strategy clairvoyance --out d
+expect_error 2 "laser-range" explore "$maps/two_rooms.yaml" --laser-range -3 --out d
+expect_error 2 "pose" explore "$maps/two_rooms.yaml" --pose guess --out d
+printf '[laser]\nrnage = 4\n' >typo.ini
+expect_error 2 "rnage" explore "$maps/two_rooms.yaml" --config typo.ini --out d
+printf 'movers:\n  - {start: [2, 2], speed: 50}\n' >fast.yaml
+expect_error 1 "movers[0]: speed" explore "$maps/two_rooms.yaml" --movers fast.yaml --out d
+expect_error 2 "castle" generate-world castle
+[ ! -e d ] || fail "a run that never began left a folder"
+
+# Ctrl-C keeps what was mapped, and tells so.
+"$program" explore "$maps/office.yaml" --out e >/dev/null 2>e.txt &
+sleep 1.5
+kill -INT $!
+wait $!
+[ $? -eq 1 ] || fail "an interrupted run did not end with status 1"
+grep -q '"finished": false' e/summary.json || fail "an interrupted run left no summary"
+grep -q interrupted e.txt || fail "an interrupted run did not tell so: $(cat e.txt)"
+
+# generate-world gives the shipped bytes, and overwrites nothing unasked.
+"$program" generate-world maze --out worlds >/dev/null || fail "generate-world"
+for extension in yaml png truth.csv; do
+  cmp "worlds/maze.$extension" "$maps/maze.$extension" || fail "maze.$extension differs"
+done
+expect_error 1 "exists" generate-world maze --out worlds
+
+[ $failures -eq 0 ] && echo "all is well"
+exit $((failures > 0))
