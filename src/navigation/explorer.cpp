@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "cca_mrpt/navigation/explorer.hpp"
 
+#include <algorithm>
 #include <stdexcept>
 
 namespace cca {
 namespace {
 
-constexpr double kSameWayPoint = 0.1;  // m
-constexpr double kHome = 0.3;          // m
+constexpr double kSameWayPoint = 0.1;      // m
+constexpr double kHome = 0.3;              // m
+constexpr double kReachedWayPoint = 0.15;  // m, a little more than Tangent Bug stops at
 // A goal's time: that of its path at a fifth of full speed, and some for turning and giving way.
 constexpr double kSlowest = 0.2, kGrace = 30.0;  // s
 
@@ -24,6 +26,14 @@ GlobalPlannerParameters plannerParameters(const RobotParameters& robot,
   planner.smallest_gain = parameters.smallest_gain;
   planner.clearance = robot.radius + kLeastMargin * robot.safety_margin;
   return planner;
+}
+
+/// The first way-point that is not reached yet. One that the robot stands at would hold it there:
+/// Tangent Bug has arrived, and the next path may well begin with the same corner.
+std::size_t nextWayPoint(const std::vector<Eigen::Vector2d>& path, const Eigen::Vector2d& robot) {
+  std::size_t next = std::min<std::size_t>(1, path.size() - 1);
+  while (next + 1 < path.size() && (path[next] - robot).norm() < kReachedWayPoint) ++next;
+  return next;
 }
 
 }  // namespace
@@ -60,8 +70,11 @@ Action Explorer::explore(const Observation& observation) {
   }
   if (plan.path.empty()) return {{}, {}, ExplorationStatus::kExploring, "waiting for a scan"};
   Action action{{}, plan.path.back(), ExplorationStatus::kExploring, plan.reason};
-  const bool is_last = parameters_.path == "paper" || plan.path.size() <= 2;
-  action.velocity = driveTo(is_last ? plan.path.back() : plan.path[1], observation);
+  const std::size_t next = parameters_.path == "paper"
+                               ? plan.path.size() - 1
+                               : nextWayPoint(plan.path, observation.T_map_robot.position());
+  const bool is_last = next + 1 == plan.path.size();
+  action.velocity = driveTo(plan.path[next], observation);
   const TangentBugState state = tangent_bug_.state();
   if (state == TangentBugState::kUnreachable || isOverdue(plan.path, observation)) {
     planner_.setGoalAside();
@@ -86,7 +99,8 @@ Action Explorer::goHome(const Observation& observation) {
   if (path.empty() || observation.time > deadline_)
     return {{}, {}, ExplorationStatus::kFinished, why + "; the way back to the start is blocked"};
   Action action{{}, *start_map_, ExplorationStatus::kReturning, "back to the start"};
-  action.velocity = driveTo(path.size() > 2 ? path[1] : *start_map_, observation);
+  const std::size_t next = nextWayPoint(path, robot);
+  action.velocity = driveTo(next + 1 < path.size() ? path[next] : *start_map_, observation);
   return action;
 }
 
