@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 //
-// CCA_TANGENT_BUG_QUERIES sets how many random worlds each test goes through; docs/tangent_bug.md
-// has the results of 1000.
+// CCA_TANGENT_BUG_QUERIES sets how many random worlds each test goes through, and
+// CCA_TANGENT_BUG_FIRST from which seed on the first test starts, to share them among processes;
+// docs/tangent_bug.md has the results of 1000.
 #include <gtest/gtest.h>
 
 #include <cstdlib>
@@ -13,10 +14,12 @@
 namespace cca::testing {
 namespace {
 
-unsigned queries(unsigned usual) {
-  const char* text = std::getenv("CCA_TANGENT_BUG_QUERIES");
+unsigned setting(const char* name, unsigned usual) {
+  const char* text = std::getenv(name);
   return text ? static_cast<unsigned>(std::atoi(text)) : usual;
 }
+
+unsigned queries(unsigned usual) { return setting("CCA_TANGENT_BUG_QUERIES", usual); }
 
 // Gaps and goals between the robot's bare radius and its radius with margin plus 3 cm (of cells and
 // of sight) are undecided: there either verdict is right, but there must be one.
@@ -27,7 +30,8 @@ constexpr double kRanges[] = {4.0, 8.0, 12.0};
 TEST(TangentBugQueries, TheVerdictIsThatOfABreadthFirstSearch) {
   unsigned reached = 0, unreachable = 0, undecided = 0;
   double distance = 0.0;
-  for (unsigned seed = 0; seed < queries(20); ++seed) {
+  const unsigned first = setting("CCA_TANGENT_BUG_FIRST", 0), count = queries(20);
+  for (unsigned seed = first; seed < first + count; ++seed) {
     SCOPED_TRACE(seed);
     const Query query = randomQuery(seed);
     RunOptions options;
