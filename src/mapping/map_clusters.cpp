@@ -15,11 +15,10 @@ namespace {
 using Slot = Walls::Slot;
 
 constexpr double kLargestGap = 0.4;  // m, across which a wall is still the same to even odds
-constexpr double kNewLength = 0.1;   // m
-constexpr double kSteepest =
-    0.2;  // rad, deviation of orientation up to which a line can found a wall
-constexpr double kGates = 3.0;
-constexpr double kOffGate = 3.3;
+constexpr double kNewLength = 0.1;   // m, two bins that no wall explains
+constexpr double kSteepest = 0.2;    // rad, deviation of orientation with which a wall is founded
+constexpr double kGates = 3.0;       // deviations within which a wall explains a return
+constexpr double kOffGate = 3.3;     // the same for a line: the 99.9 % quantile
 constexpr double kSameDirection = 0.8;
 
 /// A new line and a wall that resemble each other.

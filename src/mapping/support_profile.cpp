@@ -7,11 +7,11 @@
 namespace cca {
 namespace {
 
-constexpr double kMostHits = 200.0;  // per bin; more only makes the past heavier
-constexpr int kWindow = 2;           // bins on either side that speak for a place
-constexpr double kHitsOfHalfWeight = 2.0;
-constexpr double kFewestRays = 2.0;  // that can refute a place
-constexpr double kRaysPerHit = 0.5;
+constexpr double kMostHits = 200.0;        // per bin; more only makes the past heavier
+constexpr int kWindow = 2;                 // bins on either side that speak for a place
+constexpr double kHitsOfHalfWeight = 2.0;  // so that one glance does not bend a wall
+constexpr double kFewestRays = 2.0;        // that can refute a place
+constexpr double kRaysPerHit = 0.5;        // from which on a place is free
 
 double binWeight(const SupportBin& bin) { return bin.hits / (bin.hits + kHitsOfHalfWeight); }
 

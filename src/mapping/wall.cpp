@@ -55,20 +55,17 @@ struct FrameChange {
   }
 };
 
-constexpr double kDrift = 0.1;  // m
-constexpr int kBridgedBins = 4;
-
-constexpr double kShortestLine = 0.27;
-constexpr double kLoosest = 1.2;
-constexpr double kLooseShare = 0.08;
-constexpr double kFewestHits = 12.0;
+constexpr double kDrift = 0.1;          // m, of the line from its frame; the index reaches 0.3 m
+constexpr int kBridgedBins = 4;         // longer gaps without hits would be phantoms
+constexpr double kShortestLine = 0.27;  // m, six bins: what a line costs to tell
+constexpr double kFewestHits = 12.0;    // two to three scans that meet it
+constexpr double kLoosest = 1.2;        // deviations of a return
+constexpr double kLooseShare = 0.08;    // of its length
 
 LineSegment segmentOf(const Wall& wall, const BinRange& range, const MapNoise& noise) {
   SupportBin sum;
-  double across = 0.0;
   for (int i = range.first; i < range.last; ++i) sum.gather(wall.profile.bin(i));
   const double n = sum.hits, visits = std::max(1.0, wall.visits);
-  (void)across;
   LineSegment s;
   if (n <= 0.0) return s;
   const double t = sum.t / n, d = sum.d / n;

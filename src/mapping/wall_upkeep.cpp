@@ -9,17 +9,23 @@ namespace {
 
 using Slot = Walls::Slot;
 
-constexpr double kLineCost = 8.0;  // nat, four coordinates of 20 m at 2 cm
-const double kLargestGap = 1.0;    // m
-constexpr double kCheckHits = 100;
-constexpr double kDuplicate = 1.42;
-constexpr double kThinWall = 0.65;
-constexpr double kThinFloor = 0.06;
-constexpr double kDupFloor = 0.1;
-constexpr double kSideBySide = 0.97;
-constexpr double kShareFloor = 0.07;
-constexpr double kShare = 0.7;
-constexpr double kAnneal = 0.6;
+/// nat, what a bend must save: one vertex, two coordinates of 20 m at 37 cm; found by experiment.
+constexpr double kBendCost = 8.0;
+/// Share of it below which two walls are joined; less than 1, or cuts and joins would alternate.
+constexpr double kJoinShare = 0.6;
+constexpr double kLargestGap = 1.0;  // m, between two stretches of one wall
+/// Returns after which a wall is compared with its neighbours again, however many it has.
+constexpr double kMostBeforeCheck = 100.0;
+/// Gates of a lateral distance, in three deviations of a return, and the least that they fall to
+/// [m]: two walls with one front (each has its own pose error: sqrt 2), two fronts, a stretch side
+/// by side.
+constexpr double kSameFront = 1.42;
+constexpr double kSameFrontLeast = 0.10;
+constexpr double kTwoFronts = 0.65;
+constexpr double kTwoFrontsLeast = 0.06;
+constexpr double kStretch = 0.7;
+constexpr double kStretchLeast = 0.07;
+constexpr double kSideBySide = 0.97;  // cosine
 
 struct Extent {
   double first, last;  // m, along a wall
@@ -55,11 +61,11 @@ bool oneWall(const Wall& wall, const Wall& other, const MapNoise& noise) {
   if (overlap > 0.5 * std::min(mine.length(), theirs.length())) {
     // Of two faces with one front only one can be seen; of two with opposite fronts both can, where
     // they lie far enough apart to be told apart. Parallels h apart lose h^2 w_a w_b / (w_a + w_b).
-    const double gate = same_side ? std::max(kDupFloor, 3.0 * sigma * kDuplicate)
-                                  : std::max(kThinFloor, 3.0 * sigma * kThinWall);
+    const double gate = same_side ? std::max(kSameFrontLeast, 3.0 * sigma * kSameFront)
+                                  : std::max(kTwoFrontsLeast, 3.0 * sigma * kTwoFronts);
     return loss * joint.w < gate * gate * a.w * b.w;
   }
-  return same_side && loss < 2.0 * sigma * sigma * kAnneal * kLineCost;
+  return same_side && loss < 2.0 * sigma * sigma * kJoinShare * kBendCost;
 }
 
 /// Where two walls that are not one run side by side all the same, the longer one takes it all.
@@ -68,7 +74,7 @@ void shareOverlap(Slot a, Slot b, Walls& walls, const MapNoise& noise) {
   if (cosine < kSideBySide) return;
   const bool a_lesser = extentOf(walls[a]).length() < extentOf(walls[b]).length();
   const Slot lesser = a_lesser ? a : b, greater = a_lesser ? b : a;
-  const double gate = std::max(kShareFloor, 3.0 * noise.lateralSigma() * kShare);
+  const double gate = std::max(kStretchLeast, 3.0 * noise.lateralSigma() * kStretch);
   if (!yieldOverlap(walls[lesser], walls[greater], gate)) return;
   walls.touch(lesser);
   walls.touch(greater);
@@ -102,7 +108,7 @@ void mergeWithNeighbours(Slot slot, Walls& walls, const MapNoise& noise) {
 void splitWhereBent(Slot slot, Walls& walls, const MapNoise& noise) {
   const SupportProfile::Cut cut = walls[slot].profile.bestCut();
   const double sigma = noise.lateralSigma();
-  if (cut.gain / (2.0 * sigma * sigma) < kLineCost) return;
+  if (cut.gain / (2.0 * sigma * sigma) < kBendCost) return;
   const Slot tail_slot = walls.create();
   Wall &wall = walls[slot], &tail = walls[tail_slot];
   tail.origin = wall.origin;
@@ -131,7 +137,7 @@ void splitWhereBent(Slot slot, Walls& walls, const MapNoise& noise) {
 
 bool changedMuch(const Wall& wall) {
   const int length = wall.profile.last() - wall.profile.first();
-  const double new_hits = std::clamp(0.2 * wall.hits_at_check, 5.0, kCheckHits);
+  const double new_hits = std::clamp(0.2 * wall.hits_at_check, 5.0, kMostBeforeCheck);
   return wall.hits > wall.hits_at_check + new_hits || length > wall.length_at_check + 2;
 }
 
