@@ -87,11 +87,12 @@ Result perform(const Run& run, const World& world, const Parameters& parameters)
   while (simulation.time() < parameters.run.longest_time) {
     const Observation observation = simulation.observe();
     const Action action = explorer.step(observation);
-    if (distances.empty() || simulation.distance() >= distances.back() + kLookEvery) {
+    result.finished = action.status == ExplorationStatus::kFinished;
+    if (distances.empty() || result.finished ||
+        simulation.distance() >= distances.back() + kLookEvery) {
       coverage.look(simulation.T_map_robot());
       distances.push_back(simulation.distance());
     }
-    result.finished = action.status == ExplorationStatus::kFinished;
     if (result.finished) break;
     simulation.drive(action.velocity, parameters.run.control_period);
   }
