@@ -25,7 +25,7 @@ WallIndex& WallIndex::operator=(const WallIndex& other) {
 
 std::int64_t WallIndex::keyOf(const Cell& cell) {
   const std::int64_t x = cell.x() >> kBlockBits, y = cell.y() >> kBlockBits;
-  return (x << 32) ^ (y & 0xffffffffLL);
+  return x * (std::int64_t{1} << 32) + (y & 0xffffffffLL);
 }
 
 const std::vector<WallIndex::Slot>& WallIndex::at(const Cell& cell) const {
