@@ -6,7 +6,7 @@
 namespace cca {
 namespace {
 
-constexpr double kOneFreedom = 10.83;   // 99.9 % quantiles of chi-square
+constexpr double kOneFreedom = 10.83;  // 99.9 % quantiles of chi-square
 constexpr double kTwoFreedoms = 13.82;
 
 double bell(double evidence, double gate) { return gate / (gate + evidence); }
@@ -33,15 +33,15 @@ Memberships mapMemberships(const LineSegment& a, const LineSegment& b, double ga
   const double sine = cross(line_a.direction, line_b.direction);
   const double angle_variance = a.covariance(1, 1) + b.covariance(1, 1);
   mu.orientation = angle_variance > 0.0 ? bell(sine * sine / angle_variance, kOneFreedom) : 1.0;
-  mu.offset = bell(std::max(offsetEvidence(a, line_a.direction, b),
-                            offsetEvidence(b, line_b.direction, a)),
-                   kOneFreedom);
+  mu.offset =
+      bell(std::max(offsetEvidence(a, line_a.direction, b), offsetEvidence(b, line_b.direction, a)),
+           kOneFreedom);
   mu.gap = bell(gap * gap, 1.0);
 
   PointMoments joint = a.moments;
   joint.add(b.moments);
-  const double growth = fitLine(joint).residual_sum_sq - line_a.residual_sum_sq -
-                        line_b.residual_sum_sq;
+  const double growth =
+      fitLine(joint).residual_sum_sq - line_a.residual_sum_sq - line_b.residual_sum_sq;
   const double variance =
       0.5 * (a.covariance(0, 0) * a.moments.weight + b.covariance(0, 0) * b.moments.weight);
   mu.fit = variance > 0.0 ? bell(std::max(0.0, growth) / variance, kTwoFreedoms) : 1.0;

@@ -79,3 +79,5 @@ void BM_PlanningStep(benchmark::State& state) {
 BENCHMARK(BM_PlanningStep)->Unit(benchmark::kMillisecond)->Iterations(400);
 
 }  // namespace
+
+BENCHMARK_MAIN();
