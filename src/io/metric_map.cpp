@@ -83,7 +83,7 @@ void write(mrpt::serialization::CArchive& out, const MapLine& line) {
   const PointMoments& m = s.moments;
   out << line.id << line.support << s.start.x() << s.start.y() << s.end.x() << s.end.y();
   out << m.weight << m.mean.x() << m.mean.y() << m.scatter(0, 0) << m.scatter(0, 1)
-      << m.scatter(1, 1);
+      << m.scatter(1, 0) << m.scatter(1, 1);
   out << s.covariance(0, 0) << s.covariance(0, 1) << s.covariance(1, 1);
 }
 
@@ -93,9 +93,8 @@ MapLine readLine(mrpt::serialization::CArchive& in) {
   PointMoments& m = s.moments;
   in >> line.id >> line.support >> s.start.x() >> s.start.y() >> s.end.x() >> s.end.y();
   in >> m.weight >> m.mean.x() >> m.mean.y() >> m.scatter(0, 0) >> m.scatter(0, 1) >>
-      m.scatter(1, 1);
+      m.scatter(1, 0) >> m.scatter(1, 1);
   in >> s.covariance(0, 0) >> s.covariance(0, 1) >> s.covariance(1, 1);
-  m.scatter(1, 0) = m.scatter(0, 1);
   s.covariance(1, 0) = s.covariance(0, 1);
   return line;
 }
