@@ -47,7 +47,8 @@ tests() { (cd build && ctest -j"$jobs" --output-on-failure --no-tests=error "$@"
 sanitizers() {
   configure_and_build build-sanitize -DCMAKE_BUILD_TYPE=None -DCMAKE_CXX_FLAGS=-O1 -DCCA_SANITIZE=ON \
     -DCCA_WITH_ROS=OFF -DCCA_BUILD_BENCHMARKS=OFF || return 1
-  (cd build-sanitize && ctest -j"$jobs" --output-on-failure --no-tests=error -L unit)
+  (cd build-sanitize && LSAN_OPTIONS="suppressions=$PWD/../test/checks/leaks.supp:print_suppressions=0" \
+    ctest -j"$jobs" --output-on-failure --no-tests=error -L unit)
 }
 
 part dependencies ./launch_scripts/install_dependencies.sh --tests

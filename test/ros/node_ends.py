@@ -34,13 +34,17 @@ class NodeEnds(OwnMaster):
         self.assertEqual(node.wait(timeout=20), 0)
         self.expect_saved()
 
+    def drives(self):
+        velocity = self.ask("rostopic", "echo", "-p", "-n1", "/cmd_vel") or ""
+        return any(float(v) != 0.0 for row in velocity.splitlines()[1:] for v in row.split(",")[1:])
+
     def test_ctrl_c_stops_the_robot(self):
         self.node("simulator", "_world:=office")
         node = self.node("explore", "_world:=none", "_out:=" + self.out)
         self.assertTrue(self.says("/status", "exploring"))
         heard = self.start("rostopic", "echo", "-p", "/cmd_vel")
         self.assertTrue(until(lambda: "/rostopic" in (self.ask("rostopic", "info", "/cmd_vel") or "")))
-        time.sleep(2.0)
+        self.assertTrue(until(self.drives), "it drives")
         node.send_signal(signal.SIGINT)
         self.assertEqual(node.wait(timeout=20), 0)
         time.sleep(0.5)
