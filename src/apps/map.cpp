@@ -47,9 +47,9 @@ void insert(MappedLog& mapped, LogRecord record, const Pose2& T_map_robot) {
   }
 }
 
-MappedLog mapLog(LogReader& log, PoseSource poses, const CcaParameters& parameters) {
+MappedLog mapLog(LogReader& log, PoseSource poses, const CcaParameters& parameters,
+                 const Interruption& interruption) {
   MappedLog mapped{LineMap(parameters), {}, {}, {}, {}, 0, false};
-  const Interruption interruption;
   Progress progress("map");
   while (auto record = log.next()) {
     const Pose2 T_map_robot = poses.locate(*record);
@@ -113,10 +113,12 @@ void report(const MapOptions& options, const MapProducts& products, double secon
 
 void makeMap(const MapOptions& options, const Parameters& parameters) {
   const auto begin = std::chrono::steady_clock::now();
+  const Interruption interruption;
   const auto log = openLog(options.log);
+  if (interruption.requested()) throw std::runtime_error("interrupted; no map was begun");
   prepareMapFolder(options.out, options.force);
-  const MappedLog mapped =
-      mapLog(*log, PoseSource(poseKind(options.pose), parameters.icp), parameters.mapping);
+  const MappedLog mapped = mapLog(*log, PoseSource(poseKind(options.pose), parameters.icp),
+                                  parameters.mapping, interruption);
   const std::string warnings = log->warnings();
   if (!warnings.empty()) {
     std::fprintf(stderr, "cca-mrpt: %s: %s\n", options.log.c_str(), warnings.c_str());

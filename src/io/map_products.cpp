@@ -8,6 +8,7 @@
 #include "cca_mrpt/io/line_formats.hpp"
 #include "cca_mrpt/io/map_picture.hpp"
 #include "cca_mrpt/io/map_scene.hpp"
+#include "cca_mrpt/io/metric_map.hpp"
 #include "cca_mrpt/io/occupancy_files.hpp"
 
 namespace cca {
@@ -59,6 +60,7 @@ void writeMapFolder(const std::string& folder, const MapProducts& products) {
     writeOccupancyMap(inFolder(folder, "map"), *grid);
     writeGridMap(inFolder(folder, "map.gridmap.gz"), *grid);
   }
+  writeLineMap(inFolder(folder, "map.linemap.gz"), lines);
   writeScene(inFolder(folder, "scene.3Dscene"), products);
   writeFile(inFolder(folder, kSummary), summarize(products).dump(2) + "\n");
 }

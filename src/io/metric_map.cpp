@@ -3,6 +3,7 @@
 
 #include <mrpt/config/CConfigFileBase.h>
 #include <mrpt/core/initializer.h>
+#include <mrpt/io/CFileGZOutputStream.h>
 #include <mrpt/obs/CObservation2DRangeScan.h>
 #include <mrpt/opengl/CSetOfLines.h>
 #include <mrpt/opengl/CSetOfObjects.h>
@@ -16,6 +17,7 @@
 #include "cca_mrpt/io/atomic_file.hpp"
 #include "cca_mrpt/io/line_formats.hpp"
 #include "cca_mrpt/io/mrpt_scan.hpp"
+#include "mrpt_objects.hpp"
 
 IMPLEMENTS_SERIALIZABLE(CLineMap2D, mrpt::maps::CMetricMap, cca)
 MAP_DEFINITION_REGISTER("cca::CLineMap2D,lineMap", cca::CLineMap2D)
@@ -68,13 +70,19 @@ struct ToArchive {
 
 struct FromArchive {
   mrpt::serialization::CArchive& in;
-  void operator()(const char*, double& value, double, double, const char*, const char*) {
+  void operator()(const char* name, double& value, double low, double high, const char*,
+                  const char*) {
     in >> value;
+    check(name, value >= low && value <= high);
   }
-  void operator()(const char*, int& value, int, int, const char*, const char*) {
+  void operator()(const char* name, int& value, int low, int high, const char*, const char*) {
     std::int32_t read = 0;
     in >> read;
     value = read;
+    check(name, value >= low && value <= high);
+  }
+  static void check(const char* name, bool sound) {
+    if (!sound) throw std::runtime_error(std::string("line map: ") + name + " is out of range");
   }
 };
 
@@ -96,6 +104,10 @@ MapLine readLine(mrpt::serialization::CArchive& in) {
       m.scatter(1, 0) >> m.scatter(1, 1);
   in >> s.covariance(0, 0) >> s.covariance(0, 1) >> s.covariance(1, 1);
   s.covariance(1, 0) = s.covariance(0, 1);
+  const bool sound = s.start.allFinite() && s.end.allFinite() && m.mean.allFinite() &&
+                     m.scatter.allFinite() && s.covariance.allFinite() && std::isfinite(m.weight) &&
+                     std::isfinite(line.support);
+  if (!sound) throw std::runtime_error("line map: a line that is not finite");
   return line;
 }
 
@@ -124,6 +136,7 @@ CLineMap2D::TMapDefinition::TMapDefinition() = default;
 
 void CLineMap2D::TMapDefinition::loadFromConfigFile_map_specific(
     const mrpt::config::CConfigFileBase& source, const std::string& prefix) {
+  file = source.read_string(prefix + "_creationOpts", "file", file);
   describe(insertion, FromIni{source, prefix + "_insertOpts"});
   describe(likelihood, FromIni{source, prefix + "_likelihoodOpts"});
 }
@@ -131,6 +144,7 @@ void CLineMap2D::TMapDefinition::loadFromConfigFile_map_specific(
 void CLineMap2D::TMapDefinition::dumpToTextStream_map_specific(std::ostream& out) const {
   CcaParameters insertion_copy = insertion;
   LineLikelihoodParameters likelihood_copy = likelihood;
+  out << "file = " << file << "\n";
   describe(insertion_copy, ToText{out});
   describe(likelihood_copy, ToText{out});
 }
@@ -138,9 +152,10 @@ void CLineMap2D::TMapDefinition::dumpToTextStream_map_specific(std::ostream& out
 mrpt::maps::CMetricMap* CLineMap2D::internal_CreateFromMapDefinition(
     const mrpt::maps::TMetricMapInitializer& definition) {
   const auto& own = dynamic_cast<const CLineMap2D::TMapDefinition&>(definition);
-  auto* map = new CLineMap2D(own.insertion);
+  auto lines = own.file.empty() ? std::vector<MapLine>{} : readLineMap(own.file);
+  auto map = std::make_unique<CLineMap2D>(own.insertion, std::move(lines));
   map->likelihood_options = own.likelihood;
-  return map;
+  return map.release();
 }
 
 uint8_t CLineMap2D::serializeGetVersion() const { return 0; }
@@ -263,6 +278,24 @@ double CLineMap2D::internal_computeObservationLikelihood(
     sum_sq += distance * distance;
   }
   return -0.5 * sum_sq / (p.sigma * p.sigma);
+}
+
+void writeLineMap(const std::string& path, const std::vector<MapLine>& lines) {
+  AtomicFile file(path);
+  {
+    mrpt::io::CFileGZOutputStream stream;
+    if (!stream.open(file.temporary(), 1)) throw std::runtime_error(path + ": cannot be written");
+    mrpt::serialization::archiveFrom(stream) << CLineMap2D({}, lines);
+  }
+  file.commit();
+}
+
+std::vector<MapLine> readLineMap(const std::string& path) {
+  MrptObjects objects(path);
+  const auto map = std::dynamic_pointer_cast<CLineMap2D>(objects.next());
+  if (map) return map->lines();
+  throw std::runtime_error(path + ": no line map of MRPT's" +
+                           (objects.fault().empty() ? "" : ": " + objects.fault()));
 }
 
 }  // namespace cca

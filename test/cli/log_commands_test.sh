@@ -54,10 +54,10 @@ check "its JSON is valid" python3 -c 'import json; assert json.load(open("info.j
 
 check "map makes a map" "$program" map room.log.gz --out map
 for file in lines.csv lines.geojson lines.svg lines.dxf map.png map.pgm map.yaml map.gridmap.gz \
-            scene.3Dscene summary.json; do
+            map.linemap.gz scene.3Dscene summary.json; do
   [ -s "map/$file" ] || { echo "FAILED: no map/$file"; failed=1; }
 done
-[ "$(ls -A map | wc -l)" -eq 10 ] || { echo "FAILED: map holds more than its files"; failed=1; }
+[ "$(ls -A map | wc -l)" -eq 11 ] || { echo "FAILED: map holds more than its files"; failed=1; }
 check "three walls of 12, 12 and 6 m are found" python3 - <<'END'
 import csv, math
 walls = [tuple(float(r[k]) for k in ("x1", "y1", "x2", "y2")) for r in csv.DictReader(open("map/lines.csv"))]

@@ -82,6 +82,38 @@ TEST(CLineMap2D, IsMadeByAMultiMetricMapFromItsIni) {
   EXPECT_GE(map->lines().size(), 4u);
 }
 
+TEST(CLineMap2D, AFileThatAnIniNamesIsWhereItBegins) {
+  CLineMap2D map;
+  mapRoom(map);
+  const std::string path = testing::TempDir() + "room.linemap.gz";
+  writeLineMap(path, map.lines());
+  mrpt::config::CConfigFileMemory ini;
+  ini.setContent("[map]\nlineMap_count = 1\n[map_lineMap_00_creationOpts]\nfile = " + path + "\n");
+  mrpt::maps::TSetOfMetricMapInitializers definitions;
+  definitions.loadFromConfigFile(ini, "map");
+  mrpt::maps::CMultiMetricMap maps(definitions);
+  const auto read = maps.mapByClass<CLineMap2D>();
+  ASSERT_TRUE(read);
+  ASSERT_EQ(read->lines().size(), map.lines().size());
+  EXPECT_EQ(read->lines().back().segment.end, map.lines().back().segment.end);
+  EXPECT_NEAR(read->squareDistanceToClosestCorrespondence(2.0F, 0.0F), 1.0, 0.05);
+}
+
+TEST(CLineMap2D, AFileThatIsNoneIsRefusedByName) {
+  const std::string path = testing::TempDir() + "none.linemap.gz";
+  for (const char* content : {"", "x1,y1,x2,y2\n",
+                              "\x8f"
+                              "cca::CLineMap2D\x00\x00\x00"}) {
+    std::ofstream(path) << content;
+    try {
+      readLineMap(path);
+      FAIL() << "no error";
+    } catch (const std::runtime_error& error) {
+      EXPECT_EQ(std::string(error.what()).rfind(path, 0), 0u) << error.what();
+    }
+  }
+}
+
 TEST(CLineMap2D, RefusesAnIniValueOutOfRangeByName) {
   mrpt::config::CConfigFileMemory ini;
   ini.setContent("[map]\nlineMap_count = 1\n[map_lineMap_00_insertOpts]\nsimilarity_cut = 7\n");

@@ -26,7 +26,8 @@ struct MapProducts {
 };
 
 /// Writes a map's folder: lines.csv, lines.geojson, lines.svg, lines.dxf, map.png, map.pgm and
-/// map.yaml, map.gridmap.gz, scene.3Dscene, summary.json (last: where it is, all is there).
+/// map.yaml, map.gridmap.gz, map.linemap.gz, scene.3Dscene, summary.json (last: where it is, all is
+/// there).
 ///
 /// The folder is made where it is missing. Each file appears whole or not at all.
 /// @throws std::runtime_error naming the file and the reason.

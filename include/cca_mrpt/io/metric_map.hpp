@@ -36,6 +36,7 @@ void describe(LineLikelihoodParameters& p, Field&& field) {
 /// ```
 /// [map]
 /// lineMap_count = 1
+/// [map_lineMap_00_creationOpts]      ; file: begins with the lines of a map.linemap.gz
 /// [map_lineMap_00_insertOpts]        ; points_per_cluster, similarity_cut, scans_per_batch
 /// [map_lineMap_00_likelihoodOpts]    ; sigma, max_distance, decimation
 /// ```
@@ -46,7 +47,8 @@ class CLineMap2D : public mrpt::maps::CMetricMap {
 
  public:
   CLineMap2D() = default;
-  explicit CLineMap2D(const CcaParameters& insertion) : insertion_(insertion), map_(insertion) {}
+  explicit CLineMap2D(const CcaParameters& insertion, std::vector<MapLine> lines = {})
+      : insertion_(insertion), read_lines_(std::move(lines)), map_(insertion) {}
 
   LineLikelihoodParameters likelihood_options;
 
@@ -87,9 +89,17 @@ class CLineMap2D : public mrpt::maps::CMetricMap {
       nearest_;  // made when first asked for; none after a change
 
   MAP_DEFINITION_START(CLineMap2D)
+  std::string file;  ///< empty: none
   CcaParameters insertion;
   LineLikelihoodParameters likelihood;
   MAP_DEFINITION_END(CLineMap2D)
 };
+
+/// Writes lines as a CLineMap2D, as MRPT stores its objects (zipped), whole or not at all.
+/// @throws std::runtime_error naming the file and the reason.
+void writeLineMap(const std::string& path, const std::vector<MapLine>& lines);
+
+/// The lines of such a file. @throws std::runtime_error naming the file and the reason.
+std::vector<MapLine> readLineMap(const std::string& path);
 
 }  // namespace cca
