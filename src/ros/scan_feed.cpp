@@ -44,6 +44,13 @@ void ScanFeed::startAnewIfClockWasSetBack() {
   last_now_ = now;
 }
 
+/// A bag's first scan may come before its first clock message; only who drives has to wait.
+bool ScanFeed::isFromTheFuture(const ros::Time& stamp) const {
+  const ros::Time now = ros::Time::now();
+  if (now.isZero() && oldest_ == 0.0) return false;
+  return (stamp - now).toSec() > kFurthestFuture;
+}
+
 void ScanFeed::receive(const sensor_msgs::LaserScan& message) {
   startAnewIfClockWasSetBack();
   try {
@@ -51,8 +58,7 @@ void ScanFeed::receive(const sensor_msgs::LaserScan& message) {
                     message.header.frame_id};
     if (seeingFraction(waiting.scan) < kSmallestSeeingFraction) return drop("blind");
     if (waiting.stamp <= last_stamp_) return drop("not newer than the last");
-    if ((waiting.stamp - ros::Time::now()).toSec() > kFurthestFuture)
-      return drop("from the future");
+    if (isFromTheFuture(waiting.stamp)) return drop("from the future");
     last_stamp_ = waiting.stamp;
     waiting_.push_back(std::move(waiting));
   } catch (const std::runtime_error& error) {

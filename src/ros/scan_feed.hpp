@@ -56,6 +56,7 @@ class ScanFeed {
   bool placed(const Waiting& waiting, std::string* why_not) const;
   void drop(const std::string& reason, const std::string& detail = "");
   void startAnewIfClockWasSetBack();
+  bool isFromTheFuture(const ros::Time& stamp) const;
 
   Frames frames_;
   double oldest_;
