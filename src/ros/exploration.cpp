@@ -49,8 +49,9 @@ Velocity Exploration::step(Observation observation, const ros::Time& stamp) {
   const Action action = explorer_.step(observation);
   record_.add(observation.scan, observation.T_map_robot);
   publisher_.show(explorer_, *record_.grid.grid(), observation.T_map_robot, action.goal, stamp);
-  tell(action);
+  // The whole first: who hears "finished" finds the last map and way.
   if (action.status == ExplorationStatus::kFinished) finish(stamp);
+  tell(action);
   return finished_ ? Velocity{} : action.velocity;
 }
 
