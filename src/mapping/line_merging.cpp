@@ -59,6 +59,10 @@ double cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
   return a.x() * b.y() - a.y() * b.x();
 }
 
+/// A wall goes on unseen for a third of what is seen of it, to even odds: behind furniture longer
+/// walls end, turn or open too often.
+constexpr double kSeenPerHidden = 3.0;
+
 /// A line in pieces that something hides in part: its runs in scan order.
 struct Interrupted {
   std::vector<int> runs;
@@ -97,8 +101,8 @@ bool interlaced(const Interrupted& a, const Interrupted& b) {
   return within(b.runs.front(), a) || within(a.runs.front(), b);
 }
 
-/// Evidence against one wall through both, in rays: those of the gap, and the hidden length as a
-/// share of the seen. Infinite where the field of view does not hold the gap.
+/// Evidence against one wall through both, in rays: those of the gap, and the hidden length against
+/// the seen. Infinite where the field of view does not hold the gap.
 double gapEvidence(const ScanPoints& points, const FittedSegment& joint, const Runs& runs,
                    const Interrupted& a, const Interrupted& b) {
   const auto first = [&](const Interrupted& l) {
@@ -114,7 +118,8 @@ double gapEvidence(const ScanPoints& points, const FittedSegment& joint, const R
   const double hidden = std::abs(u.dot(first(to) - last(from)));
   const double seen =
       std::abs(u.dot(last(from) - first(from))) + std::abs(u.dot(last(to) - first(to)));
-  return hidden / seen + raysAgainst(points, joint, runs, from.runs.back(), to.runs.front());
+  return kSeenPerHidden * hidden / seen +
+         raysAgainst(points, joint, runs, from.runs.back(), to.runs.front());
 }
 
 /// Scan order, begun after the turn away from the line: a wall may lie across the seam.

@@ -8,8 +8,10 @@ namespace {
 
 /// sin 3 deg: directions nearer than this do not fix where two lines, or line and beam, meet.
 constexpr double kAlongTheLine = 0.05;
-/// A corner may lie this many beams outside of the gap between the two that see it.
-constexpr double kCornerBeams = 1.0;
+/// 99.9 % of normal residuals lie within this many deviations.
+constexpr double kResidualGate = 3.29;
+/// A corner takes this many beams at most from the line that they were fitted with.
+constexpr int kMostTaken = 5;
 
 double cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
   return a.x() * b.y() - a.y() * b.x();
@@ -34,15 +36,37 @@ LineSegment segmentOf(const ScanPoints& points, const FittedSegment& fit, int fi
   return s;
 }
 
-/// The corner of two lines, if it lies between beam p, the last of a, and q, the first of b.
-bool cornerBetween(const FittedLine& a, const FittedLine& b, const Eigen::Vector2d& p,
-                   const Eigen::Vector2d& q, double beam_spacing, Eigen::Vector2d* corner) {
-  const double sine = cross(a.direction, b.direction);
+bool liesOn(const FittedSegment& line, const Eigen::Vector2d& p) {
+  const double off = cross(line.line.direction, p - line.line.centroid);
+  return off * off <= kResidualGate * kResidualGate * line.variance;
+}
+
+/// A line of the scan, and the run of points at that end of it which is looked at.
+struct LineEnd {
+  const FittedSegment& fit;
+  const FittedRun& run;
+};
+
+/// The corner of two lines, if the rays say that it is there: it lies between the last beam of a
+/// and the first of b, or beyond a few beams that fit the other line as well.
+bool cornerBetween(const ScanPoints& points, const LineEnd& a, const LineEnd& b,
+                   Eigen::Vector2d* corner) {
+  const FittedLine &line_a = a.fit.line, &line_b = b.fit.line;
+  const double sine = cross(line_a.direction, line_b.direction);
   if (std::abs(sine) < kAlongTheLine) return false;
-  *corner = a.centroid + a.direction * (cross(b.centroid - a.centroid, b.direction) / sine);
-  const double slack = std::sin(kCornerBeams * beam_spacing) * corner->norm();
-  return corner->dot(p) > 0.0 && cross(p, *corner) > -slack * p.norm() &&
-         cross(*corner, q) > -slack * q.norm();
+  const Eigen::Vector2d between = line_b.centroid - line_a.centroid;
+  *corner = line_a.centroid + line_a.direction * (cross(between, line_b.direction) / sine);
+  int p = a.run.last - 1, q = b.run.first;
+  if (corner->dot(points.positions[p]) <= 0.0) return false;
+  for (; cross(points.positions[p], *corner) < 0.0; --p) {
+    if (p == a.run.first || p + kMostTaken < a.run.last) return false;
+    if (!liesOn(b.fit, points.positions[p])) return false;
+  }
+  for (; cross(*corner, points.positions[q]) < 0.0; ++q) {
+    if (q + 1 == b.run.last || q >= b.run.first + kMostTaken) return false;
+    if (!liesOn(a.fit, points.positions[q])) return false;
+  }
+  return true;
 }
 
 }  // namespace
@@ -73,8 +97,7 @@ std::vector<LineSegment> polyLines(const ScanPoints& points, const RunFitter& fi
     }
     if (next != 0 ? points.silentBetween(p, q) > 0 : points.silentAtSeam() > 0) continue;
     Eigen::Vector2d corner;
-    if (cornerBetween(fits[a].line, fits[b].line, points.positions[p], points.positions[q],
-                      points.beam_spacing, &corner)) {
+    if (cornerBetween(points, {fits[a], runs[k]}, {fits[b], runs[next]}, &corner)) {
       lines[a].end = lines[b].start = corner;
     }
   }

@@ -164,6 +164,32 @@ TEST(ExtractLines, JoinAWallBehindWhatHidesIt) {
   EXPECT_NEAR(longest, 6.0 * std::tan(0.8), 0.01);
 }
 
+TEST(ExtractLines, LeaveApartWhatHasMoreThanAThirdOfItHidden) {
+  Scan scan;
+  scan.angle_min = -0.8;
+  scan.angle_increment = 0.01;
+  for (std::size_t i = 0; i < 161; ++i) {
+    const double c = std::cos(scan.bearing(i));
+    scan.ranges.push_back(i > 50 && i < 110 ? 1.0 / c : 3.0 / c);  // 1.8 m hidden, 4.3 m seen
+  }
+  EXPECT_EQ(extractLines(scan).size(), 3u);
+}
+
+TEST(ExtractLines, ShareABluntCornerThatNoiseMovesAcrossABeam) {
+  std::mt19937 random(12);
+  const PolygonRoom room{{{-9, -9}, {9, -9}, {4.0, -2.0}, {3.0, 2.0}, {0.2, 6.1}, {-9, 9}}};
+  const int trials = 200;
+  int lines_alone = 0, shared = 0;
+  for (int k = 0; k < trials; ++k) {
+    const auto lines = extractLines(scanOf(room, 0.1, 0.01, 95, 0.03, &random));
+    if (lines.size() != 2u) continue;
+    ++lines_alone;
+    shared += lines[0].end == lines[1].start;
+  }
+  EXPECT_GT(lines_alone, 0.95 * trials);
+  EXPECT_GT(shared, 0.85 * lines_alone);  // at 20 degrees noise moves a corner by 2 to 3 beams
+}
+
 TEST(ExtractLines, LeaveADoorOpenThroughWhichRaysPass) {
   Scan scan;
   scan.angle_min = -0.8;

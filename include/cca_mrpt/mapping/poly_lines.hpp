@@ -10,8 +10,9 @@ namespace cca {
 /// The segments of a scan, with shared vertices where neighbouring lines meet.
 ///
 /// A line ends where its outermost beams meet it, so that it covers its own rays and no other.
-/// Neighbours whose lines intersect between the last beam of one and the first of the other, to
-/// within a beam, both end at the intersection: a corner.
+/// Neighbours whose lines intersect between the last beam of one and the first of the other, or
+/// beyond up to five beams that lie on both within the noise, both end at the intersection: a
+/// corner.
 /// Deviation: projecting the outermost points onto the line lets noise along a grazing wall move
 /// its end by several beams.
 ///
