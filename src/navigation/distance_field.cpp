@@ -10,10 +10,11 @@ namespace {
 constexpr double kStartReach = 0.5;  // m, from a robot that stands too near to something
 
 // Bits of a block: 4 y + x.
-constexpr unsigned kLeft = 0x1111, kRight = 0x8888, kBottom = 0x000F, kTop = 0xF000;
+constexpr unsigned kLeft = 0x1111, kRight = 0x8888, kBottom = 0x000F, kTop = 0xF000, kAll = 0xFFFF;
 
 /// The 4-connected part of `cells` that holds `seed`.
 unsigned connectedPart(unsigned cells, unsigned seed) {
+  if (cells == kAll) return kAll;
   unsigned part = seed & cells;
   for (;;) {
     const unsigned wider =
@@ -49,75 +50,78 @@ constexpr Corner kCorners[4] = {{0x8000, 0x0001, 0x1000, 0x0008},
 
 }  // namespace
 
-DistanceField::Node& DistanceField::nodeAt(Cell block) {
-  Node& node = nodes_[block];
-  if (node.search != search_) node = {search_, {}};
-  return node;
-}
-
-void DistanceField::search(const FreeSpace& space, double resolution, Cell start, double horizon) {
+void DistanceField::search(const FreeSpace& space, double resolution, Cell start, double horizon,
+                           std::optional<Cell> until) {
   ++search_;
   unit_ = resolution * FreeSpace::kBlock / kStraight;
   for (auto& bucket : queue_) bucket.clear();
   waiting_ = 0;
   started_ = nearestTraversable(space, start, static_cast<int>(kStartReach / resolution), start_);
   if (!started_) return;
-  const Cell block = FreeSpace::blockOf(start_);
-  const unsigned cells = space.traversableCells(block);
-  relax(block, connectedPart(cells, FreeSpace::bitOf(start_)), 0, -1, -1);
+  const Cell first = FreeSpace::blockOf(start_);
+  relax(nodes_[first], {first, space.traversableCells(first), FreeSpace::bitOf(start_)}, 0);
   for (std::uint32_t cost = 0; waiting_ > 0 && cost * unit_ <= horizon; ++cost) {
     auto& bucket = queue_[cost % queue_.size()];
     for (std::size_t i = 0; i < bucket.size(); ++i) {
       const Entry entry = bucket[i];
-      Part& part = nodeAt(entry.block).parts[static_cast<std::size_t>(entry.part)];
+      Node& node = nodes_[entry.block];
+      Part& part = node.parts[static_cast<std::size_t>(entry.part)];
       if (part.settled || part.cost != entry.cost) continue;
       part.settled = true;
-      expand(space, entry);
+      expand(space, node, entry);
     }
     waiting_ -= bucket.size();
     bucket.clear();
+    if (until && isReached(*until)) return;
   }
 }
 
-void DistanceField::expand(const FreeSpace& space, const Entry& entry) {
+void DistanceField::expand(const FreeSpace& space, Node& node, const Entry& entry) {
   const Cell b = entry.block;
-  const unsigned part = nodes_[b].parts[static_cast<std::size_t>(entry.part)].cells;
+  const unsigned part = node.parts[static_cast<std::size_t>(entry.part)].cells;
+  const auto from_part = static_cast<std::int8_t>(entry.part);
+  const std::array<std::uint16_t, 8> around = space.traversableAround(b);
   for (int d = 0; d < 4; ++d) {
-    const unsigned touched = acrossSide(part, d);
-    if (!touched) continue;
-    const Cell next = b + kNeighbours[static_cast<std::size_t>(d)];
-    unsigned open = space.traversableCells(next) & touched;
+    const unsigned cells = around[static_cast<std::size_t>(d)];
+    unsigned open = cells & acrossSide(part, d);
+    if (!open) continue;
+    const Cell step = kNeighbours[static_cast<std::size_t>(d)], next = b + step;
+    if (!isStorable(next)) continue;
+    Node& beside = nodes_.beside(node, b, step);
     while (open) {
-      const unsigned cells = connectedPart(space.traversableCells(next), open & (~open + 1));
-      relax(next, cells, entry.cost + kStraight, d, entry.part);
-      open &= ~cells;
+      const Passage to{next, cells, open & (~open + 1), static_cast<std::int8_t>(d), from_part};
+      open &= ~relax(beside, to, entry.cost + kStraight);
     }
   }
   for (int d = 4; d < 8; ++d) {
     const Corner& corner = kCorners[d - 4];
     if (!(part & corner.here)) continue;
-    const Cell step = kNeighbours[static_cast<std::size_t>(d)];
-    const unsigned there = space.traversableCells(b + step);
-    if ((there & corner.there) && (space.traversableCells(b + Cell{step.x, 0}) & corner.beside_x) &&
-        (space.traversableCells(b + Cell{0, step.y}) & corner.beside_y)) {
-      relax(b + step, connectedPart(there, corner.there), entry.cost + kDiagonal, d, entry.part);
+    const unsigned cells = around[static_cast<std::size_t>(d)];
+    const Cell step = kNeighbours[static_cast<std::size_t>(d)], next = b + step;
+    if (!(cells & corner.there) || !(around[step.x > 0 ? 0 : 2] & corner.beside_x) ||
+        !(around[step.y > 0 ? 1 : 3] & corner.beside_y) || !isStorable(next)) {
+      continue;
     }
+    relax(nodes_.beside(node, b, step),
+          {next, cells, corner.there, static_cast<std::int8_t>(d), from_part},
+          entry.cost + kDiagonal);
   }
 }
 
-void DistanceField::relax(Cell block, unsigned cells, std::uint32_t cost, int from, int from_part) {
-  if (!isStorable(block)) return;
-  Node& node = nodeAt(block);
+/// @return the cells of the part that is entered.
+unsigned DistanceField::relax(Node& node, const Passage& to, std::uint32_t cost) {
+  if (node.search != search_) node = {search_, {}};
   for (std::size_t k = 0; k < kParts; ++k) {
     Part& part = node.parts[k];
-    if (part.cells && !(part.cells & cells)) continue;
-    if (part.cells && cost >= part.cost) return;
-    part = {cost, static_cast<std::uint16_t>(cells), false, static_cast<std::int8_t>(from),
-            static_cast<std::int8_t>(from_part)};
-    queue_[cost % queue_.size()].push_back({block, static_cast<int>(k), cost});
+    if (part.cells && !(part.cells & to.entry)) continue;
+    if (part.cells && cost >= part.cost) return part.cells;
+    const unsigned cells = part.cells ? part.cells : connectedPart(to.open, to.entry);
+    part = {cost, static_cast<std::uint16_t>(cells), false, to.from, to.from_part};
+    queue_[cost % queue_.size()].push_back({to.block, static_cast<int>(k), cost});
     ++waiting_;
-    return;
+    return cells;
   }
+  return connectedPart(to.open, to.entry);
 }
 
 const DistanceField::Part* DistanceField::partOf(Cell c) const {
@@ -132,6 +136,12 @@ const DistanceField::Part* DistanceField::partOf(Cell c) const {
 double DistanceField::distanceTo(Cell c) const {
   const Part* part = partOf(c);
   return part ? part->cost * unit_ : kUnreached;
+}
+
+double DistanceField::leastDistanceTo(Cell block) const {
+  const Cell first = FreeSpace::blockOf(start_);
+  const int dx = std::abs(block.x - first.x), dy = std::abs(block.y - first.y);
+  return (kStraight * std::abs(dx - dy) + kDiagonal * std::min(dx, dy)) * unit_;
 }
 
 std::vector<Cell> DistanceField::blocksTo(Cell c) const {

@@ -20,11 +20,6 @@ constexpr double kWidestGuess = 1.5;
 constexpr double kMostBetween = 8;           // rays between two beams
 constexpr double kLongestRangeCells = 4000;  // 200 m at 5 cm
 
-struct Beam {
-  Eigen::Vector2d direction;
-  double range = 0.0;  // m
-};
-
 Eigen::Vector2d directionOf(const Scan& scan, std::size_t beam) {
   const double angle = scan.T_map_sensor.theta + scan.bearing(beam);
   return {std::cos(angle), std::sin(angle)};
@@ -44,11 +39,13 @@ void ExplorationGrid::insert(const Scan& scan) {
   if (!isUsable(scan, resolution_)) return;
   ++scans_;
   const Eigen::Vector2d origin = scan.T_map_sensor.position() / resolution_;
+  directions_.clear();
+  for (std::size_t i = 0; i < scan.size(); ++i) directions_.push_back(directionOf(scan, i));
   // Returns first: a cell that holds one is not cleared by a beam that passes beside the surface.
   for (std::size_t i = 0; i < scan.size(); ++i) {
     const double range = scan.ranges[i] / resolution_;
     if (!isReturn(range) || range > kLongestRangeCells) continue;
-    const Eigen::Vector2d hit = origin + (range + kBehindSurface) * directionOf(scan, i);
+    const Eigen::Vector2d hit = origin + (range + kBehindSurface) * directions_[i];
     add(cellOf(hit * resolution_), kReturn);
   }
   for (std::size_t i = 0; i < scan.size(); ++i) {
@@ -57,14 +54,20 @@ void ExplorationGrid::insert(const Scan& scan) {
     const double free_range =
         returned ? scan.ranges[i] - kBehindSurface * resolution_ : scan.free_range_without_return;
     if (!(free_range > 0.0)) continue;
-    walkBeam(origin, directionOf(scan, i), std::min(free_range / resolution_, kLongestRangeCells),
-             [this](Cell c, double) {
-               add(c, kPass);
-               return true;
-             });
+    passThrough(origin, directions_[i], std::min(free_range / resolution_, kLongestRangeCells));
   }
   presumeFree(scan);
   presumeWalls(scan);
+}
+
+// Most cells are as surely free as can be already.
+void ExplorationGrid::passThrough(const Eigen::Vector2d& origin, const Eigen::Vector2d& direction,
+                                  double length) {
+  TiledGrid<Evidence>::Reader evidence(evidence_);
+  walkBeam(origin, direction, length, [&](Cell c, double) {
+    if (evidence.at(c) != kFreest) add(c, kPass);
+    return true;
+  });
 }
 
 // Far from the sensor the beams are wider apart than the cells. What lies between two returns of
@@ -76,8 +79,8 @@ void ExplorationGrid::presumeWalls(const Scan& scan) {
     if (!isReturn(a) || !isReturn(b) || std::max(a, b) > kLongestRangeCells * resolution_) continue;
     const double behind = kBehindSurface * resolution_;
     const Eigen::Vector2d origin = scan.T_map_sensor.position();
-    const Eigen::Vector2d from = origin + (a + behind) * directionOf(scan, i);
-    const Eigen::Vector2d to = origin + (b + behind) * directionOf(scan, i + 1);
+    const Eigen::Vector2d from = origin + (a + behind) * directions_[i];
+    const Eigen::Vector2d to = origin + (b + behind) * directions_[i + 1];
     const double gap = (to - from).norm();
     const double spacing = std::min(a, b) * std::abs(scan.angle_increment);
     if (gap < resolution_) continue;
@@ -85,7 +88,7 @@ void ExplorationGrid::presumeWalls(const Scan& scan) {
       // Seen at a grazing angle: one surface only where a third return lies in line.
       const auto inLine = [&](std::size_t k) {
         if (k >= n || !isReturn(scan.ranges[k])) return false;
-        const Eigen::Vector2d p = origin + (scan.ranges[k] + behind) * directionOf(scan, k);
+        const Eigen::Vector2d p = origin + (scan.ranges[k] + behind) * directions_[k];
         const Eigen::Vector2d along = (to - from) / gap, offset = p - from;
         const double reach = std::abs(offset.dot(along)) / gap;
         return reach < 4.0 &&
@@ -121,8 +124,9 @@ void ExplorationGrid::presumeFree(const Scan& scan) {
           scan.T_map_sensor.theta + scan.bearing(i) + scan.angle_increment * k / (between + 1.0);
       const Eigen::Vector2d direction(std::cos(angle), std::sin(angle));
       const double gapless = std::min(1.0 / apart, range);
-      walkBeam(origin + gapless * direction, direction, range - gapless, [this](Cell c, double) {
-        if (evidence_.at(c) == kNever) write(c, kFreePresumed);
+      TiledGrid<Evidence>::Reader evidence(evidence_);
+      walkBeam(origin + gapless * direction, direction, range - gapless, [&](Cell c, double) {
+        if (evidence.at(c) == kNever && evidence_.at(c) == kNever) write(c, kFreePresumed);
         return true;
       });
     }
@@ -133,9 +137,9 @@ void ExplorationGrid::add(Cell cell, int weight) {
   std::uint32_t& counted = counted_[cell];
   if (counted == scans_) return;
   counted = scans_;
-  const int before = evidence_.at(cell);
-  const int base = before <= kWallPresumed ? 0 : before;
-  write(cell, static_cast<Evidence>(std::clamp(base + weight, kFreest, kSurest)));
+  Evidence& evidence = evidence_[cell];
+  const int base = evidence <= kWallPresumed ? 0 : evidence;
+  write(cell, evidence, static_cast<Evidence>(std::clamp(base + weight, kFreest, kSurest)));
 }
 
 void ExplorationGrid::set(Cell cell, CellState state) {
@@ -145,8 +149,7 @@ void ExplorationGrid::set(Cell cell, CellState state) {
   write(cell, kValue[static_cast<int>(state)]);
 }
 
-void ExplorationGrid::write(Cell cell, Evidence value) {
-  Evidence& evidence = evidence_[cell];
+void ExplorationGrid::write(Cell cell, Evidence& evidence, Evidence value) {
   revealed_ += evidence <= kWallPresumed && value > kWallPresumed;
   if (stateOf(evidence) != stateOf(value)) {
     changed_.push_back(cell);

@@ -109,7 +109,8 @@ void GlobalPlanner::advance(const Eigen::Vector2d& robot_map) {
 
 // Another way to the same goal; another goal only where there is no way left.
 void GlobalPlanner::replan(const Eigen::Vector2d& robot_map) {
-  field_.search(space_, grid_.resolution(), grid_.cellOf(robot_map));
+  field_.search(space_, grid_.resolution(), grid_.cellOf(robot_map), DistanceField::kUnreached,
+                goal_->cell);
   plan_.path = shortestPath(space_, grid_.resolution(), field_, goal_->cell);
   if (plan_.path.empty()) {
     decide(robot_map);
@@ -264,10 +265,11 @@ bool GlobalPlanner::isWithinLimits(Cell c) const {
 std::vector<Eigen::Vector2d> GlobalPlanner::pathTo(const Eigen::Vector2d& robot_map,
                                                    const Eigen::Vector2d& goal_map) {
   if (!isOnGrid(robot_map) || !isOnGrid(goal_map)) return {};
-  field_.search(space_, grid_.resolution(), grid_.cellOf(robot_map));
   Cell goal;
   constexpr int kNearEnough = 10;  // cells
   if (!nearestTraversable(space_, grid_.cellOf(goal_map), kNearEnough, goal)) return {};
+  field_.search(space_, grid_.resolution(), grid_.cellOf(robot_map), DistanceField::kUnreached,
+                goal);
   return shortestPath(space_, grid_.resolution(), field_, goal);
 }
 

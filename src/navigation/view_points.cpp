@@ -11,9 +11,19 @@ namespace {
 
 constexpr double kPi = 3.14159265358979323846;
 
-Eigen::Vector2d rayDirection(int k, int rays) {
-  const double angle = 2.0 * kPi * (k + 0.5) / rays;  // never along an axis: no ties at corners
-  return {std::cos(angle), std::sin(angle)};
+constexpr int kViewRays = 90, kGainRays = 72;
+
+std::vector<Eigen::Vector2d> directions(int rays) {
+  std::vector<Eigen::Vector2d> unit;
+  for (int k = 0; k < rays; ++k) {
+    const double angle = 2.0 * kPi * (k + 0.5) / rays;  // never along an axis: no ties at corners
+    unit.emplace_back(std::cos(angle), std::sin(angle));
+  }
+  return unit;
+}
+
+bool isOpaque(CellState state) {
+  return state >= CellState::kGuessedWall && state != CellState::kFree;
 }
 
 Eigen::Vector2d middle(Cell c) { return {c.x + 0.5, c.y + 0.5}; }
@@ -26,10 +36,6 @@ Cell unknownBeside(const ExplorationGrid& grid, Cell c) {
   }
   assert(false && "not a frontier cell");
   return c;
-}
-
-bool isOpaque(CellState state) {
-  return state >= CellState::kGuessedWall && state != CellState::kFree;
 }
 
 Cell cellBehind(const ExplorationGrid& grid, const Frontier& frontier, double depth) {
@@ -68,8 +74,9 @@ bool isInView(const ExplorationGrid& grid, Cell from, Cell to) {
   const double length = line.norm();
   if (length == 0.0) return true;
   bool clear = true;
+  ExplorationGrid::Reader states(grid);
   walkBeam(middle(from), line / length, length, [&](Cell c, double) {
-    clear = !isOpaque(grid.at(c));
+    clear = !isOpaque(states.at(c));
     return clear;
   });
   return clear;
@@ -77,18 +84,29 @@ bool isInView(const ExplorationGrid& grid, Cell from, Cell to) {
 
 std::optional<ViewPoint> nearestViewPoint(const ExplorationGrid& grid, const FreeSpace& space,
                                           const DistanceField& field,
-                                          const TiledGrid<char>& scanned, Cell target, double range,
-                                          int rays) {
+                                          const TiledGrid<char>& scanned, Cell target,
+                                          double range) {
+  static const std::vector<Eigen::Vector2d> kDirections = directions(kViewRays);
   std::optional<ViewPoint> best;
-  for (int k = 0; k < rays; ++k) {
+  ExplorationGrid::Reader states(grid);
+  // The cells of the present block that may be nearer than the best so far.
+  Cell block;
+  unsigned eligible = 0;
+  const auto enter = [&](Cell next) {
+    block = next;
+    const bool is_too_far = best && field.leastDistanceTo(block) >= best->distance;
+    eligible = is_too_far || scanned.at(block) ? 0 : space.traversableCells(block);
+  };
+  enter(FreeSpace::blockOf(target));
+  for (const Eigen::Vector2d& direction : kDirections) {
     bool in_known = false;
-    walkBeam(middle(target), rayDirection(k, rays), range / grid.resolution(), [&](Cell c, double) {
+    walkBeam(middle(target), direction, range / grid.resolution(), [&](Cell c, double) {
       if (c == target) return true;
-      const CellState state = grid.at(c);
+      const CellState state = states.at(c);
       if (isOpaque(state) || (in_known && state == CellState::kUnknown)) return false;
       in_known = in_known || state != CellState::kUnknown;
-      if (scanned.at(FreeSpace::blockOf(c))) return true;
-      if (!space.isTraversable(c)) return true;
+      if (FreeSpace::blockOf(c) != block) enter(FreeSpace::blockOf(c));
+      if (!(eligible & FreeSpace::bitOf(c))) return true;
       const double distance = field.distanceTo(c);
       if (distance < (best ? best->distance : DistanceField::kUnreached))
         best = ViewPoint{c, target, distance, 0.0};
@@ -98,19 +116,21 @@ std::optional<ViewPoint> nearestViewPoint(const ExplorationGrid& grid, const Fre
   return best;
 }
 
-double unknownAreaInView(const ExplorationGrid& grid, Cell from, double range, int rays) {
+double unknownAreaInView(const ExplorationGrid& grid, Cell from, double range) {
+  static const std::vector<Eigen::Vector2d> kDirections = directions(kGainRays);
   double area = 0.0;  // in cells
   const double reach = range / grid.resolution();
-  for (int k = 0; k < rays; ++k) {
+  ExplorationGrid::Reader states(grid);
+  for (const Eigen::Vector2d& direction : kDirections) {
     double unknown_since = -1.0;
     const auto close = [&](double until) {
       if (unknown_since >= 0.0)
-        area += (until * until - unknown_since * unknown_since) * kPi / rays;
+        area += (until * until - unknown_since * unknown_since) * kPi / kGainRays;
       unknown_since = -1.0;
     };
     double end = reach;
-    walkBeam(middle(from), rayDirection(k, rays), reach, [&](Cell c, double entered) {
-      const CellState state = grid.at(c);
+    walkBeam(middle(from), direction, reach, [&](Cell c, double entered) {
+      const CellState state = states.at(c);
       if (isOpaque(state)) {
         end = entered;
         return false;

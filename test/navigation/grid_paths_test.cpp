@@ -93,6 +93,42 @@ TEST(DistanceField, StopsAtItsHorizon) {
   EXPECT_FALSE(field.isReached({60, 10}));
 }
 
+TEST(DistanceField, StopsAtTheCellThatWasAskedForWithTheSamePath) {
+  for (unsigned seed = 1; seed <= 8; ++seed) {
+    const Known known(randomWorld(seed, 160, 0.01), 0.2);
+    Cell start, goal;
+    if (!nearestTraversable(known.space, {40, 40}, 20, start)) continue;
+    if (!nearestTraversable(known.space, {90, 70}, 20, goal)) continue;
+    DistanceField whole, part;
+    whole.search(known.space, kResolution, start);
+    part.search(known.space, kResolution, start, DistanceField::kUnreached, goal);
+    EXPECT_EQ(part.distanceTo(goal), whole.distanceTo(goal));
+    EXPECT_EQ(part.blocksTo(goal), whole.blocksTo(goal));
+    int farther = 0;
+    for (int y = 0; y < 160; ++y) {
+      for (int x = 0; x < 160; ++x) {
+        if (!part.isReached({x, y})) continue;
+        EXPECT_EQ(part.distanceTo({x, y}), whole.distanceTo({x, y}));
+        farther += part.distanceTo({x, y}) > part.distanceTo(goal);
+      }
+    }
+    EXPECT_EQ(farther, 0);
+  }
+}
+
+TEST(DistanceField, NoWayIsShorterThanTheLeastDistance) {
+  for (unsigned seed = 1; seed <= 8; ++seed) {
+    const Known known(randomWorld(seed, 160, 0.005), 0.2);
+    DistanceField field;
+    field.search(known.space, kResolution, {80, 80});
+    if (!field.isStarted()) continue;
+    for (int y = 0; y < 160; ++y) {
+      for (int x = 0; x < 160; ++x)
+        EXPECT_LE(field.leastDistanceTo(FreeSpace::blockOf({x, y})), field.distanceTo({x, y}));
+    }
+  }
+}
+
 TEST(DistanceField, ReachesNothingFromWithinAWall) {
   const Known known({std::vector<std::string>(40, std::string(40, '#'))}, 0.1);
   DistanceField field;

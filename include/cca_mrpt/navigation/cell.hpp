@@ -57,11 +57,63 @@ class TiledGrid {
     return create(c)[offset(c)];
   }
 
+  /// The value of a neighbour, for writing, found from the value itself: no look-up inside a tile.
+  /// Precondition: &value == &(*this)[c], |step| <= 1 in x and y, isStorable(c + step).
+  T& beside(T& value, Cell c, Cell step) {
+    const int x = (c.x & (kSide - 1)) + step.x, y = (c.y & (kSide - 1)) + step.y;
+    if (static_cast<unsigned>(x) >= kSide || static_cast<unsigned>(y) >= kSide)
+      return (*this)[c + step];
+    return *(&value + (step.y * kSide + step.x));
+  }
+
+  /// The values of the eight neighbours, in the order of kNeighbours. Anywhere.
+  std::array<T, 8> around(Cell c) const {
+    const int x = c.x & (kSide - 1), y = c.y & (kSide - 1);
+    const T* centre = x > 0 && y > 0 && x < kSide - 1 && y < kSide - 1 ? tileOf(c) : nullptr;
+    std::array<T, 8> values;
+    if (centre) centre += offset(c);
+    for (std::size_t d = 0; d < kNeighbours.size(); ++d) {
+      const Cell step = kNeighbours[d];
+      values[d] = centre ? centre[step.y * kSide + step.x] : at(c + step);
+    }
+    return values;
+  }
+
+  /// Reads cells near each other, one after the other: a tile is looked up only where the way
+  /// leaves it. What is read is out of date after a write to the grid; make a new one then.
+  class Reader {
+   public:
+    explicit Reader(const TiledGrid& grid) : grid_(grid) {}
+    const T& at(Cell c) {
+      if (!is_in_tile_ || ((c.x ^ last_.x) | (c.y ^ last_.y)) >> kBits) {
+        tile_ = grid_.tileOf(c);
+        is_in_tile_ = true;
+      }
+      last_ = c;
+      return tile_ ? tile_[offset(c)] : grid_.blank_;
+    }
+
+   private:
+    const TiledGrid& grid_;
+    const T* tile_ = nullptr;
+    Cell last_;
+    bool is_in_tile_ = false;
+  };
+
  private:
   static constexpr int kBits = 6;
   static constexpr int kSide = 1 << kBits;
   static std::size_t offset(Cell c) {
     return static_cast<std::size_t>(((c.y & (kSide - 1)) << kBits) | (c.x & (kSide - 1)));
+  }
+
+  /// The first cell of the tile that holds a cell; null where there is no tile.
+  const T* tileOf(Cell c) const {
+    const auto column = static_cast<unsigned>((c.x >> kBits) - lowest_.x);
+    const auto row = static_cast<unsigned>((c.y >> kBits) - lowest_.y);
+    if (column >= columns_ || row >= rows_) return nullptr;
+    const std::vector<T>& tile = tiles_[std::size_t{row} * columns_ + column];
+    return tile.empty() ? nullptr : tile.data();
   }
 
   std::vector<T>& create(Cell c) {

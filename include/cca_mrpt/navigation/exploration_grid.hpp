@@ -38,6 +38,16 @@ class ExplorationGrid {
 
   CellState at(Cell cell) const { return stateOf(evidence_.at(cell)); }
 
+  /// Reads cells near each other, see TiledGrid::Reader.
+  class Reader {
+   public:
+    explicit Reader(const ExplorationGrid& grid) : cells_(grid.evidence_) {}
+    CellState at(Cell cell) { return stateOf(cells_.at(cell)); }
+
+   private:
+    TiledGrid<std::int8_t>::Reader cells_;
+  };
+
   /// Cells whose state the last insert (or the sets since then) has changed; a cell may be listed
   /// more than once.
   const std::vector<Cell>& changed() const { return changed_; }
@@ -67,7 +77,9 @@ class ExplorationGrid {
     return e == kWallGuessed ? CellState::kGuessedWall : CellState::kPresumedWall;
   }
   void add(Cell cell, int weight);
-  void write(Cell cell, Evidence value);
+  void write(Cell cell, Evidence value) { write(cell, evidence_[cell], value); }
+  void write(Cell cell, Evidence& evidence, Evidence value);
+  void passThrough(const Eigen::Vector2d& origin, const Eigen::Vector2d& direction, double length);
   void presumeWalls(const Scan& scan);
   void presumeFree(const Scan& scan);
 
@@ -77,6 +89,7 @@ class ExplorationGrid {
   std::uint32_t scans_ = 0;
   std::size_t revealed_ = 0;
   std::vector<Cell> changed_;
+  std::vector<Eigen::Vector2d> directions_;  ///< of the scan's beams, map frame
   Cell lowest_{1, 1}, highest_{0, 0};
 };
 

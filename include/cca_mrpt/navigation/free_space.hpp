@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -33,6 +34,8 @@ class FreeSpace {
   bool isTraversable(Cell c) const { return cells_.at(c) == kFreeAndClear; }
   /// Like isTraversable, for each cell of a block: bit 4 (y mod 4) + (x mod 4).
   unsigned traversableCells(Cell block) const { return blocks_.at(block); }
+  /// The same of the eight blocks around one, in the order of kNeighbours.
+  std::array<std::uint16_t, 8> traversableAround(Cell block) const { return blocks_.around(block); }
 
   double clearance() const { return clearance_; }
 

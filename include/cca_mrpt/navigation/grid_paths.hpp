@@ -5,6 +5,7 @@
 #include <array>
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <vector>
 
 #include "cca_mrpt/navigation/free_space.hpp"
@@ -23,11 +24,17 @@ class DistanceField {
   /// Searches anew. @param start    a cell; where it is not traversable, the nearest one within
   ///                                half a metre that is; else nothing is reached.
   /// @param horizon  m, paths longer than this are not searched.
+  /// @param until    the search may end as soon as the way to this cell is known; other ways are
+  ///                 then known only as far as they are not longer.
   /// Cost: O(blocks reached), without clearing the last search.
-  void search(const FreeSpace& space, double resolution, Cell start, double horizon = kUnreached);
+  void search(const FreeSpace& space, double resolution, Cell start, double horizon = kUnreached,
+              std::optional<Cell> until = std::nullopt);
 
   /// m, from the start to a cell's block; kUnreached where no known path leads there.
   double distanceTo(Cell c) const;
+  /// m, below which no way to a block can be, wherever the obstacles are. Precondition:
+  /// isStarted().
+  double leastDistanceTo(Cell block) const;
   bool isReached(Cell c) const { return distanceTo(c) < kUnreached; }
 
   /// The blocks of the shortest path, start first; empty where unreached.
@@ -56,10 +63,16 @@ class DistanceField {
     int part;
     std::uint32_t cost;
   };
-  Node& nodeAt(Cell block);
+  /// A block beside another, and what of it can be entered from there.
+  struct Passage {
+    Cell block;
+    unsigned open;   ///< all traversable cells of the block
+    unsigned entry;  ///< one of them
+    std::int8_t from = -1, from_part = -1;
+  };
   const Part* partOf(Cell c) const;
-  void expand(const FreeSpace& space, const Entry& entry);
-  void relax(Cell block, unsigned cells, std::uint32_t cost, int from, int from_part);
+  void expand(const FreeSpace& space, Node& node, const Entry& entry);
+  unsigned relax(Node& node, const Passage& to, std::uint32_t cost);
 
   TiledGrid<Node> nodes_;
   std::uint32_t search_ = 0;

@@ -30,20 +30,19 @@ bool isInView(const ExplorationGrid& grid, Cell from, Cell to);
 
 /// The place of the shortest way from which a cell is in free view.
 ///
-/// Rays go out from the cell and end at occupied cells and presumed walls.
+/// 90 rays go out from the cell and end at occupied cells and presumed walls.
 /// @param range  m, how far off it may be.
-/// @param rays   number of directions tried.
 /// @return       empty where no reached place sees the cell.
-/// Cost: O(rays * range / resolution).
+/// Cost: O(range / resolution).
 std::optional<ViewPoint> nearestViewPoint(const ExplorationGrid& grid, const FreeSpace& space,
                                           const DistanceField& field,
-                                          const TiledGrid<char>& scanned, Cell target, double range,
-                                          int rays = 90);
+                                          const TiledGrid<char>& scanned, Cell target,
+                                          double range);
 
 /// The unknown area in view from a cell if all unknown cells were free [Gonzalez-Banos & Latombe
-/// 2002]: rays end at occupied cells and presumed walls.
+/// 2002]: 72 rays end at occupied cells and presumed walls.
 ///
 /// @return m^2; at most pi range^2.
-double unknownAreaInView(const ExplorationGrid& grid, Cell from, double range, int rays = 72);
+double unknownAreaInView(const ExplorationGrid& grid, Cell from, double range);
 
 }  // namespace cca
