@@ -3,11 +3,8 @@
 # Without logs: the one that mrpt-common installs, and CARMEN logs in $CCA_SHARED_DATA/logs.
 set -eu
 cd "$(dirname "$0")/.."
-export PATH=/usr/bin:/bin:/usr/sbin:/sbin:$PATH
 ./launch_scripts/install_dependencies.sh --tests
-cmake -S . -B build -DPYTHON_EXECUTABLE=/usr/bin/python3 >/dev/null
-cmake --build build --target cca-mrpt -j"$(nproc)"
-program=$(find build -name cca-mrpt -type f -perm -u+x | head -1)
+program=$(launch_scripts/build_program.sh)
 
 worlds=()
 for truth in maps/*.truth.csv; do worlds+=("${truth%.truth.csv}.yaml"); done
@@ -23,4 +20,4 @@ out=$(mktemp -d)
 trap 'rm -rf "$out"' EXIT
 "$program" compare-extractors "${worlds[@]}" ${logs[@]+"${logs[@]}"} --scans 20 --polygons 60 \
   --noise 0,0.01,0.03,0.1 --out "$out"
-python3 launch_scripts/comparison_report.py "$out" docs/comparison.md docs/images
+/usr/bin/python3 launch_scripts/comparison_report.py "$out" docs/comparison.md docs/images

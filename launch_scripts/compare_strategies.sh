@@ -1,14 +1,14 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
 # Every exploration strategy on the same worlds, starts and seeds: a table, and the curves of
-# coverage over distance with their 95 % bands. Needs a build in build/.
+# coverage over distance with their 95 % bands, in $OUT (out/strategies).
 #
 #   compare_strategies.sh [WORLD.yaml ...] [options of 'cca-mrpt compare-strategies']
 #
 # Without worlds: those of maps/, and five random ones.
 set -eu
 cd "$(dirname "$0")/.."
-program=${CCA_MRPT:-build/src/apps/cca-mrpt}
+program=$(launch_scripts/build_program.sh)
 out=${OUT:-out/strategies}
 worlds=()
 while [ $# -gt 0 ] && [[ $1 == *.yaml ]]; do

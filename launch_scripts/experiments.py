@@ -2,10 +2,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Runs the experiments of docs/experiments.md and puts their tables and pictures there.
 
-usage: experiments.py PROGRAM [NAME...] [--worlds WORLD,...]
+usage: experiments.py [NAME...] [--worlds WORLD,...]
 
 NAME: static, dynamic, noise, complexity; default all. Worlds are named as in maps/; default all.
-PROGRAM is cca-mrpt. Runs are deterministic but for the times.
+Installs and builds what is needed first. Runs are deterministic but for the times.
 """
 import argparse
 import json
@@ -148,7 +148,6 @@ EXPERIMENTS = {"static": static, "dynamic": dynamic, "noise": noise, "complexity
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
-    parser.add_argument("program", help="cca-mrpt")
     parser.add_argument("names", nargs="*", metavar="NAME", help=", ".join(EXPERIMENTS))
     parser.add_argument("--worlds", default=",".join(WORLDS), help="default: %(default)s")
     given = parser.parse_args()
@@ -156,9 +155,12 @@ def main():
     unknown = [n for n in given.names if n not in EXPERIMENTS] + [w for w in worlds if w not in WORLDS]
     if unknown:
         parser.error("unknown: " + ", ".join(unknown))
+    built = subprocess.run([os.path.join(ROOT, "launch_scripts", "build_program.sh")],
+                           stdout=subprocess.PIPE, text=True, check=True)
+    program = built.stdout.strip()
     with tempfile.TemporaryDirectory() as tmp:
         for name in given.names or EXPERIMENTS:
-            replace(name, EXPERIMENTS[name](os.path.abspath(given.program), tmp, worlds))
+            replace(name, EXPERIMENTS[name](program, tmp, worlds))
 
 
 main()

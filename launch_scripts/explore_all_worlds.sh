@@ -1,14 +1,14 @@
 #!/usr/bin/env bash
 # Explores every shipped world from three start poses with three seeds, and prints a table:
-#   launch_scripts/explore_all_worlds.sh CCA_MRPT_PROGRAM [OUT_FOLDER] [further options of explore]
+#   launch_scripts/explore_all_worlds.sh [OUT_FOLDER [further options of explore]]
 # WORLDS and SEEDS may be set, e.g. WORLDS="maze office" SEEDS=1.
 # Ends non-zero if a run failed, collided, or saw less than 99 %.
 set -u
 here=$(cd "$(dirname "$0")/.." && pwd)
 export PATH=/usr/bin:/bin:/usr/sbin:/sbin:$PATH
-program=$(realpath "${1:?which cca-mrpt}")
-out=${2:-out/all-worlds}
-shift $(($# > 1 ? 2 : 1))
+program=$("$here/launch_scripts/build_program.sh") || exit 1
+out=${1:-out/all-worlds}
+shift $(($# > 0 ? 1 : 0))
 mkdir -p "$out"
 
 # The world's own start, and two places far from it and from each other.

@@ -8,7 +8,7 @@
 set -u
 cd "$(dirname "$0")/.."
 # ROS's Python programs need the system's Python, whatever else stands first in PATH.
-export PATH=/usr/bin:/bin:/usr/sbin:/sbin:$PATH
+export PATH=/usr/bin:/bin:/usr/sbin:/sbin:$PATH MAKEFLAGS=--no-print-directory
 only=${1:-}
 jobs=$(nproc)
 results=() passed=0 failed=0
@@ -29,9 +29,9 @@ configure_and_build() {  # DIR OPTIONS...
   local dir=$1
   shift
   mkdir -p "$dir"
-  cmake -S . -B "$dir" -DPYTHON_EXECUTABLE=/usr/bin/python3 -DCCA_WARNINGS_AS_ERRORS=$werror "$@" \
+  cmake -S . -B "$dir" -DCCA_WARNINGS_AS_ERRORS=$werror "$@" \
     >"$dir/configure.log" 2>&1 || { cat "$dir/configure.log"; return 1; }
-  cmake --build "$dir" -j"$jobs" -- --no-print-directory 2>&1 | grep -vE '^\[ *[0-9]+%\] (Built|Linking|Generating)|^Scanning'
+  cmake --build "$dir" -j"$jobs" 2>&1 | grep -vE '^\[ *[0-9]+%\] (Built|Linking|Generating)|^Scanning'
   return "${PIPESTATUS[0]}"
 }
 
