@@ -15,6 +15,22 @@ function(cca_layer name)
   cca_options(${target})
 endfunction()
 
+# cca_late_library(NAME SOURCES file... DEPENDS target...)
+#
+# A library libcca_NAME.so that no target links: lateFunction() loads it, from where cca_io lies.
+function(cca_late_library name)
+  cmake_parse_arguments(ARG "" "" "SOURCES;DEPENDS" ${ARGN})
+  set(target cca_${name})
+  add_library(${target} MODULE ${ARG_SOURCES})
+  target_link_libraries(${target} PRIVATE ${ARG_DEPENDS})
+  set_target_properties(${target} PROPERTIES LIBRARY_OUTPUT_DIRECTORY $<TARGET_FILE_DIR:cca_io>)
+  cca_options(${target})
+  add_dependencies(cca_late_libraries ${target})
+  #catkin_lint: ignore_once wrong_install_destination
+  install(TARGETS ${target} LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR})
+endfunction()
+add_custom_target(cca_late_libraries)
+
 # Warnings and sanitizers, for libraries, programs and tests alike.
 function(cca_options target)
   target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Wshadow)

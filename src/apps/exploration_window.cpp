@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "exploration_window.hpp"
 
+#include <mrpt/gui/CDisplayWindow3D.h>
 #include <mrpt/opengl/CBox.h>
 #include <mrpt/opengl/CCylinder.h>
 #include <mrpt/opengl/CPointCloud.h>
 
+#include <chrono>
 #include <cmath>
 #include <cstdlib>
 #include <stdexcept>
@@ -55,9 +57,19 @@ mrpt::opengl::CPointCloud::Ptr returnsOf(const Scan& scan) {
   return points;
 }
 
-}  // namespace
+class MrptWindow : public ExplorationWindow {
+ public:
+  explicit MrptWindow(const World& world);
+  bool isDue() const override;
+  void show(const MapProducts& products, const Simulation& simulation,
+            const Observation& observation, const Action& action) override;
 
-ExplorationWindow::ExplorationWindow(const World& world) {
+ private:
+  mrpt::gui::CDisplayWindow3D::Ptr window_;
+  std::chrono::steady_clock::time_point last_;
+};
+
+MrptWindow::MrptWindow(const World& world) {
   if (!std::getenv("DISPLAY")) {
     throw std::runtime_error("--gui: there is no display (DISPLAY is not set)");
   }
@@ -71,12 +83,12 @@ ExplorationWindow::ExplorationWindow(const World& world) {
   window_->setCameraZoom(static_cast<float>(1.3 * size.maxCoeff()));
 }
 
-bool ExplorationWindow::isDue() const {
+bool MrptWindow::isDue() const {
   return window_->isOpen() && std::chrono::steady_clock::now() - last_ >= kEvery;
 }
 
-void ExplorationWindow::show(const MapProducts& products, const Simulation& simulation,
-                             const Observation& observation, const Action& action) {
+void MrptWindow::show(const MapProducts& products, const Simulation& simulation,
+                      const Observation& observation, const Action& action) {
   last_ = std::chrono::steady_clock::now();
   auto scene = makeScene(products);
   scene->insert(disc(observation.T_map_robot.position(), simulation.parameters().robot.radius, 0.5,
@@ -91,4 +103,9 @@ void ExplorationWindow::show(const MapProducts& products, const Simulation& simu
   window_->forceRepaint();
 }
 
+}  // namespace
 }  // namespace cca::apps
+
+extern "C" cca::apps::ExplorationWindow* openExplorationWindow(const cca::World& world) {
+  return new cca::apps::MrptWindow(world);
+}

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "cca_mrpt/io/icp_localizer.hpp"
+#include "cca_mrpt/io/late_library.hpp"
 #include "cca_mrpt/io/map_products.hpp"
 #include "cca_mrpt/navigation/explorer.hpp"
 #include "cca_mrpt/simulation/simulation.hpp"
@@ -127,6 +128,12 @@ ExplorationRecord::End drive(Simulation& simulation, Explorer& explorer, Explora
           0.0};
 }
 
+std::unique_ptr<ExplorationWindow> openWindow(const World& world) {
+  auto* const open = reinterpret_cast<OpenExplorationWindow*>(
+      lateFunction(kWindowLibrary, kOpenExplorationWindow));
+  return std::unique_ptr<ExplorationWindow>(open(world));
+}
+
 void explore(const ExploreOptions& options, const Parameters& parameters) {
   const auto start = Clock::now();
   Simulation simulation = makeSimulation(options, parameters);
@@ -134,7 +141,7 @@ void explore(const ExploreOptions& options, const Parameters& parameters) {
   Explorer explorer(parameters.mapping, parameters.robot, parameters.exploration);
   ExplorationRecord record(simulation, folder);
   std::unique_ptr<ExplorationWindow> window;
-  if (options.gui) window = std::make_unique<ExplorationWindow>(simulation.world());
+  if (options.gui) window = openWindow(simulation.world());
   std::unique_ptr<Progress> progress;
   if (!options.quiet) progress = std::make_unique<Progress>("exploring");
   auto end = drive(simulation, explorer, record, parameters, progress.get(), window.get());

@@ -37,11 +37,14 @@ void describe(IcpParameters& p, Field&& field) {
         "share of paired points below which the odometry is believed instead");
 }
 
+class IcpMatcher;
+
 /// Where the robot is, by MRPT's ICP-SLAM (CMetricMapBuilderICP): each scan is matched to the
 /// points of the earlier ones, starting from the odometry. Deterministic.
 class IcpLocalizer {
  public:
   /// @param T_map_start  what the first locate() gives.
+  /// @throws std::runtime_error where the library that holds MRPT's ICP cannot be loaded.
   explicit IcpLocalizer(const Pose2& T_map_start, const IcpParameters& parameters = {});
   ~IcpLocalizer();
   IcpLocalizer(IcpLocalizer&&) noexcept;
@@ -53,8 +56,8 @@ class IcpLocalizer {
   Pose2 locate(const Scan& scan, const Pose2& T_robot_sensor, const Pose2& T_odom_robot);
 
  private:
-  struct Builder;
-  std::unique_ptr<Builder> builder_;
+  Pose2 T_map_start_;
+  std::unique_ptr<IcpMatcher> matcher_;
 };
 
 }  // namespace cca

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "icp_matcher.hpp"
+
+#include <mrpt/maps/CSimplePointsMap.h>
+#include <mrpt/obs/CActionCollection.h>
+#include <mrpt/obs/CActionRobotMovement2D.h>
+#include <mrpt/obs/CSensoryFrame.h>
+#include <mrpt/slam/CMetricMapBuilderICP.h>
+
+#include <cmath>
+#include <optional>
+
+#include "cca_mrpt/io/mrpt_scan.hpp"
+
+namespace cca {
+namespace {
+
+constexpr double kRadiansPerDegree = M_PI / 180.0;
+constexpr double kMatchedRange = 1000.0;  // m; the points' own limit: what is no return is unknown
+
+void configure(mrpt::slam::CMetricMapBuilderICP& icp, const IcpParameters& p) {
+  icp.setVerbosityLevel(mrpt::system::LVL_ERROR);
+  mrpt::maps::CSimplePointsMap::TMapDefinition points;
+  points.insertionOpts.minDistBetweenLaserPoints = static_cast<float>(p.point_spacing);
+  points.insertionOpts.fuseWithExisting = false;
+  points.insertionOpts.isPlanarMap = true;
+  points.insertionOpts.addToExistingPointsMap = true;
+  icp.ICP_options.mapInitializers.push_back(points);
+  icp.ICP_options.matchAgainstTheGrid = false;
+  icp.ICP_options.insertionLinDistance = p.insert_distance;
+  icp.ICP_options.insertionAngDistance = p.insert_angle_deg * kRadiansPerDegree;
+  icp.ICP_options.localizationLinDistance = 0.0;
+  icp.ICP_options.localizationAngDistance = 0.0;
+  icp.ICP_options.minICPgoodnessToAccept = p.least_goodness;
+  auto& options = icp.ICP_params;
+  options.ICP_algorithm = mrpt::slam::icpClassic;
+  options.maxIterations = static_cast<unsigned>(p.iterations);
+  options.minAbsStep_trans = 1e-5;
+  options.minAbsStep_rot = 1e-5;
+  options.thresholdDist = p.match_distance;
+  options.thresholdAng = p.match_angle_deg * kRadiansPerDegree;
+  options.ALFA = 0.8;
+  options.smallestThresholdDist = p.smallest_match_distance;
+  options.onlyUniqueRobust = true;
+  options.corresponding_points_decimation = 2;
+  options.doRANSAC = false;
+  options.skip_cov_calculation = true;
+}
+
+class MrptIcpMatcher : public IcpMatcher {
+ public:
+  explicit MrptIcpMatcher(const IcpParameters& parameters) {
+    configure(icp_, parameters);
+    icp_.initialize();
+  }
+
+  Pose2 locate(const Scan& scan, const Pose2& T_robot_sensor, const Pose2& T_odom_robot) override {
+    const Pose2 moved = last_odometry_ ? last_odometry_->inverse() * T_odom_robot : Pose2();
+    last_odometry_ = T_odom_robot;
+    mrpt::obs::CActionRobotMovement2D movement;
+    time_ += 0.1;
+    movement.timestamp = mrpt::Clock::fromDouble(time_);
+    movement.computeFromOdometry(mrpt::poses::CPose2D(moved.x, moved.y, moved.theta), {});
+    mrpt::obs::CActionCollection actions;
+    actions.insert(movement);
+    mrpt::obs::CSensoryFrame frame;
+    frame.insert(std::make_shared<mrpt::obs::CObservation2DRangeScan>(
+        toMrpt(scan, T_robot_sensor, kMatchedRange, time_)));
+    icp_.processActionObservation(actions, frame);
+    const mrpt::poses::CPose2D pose(icp_.getCurrentPoseEstimation()->getMeanVal());
+    return {pose.x(), pose.y(), wrapAngle(pose.phi())};
+  }
+
+ private:
+  mrpt::slam::CMetricMapBuilderICP icp_;
+  std::optional<Pose2> last_odometry_;
+  double time_ = 0.0;  // s; logs may lack it, and the builder insists that it rises
+};
+
+}  // namespace
+}  // namespace cca
+
+extern "C" cca::IcpMatcher* makeIcpMatcher(const cca::IcpParameters& parameters) {
+  return new cca::MrptIcpMatcher(parameters);
+}

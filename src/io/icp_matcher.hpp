@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "cca_mrpt/io/icp_localizer.hpp"
+
+namespace cca {
+
+/// MRPT's side of IcpLocalizer, behind lateFunction().
+class IcpMatcher {
+ public:
+  virtual ~IcpMatcher() = default;
+  /// T_start_robot: the first one is the identity.
+  virtual Pose2 locate(const Scan& scan, const Pose2& T_robot_sensor,
+                       const Pose2& T_odom_robot) = 0;
+};
+
+using MakeIcpMatcher = IcpMatcher*(const IcpParameters&);
+constexpr const char* kIcpLibrary = "libcca_icp.so";
+constexpr const char* kMakeIcpMatcher = "makeIcpMatcher";
+
+}  // namespace cca
