@@ -27,14 +27,16 @@ class ExplorationRecord {
   /// @throws std::runtime_error where the folder cannot be written to.
   ExplorationRecord(const Simulation& simulation, const std::string& folder);
 
-  /// One cycle. @param believed  what the explorer was given. @param step_us  what it took.
-  void add(const Simulation& simulation, const Observation& believed, const Action& action,
-           double step_us);
+  /// One cycle, as it was.
+  void add(const Simulation& simulation, const Action& action);
+  /// The same cycle, as the robot sees it. It shares nothing with add(): both may run side by side.
+  /// @param believed  what the explorer was given. @param scan_us  the time that its work took.
+  void keep(const Observation& believed, const Pose2& T_odom_robot, double scan_us);
 
   /// Writes every file of the folder. @throws std::runtime_error naming the file.
   void write(const Simulation& simulation, const Explorer& explorer, const End& end);
 
-  long scans() const { return static_cast<long>(step_us_.size()); }
+  long scans() const { return scans_; }
   int goals() const { return goals_; }
   Coverage& coverage() { return coverage_; }
   /// What the map's files are made from, as it stands.
@@ -55,10 +57,11 @@ class ExplorationRecord {
   Coverage coverage_;
   std::vector<Look> looks_;
   std::vector<Pose2> believed_way_;
-  std::vector<double> step_us_;
+  std::vector<double> scan_us_;
   std::optional<Pose2> last_look_, last_insertion_;
   std::optional<Eigen::Vector2d> goal_;
   int goals_ = 0;
+  long scans_ = 0;
 };
 
 }  // namespace cca::apps

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "background_work.hpp"
 #include "cca_mrpt/io/icp_localizer.hpp"
 #include "cca_mrpt/io/late_library.hpp"
 #include "cca_mrpt/io/map_products.hpp"
@@ -104,6 +105,7 @@ void showProgress(Progress& progress, const Simulation& simulation, ExplorationR
   progress.show(record.coverage().sofar().value_or(0.0), detail);
 }
 
+// The line map and the files are kept beside the drive, on the second core: neither feeds back.
 ExplorationRecord::End drive(Simulation& simulation, Explorer& explorer, ExplorationRecord& record,
                              const Parameters& parameters, Progress* progress,
                              ExplorationWindow* window) {
@@ -111,19 +113,31 @@ ExplorationRecord::End drive(Simulation& simulation, Explorer& explorer, Explora
   Belief belief(parameters, simulation.T_map_robot());
   const Interruption interruption;
   const auto begin = Clock::now();
+  BackgroundWork beside;
   while (!interruption.requested() && simulation.time() < run.longest_time) {
     Observation observation = simulation.observe();
     belief.replacePose(observation, simulation.T_odom_robot());
     const auto start = Clock::now();
-    const Action action = explorer.step(observation);
-    record.add(simulation, observation, action, 1e6 * secondsSince(start));
-    if (action.status == ExplorationStatus::kFinished) return {true, action.reason, 0.0};
+    const Action action = explorer.navigate(observation);
+    const double navigation_s = secondsSince(start);
+    beside.add([&, observation, navigation_s, T_odom_robot = simulation.T_odom_robot()] {
+      const auto map_start = Clock::now();
+      explorer.map(observation.scan);
+      record.keep(observation, T_odom_robot, 1e6 * (navigation_s + secondsSince(map_start)));
+    });
+    record.add(simulation, action);
+    if (action.status == ExplorationStatus::kFinished) {
+      beside.wait();
+      return {true, action.reason, 0.0};
+    }
     simulation.drive(action.velocity, run.control_period);
     if (window && window->isDue()) {
+      beside.wait();
       window->show(record.products(simulation, explorer), simulation, observation, action);
     }
     if (progress) showProgress(*progress, simulation, record, action, begin);
   }
+  beside.wait();
   return {false, interruption.requested() ? "interrupted" : "the longest simulated time is over",
           0.0};
 }

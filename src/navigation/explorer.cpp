@@ -47,7 +47,11 @@ Explorer::Explorer(const CcaParameters& mapping, const RobotParameters& robot,
       tangent_bug_(robot) {}
 
 Action Explorer::step(const Observation& observation) {
-  line_map_.insert(observation.scan);
+  map(observation.scan);
+  return navigate(observation);
+}
+
+Action Explorer::navigate(const Observation& observation) {
   const Eigen::Vector2d robot = observation.T_map_robot.position();
   if (!start_map_ && robot.allFinite()) start_map_ = robot;
   if (is_paused_) {

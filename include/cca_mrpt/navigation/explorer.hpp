@@ -63,7 +63,13 @@ class Explorer {
   Explorer(const CcaParameters& mapping, const RobotParameters& robot,
            const ExplorerParameters& parameters);
 
+  /// Maps and navigates: all that is to be done with an observation.
   Action step(const Observation& observation);
+
+  /// The two halves of step(). They share nothing: a caller with two cores may run them side by
+  /// side, as long as every scan is mapped, in order, before lineMap() is looked at.
+  void map(const Scan& scan) { line_map_.insert(scan); }
+  Action navigate(const Observation& observation);
 
   /// While paused it maps, and stands still.
   void pause(bool paused) { is_paused_ = paused; }
