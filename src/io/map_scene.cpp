@@ -12,6 +12,7 @@
 #include <stdexcept>
 
 #include "cca_mrpt/io/atomic_file.hpp"
+#include "cca_mrpt/io/gzip_archive.hpp"
 #include "cca_mrpt/io/map_picture.hpp"
 
 namespace cca {
@@ -94,10 +95,8 @@ mrpt::opengl::COpenGLScene::Ptr makeScene(const MapProducts& products) {
 }
 
 void writeScene(const std::string& path, const MapProducts& products) {
-  AtomicFile file(path);
-  if (!makeScene(products)->saveToFile(file.temporary())) {
-    throw std::runtime_error(path + ": cannot be written");
-  }
+  GzipArchive file(path);
+  file.write(*makeScene(products));
   file.commit();
 }
 

@@ -3,7 +3,6 @@
 
 #include <mrpt/config/CConfigFileBase.h>
 #include <mrpt/core/initializer.h>
-#include <mrpt/io/CFileGZOutputStream.h>
 #include <mrpt/obs/CObservation2DRangeScan.h>
 #include <mrpt/opengl/CSetOfLines.h>
 #include <mrpt/opengl/CSetOfObjects.h>
@@ -14,7 +13,7 @@
 #include <stdexcept>
 
 #include "cca_mrpt/evaluation/spatial_index.hpp"
-#include "cca_mrpt/io/atomic_file.hpp"
+#include "cca_mrpt/io/gzip_archive.hpp"
 #include "cca_mrpt/io/line_formats.hpp"
 #include "cca_mrpt/io/mrpt_scan.hpp"
 #include "mrpt_objects.hpp"
@@ -281,12 +280,8 @@ double CLineMap2D::internal_computeObservationLikelihood(
 }
 
 void writeLineMap(const std::string& path, const std::vector<MapLine>& lines) {
-  AtomicFile file(path);
-  {
-    mrpt::io::CFileGZOutputStream stream;
-    if (!stream.open(file.temporary(), 1)) throw std::runtime_error(path + ": cannot be written");
-    mrpt::serialization::archiveFrom(stream) << CLineMap2D({}, lines);
-  }
+  GzipArchive file(path);
+  file.write(CLineMap2D({}, lines));
   file.commit();
 }
 

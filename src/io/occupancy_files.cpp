@@ -1,14 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "cca_mrpt/io/occupancy_files.hpp"
 
-#include <mrpt/io/CFileGZOutputStream.h>
-#include <mrpt/serialization/CArchive.h>
-
 #include <cstdio>
 #include <filesystem>
-#include <stdexcept>
 
 #include "cca_mrpt/io/atomic_file.hpp"
+#include "cca_mrpt/io/gzip_archive.hpp"
 
 namespace cca {
 namespace {
@@ -52,14 +49,8 @@ void writeOccupancyMap(const std::string& path_without_extension,
 }
 
 void writeGridMap(const std::string& path, const mrpt::maps::COccupancyGridMap2D& grid) {
-  AtomicFile file(path);
-  {
-    mrpt::io::CFileGZOutputStream stream;
-    if (!stream.open(file.temporary(), 1)) {
-      throw std::runtime_error(path + ": cannot be written");
-    }
-    mrpt::serialization::archiveFrom(stream) << grid;
-  }
+  GzipArchive file(path);
+  file.write(grid);
   file.commit();
 }
 

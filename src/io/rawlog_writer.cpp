@@ -4,16 +4,11 @@
 #include <mrpt/obs/CActionCollection.h>
 #include <mrpt/obs/CActionRobotMovement2D.h>
 #include <mrpt/obs/CSensoryFrame.h>
-#include <mrpt/serialization/CArchive.h>
-
-#include <stdexcept>
 
 #include "cca_mrpt/io/mrpt_scan.hpp"
 
 namespace cca {
 namespace {
-
-constexpr int kCompression = 1;  // the fastest: zlib's higher levels gain little on ranges
 
 mrpt::obs::CActionCollection wheels(const Pose2& moved, double time) {
   mrpt::obs::CActionRobotMovement2D movement;
@@ -28,11 +23,7 @@ mrpt::obs::CActionCollection wheels(const Pose2& moved, double time) {
 }  // namespace
 
 RawlogWriter::RawlogWriter(const std::string& path, double max_range)
-    : path_(path), file_(path), max_range_(max_range) {
-  if (!stream_.open(file_.temporary(), kCompression)) {
-    throw std::runtime_error(path + ": cannot be written");
-  }
-}
+    : file_(path), max_range_(max_range) {}
 
 void RawlogWriter::insert(const Scan& scan, const Pose2& T_robot_sensor, const Pose2& T_odom_robot,
                           double time) {
@@ -41,13 +32,10 @@ void RawlogWriter::insert(const Scan& scan, const Pose2& T_robot_sensor, const P
   mrpt::obs::CSensoryFrame frame;
   frame.insert(std::make_shared<mrpt::obs::CObservation2DRangeScan>(
       toMrpt(scan, T_robot_sensor, max_range_, time)));
-  auto archive = mrpt::serialization::archiveFrom(stream_);
-  archive << wheels(moved, time) << frame;
+  file_.write(wheels(moved, time));
+  file_.write(frame);
 }
 
-void RawlogWriter::commit() {
-  stream_.close();
-  file_.commit();
-}
+void RawlogWriter::commit() { file_.commit(); }
 
 }  // namespace cca

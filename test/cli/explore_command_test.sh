@@ -65,6 +65,16 @@ expect_error 1 "movers[0]: speed" explore "$maps/two_rooms.yaml" --movers fast.y
 expect_error 2 "castle" generate-world castle
 [ ! -e d ] || fail "a run that never began left a folder"
 
+# A disk that is full (here: no file may grow beyond so many blocks) leaves whole files or none.
+for blocks in 4 64 120; do
+  said=$(trap '' XFSZ; ulimit -f $blocks; "$program" explore "$maps/two_rooms.yaml" --seed 7 --out full --force 2>&1)
+  [ $? -eq 1 ] || fail "no file beyond $blocks blocks: not status 1"
+  case "$said" in *"cca-mrpt: full/"*": cannot be written"*) ;; *) fail "a full disk was not told: $said" ;; esac
+  for file in $(ls -A full); do
+    cmp "full/$file" "a/$file" || fail "$file is half written"
+  done
+done
+
 # Ctrl-C keeps what was mapped, and tells so.
 "$program" explore "$maps/office.yaml" --out e >/dev/null 2>e.txt &
 sleep 1.5

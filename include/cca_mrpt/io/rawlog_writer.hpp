@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <mrpt/io/CFileGZOutputStream.h>
-
 #include <optional>
 #include <string>
 
-#include "cca_mrpt/io/atomic_file.hpp"
+#include "cca_mrpt/io/gzip_archive.hpp"
 #include "cca_mrpt/mapping/scan.hpp"
 
 namespace cca {
@@ -21,6 +19,7 @@ class RawlogWriter {
 
   /// One scan, and where the wheels say that the robot is.
   /// @param time  s, rising; 0 is the start of the run (written as 1970, as simulators do).
+  /// @throws std::runtime_error naming the file, e.g. where the disk is full.
   void insert(const Scan& scan, const Pose2& T_robot_sensor, const Pose2& T_odom_robot,
               double time);
 
@@ -29,9 +28,7 @@ class RawlogWriter {
   void commit();
 
  private:
-  std::string path_;
-  AtomicFile file_;
-  mrpt::io::CFileGZOutputStream stream_;
+  GzipArchive file_;
   double max_range_;
   std::optional<Pose2> last_;
 };
