@@ -52,16 +52,32 @@ constexpr Corner kCorners[4] = {{0x8000, 0x0001, 0x1000, 0x0008},
 
 void DistanceField::search(const FreeSpace& space, double resolution, Cell start, double horizon,
                            std::optional<Cell> until) {
+  begin(space, resolution, start, horizon);
+  grow(space, until);
+}
+
+void DistanceField::begin(const FreeSpace& space, double resolution, Cell start, double horizon) {
   ++search_;
   unit_ = resolution * FreeSpace::kBlock / kStraight;
+  horizon_ = horizon;
   for (auto& bucket : queue_) bucket.clear();
   waiting_ = 0;
+  settled_up_to_ = 0;
   started_ = nearestTraversable(space, start, static_cast<int>(kStartReach / resolution), start_);
   if (!started_) return;
   const Cell first = FreeSpace::blockOf(start_);
   relax(nodes_[first], {first, space.traversableCells(first), FreeSpace::bitOf(start_)}, 0);
-  for (std::uint32_t cost = 0; waiting_ > 0 && cost * unit_ <= horizon; ++cost) {
-    auto& bucket = queue_[cost % queue_.size()];
+}
+
+double DistanceField::reach(const FreeSpace& space, Cell c) {
+  if (!started_ || leastDistanceTo(FreeSpace::blockOf(c)) > horizon_) return kUnreached;
+  grow(space, c);
+  return distanceTo(c);
+}
+
+void DistanceField::grow(const FreeSpace& space, std::optional<Cell> until) {
+  while (waiting_ > 0 && settled_up_to_ * unit_ <= horizon_ && !(until && isReached(*until))) {
+    auto& bucket = queue_[settled_up_to_ % queue_.size()];
     for (std::size_t i = 0; i < bucket.size(); ++i) {
       const Entry entry = bucket[i];
       Node& node = nodes_[entry.block];
@@ -72,7 +88,7 @@ void DistanceField::search(const FreeSpace& space, double resolution, Cell start
     }
     waiting_ -= bucket.size();
     bucket.clear();
-    if (until && isReached(*until)) return;
+    ++settled_up_to_;
   }
 }
 

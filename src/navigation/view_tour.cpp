@@ -92,9 +92,9 @@ Eigen::MatrixXd ViewTour::distances(const ExplorationGrid& grid, const FreeSpace
   int budget = parameters_.fields_per_choice;
   for (Eigen::Index i = 1; i <= n; ++i) {
     distance(0, i) = distance(i, 0) = view(i).distance;
-    const DistanceField* field = i > 1 ? fieldAt(grid, space, view(i).cell, budget) : nullptr;
+    DistanceField* field = i > 1 ? fieldAt(grid, space, view(i).cell, budget) : nullptr;
     for (Eigen::Index j = 1; j < i; ++j) {
-      double way = field ? field->distanceTo(view(j).cell) : DistanceField::kUnreached;
+      double way = field ? field->reach(space, view(j).cell) : DistanceField::kUnreached;
       // Beyond the horizon or the budget: somewhere between the straight line and the way by the
       // robot's place.
       if (way == DistanceField::kUnreached) {
@@ -107,8 +107,8 @@ Eigen::MatrixXd ViewTour::distances(const ExplorationGrid& grid, const FreeSpace
   return distance;
 }
 
-const DistanceField* ViewTour::fieldAt(const ExplorationGrid& grid, const FreeSpace& space,
-                                       Cell cell, int& budget) {
+DistanceField* ViewTour::fieldAt(const ExplorationGrid& grid, const FreeSpace& space, Cell cell,
+                                 int& budget) {
   constexpr int kSameSite = 2;  // blocks
   const Cell block = FreeSpace::blockOf(cell);
   CachedField* entry = nullptr;
@@ -134,7 +134,7 @@ const DistanceField* ViewTour::fieldAt(const ExplorationGrid& grid, const FreeSp
   }
   entry->block = block;
   entry->made = entry->used = choices_;
-  entry->field.search(space, grid.resolution(), cell, parameters_.horizon);
+  entry->field.begin(space, grid.resolution(), cell, parameters_.horizon);
   return &entry->field;
 }
 

@@ -116,6 +116,19 @@ TEST(DistanceField, StopsAtTheCellThatWasAskedForWithTheSamePath) {
   }
 }
 
+TEST(DistanceField, CarriedOnPieceByPieceIsTheSearchInOneGo) {
+  for (unsigned seed = 1; seed <= 8; ++seed) {
+    const Known known(randomWorld(seed, 160, 0.01), 0.2);
+    DistanceField whole, pieces;
+    whole.search(known.space, kResolution, {80, 80}, 6.0);
+    pieces.begin(known.space, kResolution, {80, 80}, 6.0);
+    for (int k = 0; k < 2000; ++k) {
+      const Cell c{(k * 37) % 160, (k * 101) % 160};
+      EXPECT_EQ(pieces.reach(known.space, c), whole.distanceTo(c)) << c.x << ", " << c.y;
+    }
+  }
+}
+
 TEST(DistanceField, NoWayIsShorterThanTheLeastDistance) {
   for (unsigned seed = 1; seed <= 8; ++seed) {
     const Known known(randomWorld(seed, 160, 0.005), 0.2);

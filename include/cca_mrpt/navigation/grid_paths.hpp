@@ -30,7 +30,14 @@ class DistanceField {
   void search(const FreeSpace& space, double resolution, Cell start, double horizon = kUnreached,
               std::optional<Cell> until = std::nullopt);
 
-  /// m, from the start to a cell's block; kUnreached where no known path leads there.
+  /// Begins a search that reach() carries on, only as far as it is asked to.
+  void begin(const FreeSpace& space, double resolution, Cell start, double horizon = kUnreached);
+
+  /// distanceTo(), with the search carried on until that is known. `space` may have grown since.
+  double reach(const FreeSpace& space, Cell c);
+
+  /// m, from the start to a cell's block, as far as the search has come; kUnreached where no known
+  /// path leads there.
   double distanceTo(Cell c) const;
   /// m, below which no way to a block can be, wherever the obstacles are. Precondition:
   /// isStarted().
@@ -71,6 +78,7 @@ class DistanceField {
     std::int8_t from = -1, from_part = -1;
   };
   const Part* partOf(Cell c) const;
+  void grow(const FreeSpace& space, std::optional<Cell> until);
   void expand(const FreeSpace& space, Node& node, const Entry& entry);
   unsigned relax(Node& node, const Passage& to, std::uint32_t cost);
 
@@ -78,7 +86,9 @@ class DistanceField {
   std::uint32_t search_ = 0;
   std::array<std::vector<Entry>, 32> queue_;
   std::size_t waiting_ = 0;
-  double unit_ = 1.0;  ///< m, of a cost
+  double unit_ = 1.0;                ///< m, of a cost
+  double horizon_ = kUnreached;      ///< m
+  std::uint32_t settled_up_to_ = 0;  ///< all ways of less cost are known
   Cell start_;
   bool started_ = false;
 };

@@ -61,8 +61,8 @@ class ViewTour {
   Eigen::MatrixXd distances(const ExplorationGrid& grid, const FreeSpace& space,
                             const std::vector<ViewPoint>& view_points,
                             const std::vector<Stop>& stops);
-  const DistanceField* fieldAt(const ExplorationGrid& grid, const FreeSpace& space, Cell cell,
-                               int& budget);
+  DistanceField* fieldAt(const ExplorationGrid& grid, const FreeSpace& space, Cell cell,
+                         int& budget);
 
   ViewTourParameters parameters_;
   std::vector<CachedField> fields_;
