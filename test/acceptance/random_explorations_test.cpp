@@ -1,0 +1,190 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// Whole explorations of random small places, cluttered and narrow: every one ends by itself, and
+// the robot touches nothing.
+//
+// CCA_RANDOM_EXPLORATIONS sets how many places each test goes through, CCA_RANDOM_FIRST the first
+// seed, to share them among processes; docs/exploration.md has the results of 1000.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <string>
+
+#include "cca_mrpt/io/parameters.hpp"
+#include "cca_mrpt/simulation/coverage.hpp"
+#include "cca_mrpt/simulation/floor_plan.hpp"
+#include "cca_mrpt/simulation/simulation.hpp"
+
+namespace cca {
+namespace {
+
+int setting(const char* name, int usual) {
+  const char* text = std::getenv(name);
+  return text ? std::atoi(text) : usual;
+}
+
+/// 8 x 6 m: one or two inner walls with a door each, straight or turned boxes, and pillars. Nothing
+/// keeps passages wide: some are too narrow for the robot, and parts may be cut off.
+World randomPlace(int seed) {
+  Random random(static_cast<std::uint64_t>(seed));
+  FloorPlan plan;
+  plan.name = "place " + std::to_string(seed);
+  plan.width = 8.0;
+  plan.height = 6.0;
+  plan.addOuterWalls(0.1);
+  const double door = random.uniform(0.3, 4.0);
+  const double wall = random.uniform(2.5, 5.5);
+  plan.addWall({wall, 0.0}, {wall, 6.0}, 0.1, {{door, door + random.uniform(0.5, 1.4)}});
+  if (random.uniform() < 0.6) {
+    const double beside = random.uniform(0.3, wall - 1.3), height = random.uniform(2.0, 4.0);
+    plan.addWall({0.0, height}, {wall, height}, 0.1, {{beside, beside + random.uniform(0.5, 1.0)}});
+  }
+  const int pieces = random.integer(0, 9);
+  for (int i = 0; i < pieces; ++i) {
+    const Eigen::Vector2d centre(random.uniform(0.3, 7.7), random.uniform(0.3, 5.7));
+    if (random.uniform() < 0.25) {
+      plan.addDisc(centre, random.uniform(0.05, 0.35));
+    } else {
+      const Eigen::Vector2d size(random.uniform(0.1, 1.4), random.uniform(0.1, 0.8));
+      plan.addTurnedBox(centre, size, random.uniform() < 0.5 ? 0.0 : random.uniform(0.0, M_PI));
+    }
+  }
+  return rasterise(plan, 0.05);
+}
+
+/// A place with this much room, or none after a thousand tries.
+std::optional<Eigen::Vector2d> randomStand(const World& world, double room, Random& random) {
+  for (int tries = 0; tries < 1000; ++tries) {
+    const Eigen::Vector2d p(random.uniform(0.4, 7.6), random.uniform(0.4, 5.6));
+    if (world.clearance(p, room) >= room) return p;
+  }
+  return {};
+}
+
+std::vector<Mover> randomWalkers(const World& world, const Eigen::Vector2d& start, int count,
+                                 Random& random) {
+  std::vector<Mover> walkers;
+  for (int i = 0; i < count; ++i) {
+    Mover walker;
+    walker.body.half_size.setConstant(random.uniform(0.1, 0.25));
+    walker.speed = random.uniform(0.2, 1.0);
+    walker.gap = i % 2 ? 0.4 : 0.0;  // every other one is blind
+    const auto p = randomStand(world, walker.body.radius() + 0.05, random);
+    if (!p || (*p - start).norm() < 0.5 + walker.body.radius()) continue;
+    walker.body.T_map_body = {p->x(), p->y(), 0.0};
+    walkers.push_back(walker);
+  }
+  return walkers;
+}
+
+struct Outcome {
+  int runs = 0, ended = 0, collisions = 0, mover_contacts = 0;
+  double distance = 0.0, time = 0.0, least_coverage = 1.0, coverage = 0.0;
+};
+
+/// Ten minutes are twenty times what the slowest place takes without noise and movers.
+constexpr double kLongestTime = 1800.0;
+
+struct Trial {
+  LaserParameters laser;
+  int movers = 0;
+};
+
+void explore(int seed, const Trial& trial, Outcome& outcome) {
+  SCOPED_TRACE("seed " + std::to_string(seed));
+  const World world = randomPlace(seed);
+  Random random(static_cast<std::uint64_t>(seed) + 1000000);
+  const auto start = randomStand(world, 0.36, random);
+  if (!start) return;
+  const Parameters parameters;
+  SimulationParameters simulated;
+  simulated.seed = static_cast<std::uint64_t>(seed);
+  simulated.laser = trial.laser;
+  const Pose2 T_map_start{start->x(), start->y(), random.uniform(-M_PI, M_PI)};
+  Simulation simulation(world, T_map_start, simulated,
+                        randomWalkers(world, *start, trial.movers, random));
+  Explorer explorer(parameters.mapping, parameters.robot, parameters.exploration);
+  Coverage coverage(simulation.world(), *start, simulated.robot.radius, simulated.laser.range);
+  bool finished = false;
+  while (!finished && simulation.time() < kLongestTime) {
+    const Action action = explorer.step(simulation.observe());
+    coverage.look(simulation.T_map_robot());
+    finished = action.status == ExplorationStatus::kFinished;
+    if (!finished) simulation.drive(action.velocity, parameters.run.control_period);
+  }
+  const double seen = coverage.curve().back();
+  EXPECT_TRUE(finished) << "not after " << simulation.distance() << " m";
+  EXPECT_EQ(simulation.collisions(), 0);
+  ++outcome.runs;
+  outcome.ended += finished;
+  outcome.collisions += simulation.collisions();
+  outcome.mover_contacts += simulation.moverContacts();
+  outcome.distance += simulation.distance();
+  outcome.time += simulation.time();
+  outcome.coverage += seen;
+  outcome.least_coverage = std::min(outcome.least_coverage, seen);
+  if (std::getenv("CCA_RANDOM_VERBOSE")) {
+    std::printf("seed %d: %s, %.1f m, %.0f s, %.4f seen, %d collisions, %d mover contacts\n", seed,
+                finished ? "ended" : "HANGS", simulation.distance(), simulation.time(), seen,
+                simulation.collisions(), simulation.moverContacts());
+    std::fflush(stdout);
+  }
+}
+
+template <class TrialOf>
+void exploreAll(int usual, TrialOf&& trial_of) {
+  Outcome outcome;
+  const int first = setting("CCA_RANDOM_FIRST", 0);
+  const int count = setting("CCA_RANDOM_EXPLORATIONS", usual);
+  for (int seed = first; seed < first + count; ++seed) explore(seed, trial_of(seed), outcome);
+  std::printf(
+      "%d runs, %d ended, %d collisions, %d contacts by movers with the standing robot; "
+      "%.1f km, %.1f h; seen %.4f on average, %.4f at least\n",
+      outcome.runs, outcome.ended, outcome.collisions, outcome.mover_contacts,
+      outcome.distance / 1e3, outcome.time / 3600.0, outcome.coverage / std::max(outcome.runs, 1),
+      outcome.least_coverage);
+  EXPECT_GT(outcome.runs, 0);
+}
+
+constexpr double kRanges[] = {4.0, 8.0, 12.0};
+
+TEST(RandomExplorations, EndAndTouchNothing) {
+  exploreAll(4, [](int seed) {
+    Trial trial;
+    trial.laser.range = kRanges[seed % 3];
+    return trial;
+  });
+}
+
+TEST(RandomExplorations, InNoiseEndAndTouchNothing) {
+  exploreAll(2, [](int seed) {
+    Trial trial;
+    trial.laser.range = kRanges[seed % 3];
+    trial.laser.range_noise = 0.01 * (1 + seed % 5);
+    return trial;
+  });
+}
+
+TEST(RandomExplorations, AmongMoversEndAndTheDrivingRobotTouchesNobody) {
+  exploreAll(2, [](int seed) {
+    Trial trial;
+    trial.laser.range = kRanges[seed % 3];
+    trial.movers = 1 + seed % 10;
+    return trial;
+  });
+}
+
+TEST(RandomExplorations, WithANarrowFieldOfViewEndAndTouchNothing) {
+  exploreAll(2, [](int seed) {
+    constexpr double kFieldsOfView[] = {90.0, 120.0, 180.0, 240.0, 270.0};
+    Trial trial;
+    trial.laser.range = kRanges[seed % 3];
+    trial.laser.field_of_view_deg = kFieldsOfView[seed % 5];
+    trial.laser.beams = 1 + static_cast<int>(trial.laser.field_of_view_deg);
+    return trial;
+  });
+}
+
+}  // namespace
+}  // namespace cca
