@@ -11,6 +11,7 @@
 namespace cca {
 
 /// The objects of a file of MRPT's, zipped or not, one by one, up to the first that cannot be read.
+/// One that claims more memory than a file of this size can fill is one of these.
 class MrptObjects {
  public:
   /// @throws std::runtime_error naming the file.
@@ -27,6 +28,7 @@ class MrptObjects {
 
  private:
   mrpt::io::CFileGZInputStream file_;
+  std::size_t most_memory_;  ///< bytes, for one object
   std::string fault_;
   bool ended_ = false;
 };

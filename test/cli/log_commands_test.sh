@@ -137,17 +137,32 @@ refuses 2 "LOG" "$program" info
 refuses 1 "cannot be made a folder" "$program" map room.log --out room.log
 [ ! -e letter ] || { echo "FAILED: a folder was made for a log that is none"; failed=1; }
 
-# Ctrl-C saves what there is. Forty rooms in a row keep the program busy long enough.
+# Ctrl-C while the log is opened leaves nothing; while it is mapped, what there is. Four hundred
+# rooms in a row keep the program busy long enough for both.
 for _ in $(seq 400); do cat room.log; done >long.log
-"$program" map long.log --out interrupted >last.out 2>last.err &
-pid=$!
-sleep 1
-kill -INT $pid
-wait $pid
-status=$?
-if [ -s interrupted/summary.json ] && grep -q '"finished": true' interrupted/summary.json; then
+interrupt_when() {  # interrupt_when FOLDER CONDITION...: maps long.log to FOLDER
+  local folder=$1
+  shift
+  "$program" map long.log --out "$folder" >last.out 2>last.err &
+  pid=$!
+  for _ in $(seq 600); do "$@" && break; sleep 0.05; done
+  kill -INT $pid 2>/dev/null
+  wait $pid
+  status=$?
+}
+is_read() { ls -l /proc/$pid/fd 2>/dev/null | grep -q long.log; }
+interrupt_when opened is_read
+if [ -e opened ]; then
+  echo "the log was open before it could be interrupted"
+elif [ $status -ne 1 ] || ! grep -q "no map was begun" last.err; then
+  echo "FAILED: a log that was being opened (status $status) did not end cleanly"
+  cat last.err
+  failed=1
+fi
+interrupt_when interrupted test -d interrupted
+if grep -q '"finished": true' interrupted/summary.json 2>/dev/null; then
   echo "the log was mapped before it could be interrupted"
-elif [ $status -ne 1 ] || ! grep -q interrupted last.err || [ ! -s interrupted/lines.csv ]; then
+elif [ $status -ne 1 ] || ! grep -q "interrupted after" last.err || [ ! -s interrupted/lines.csv ]; then
   echo "FAILED: an interrupted run (status $status) did not save its map"
   cat last.err
   failed=1

@@ -2,10 +2,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <mrpt/io/CFileGZOutputStream.h>
+#include <mrpt/io/CMemoryStream.h>
 #include <mrpt/maps/CSimpleMap.h>
 #include <mrpt/obs/CObservationOdometry.h>
 #include <mrpt/poses/CPose3DPDFGaussian.h>
 #include <mrpt/serialization/CArchive.h>
+#include <sys/resource.h>
 
 #include <cmath>
 #include <filesystem>
@@ -169,6 +171,40 @@ TEST(Rawlog, TruncatedLogGivesWhatCouldBeRead) {
   EXPECT_GT(scans, 100);
   EXPECT_LT(scans, 300);
   EXPECT_NE(log->warnings(), "");
+}
+
+/// Two scans as a rawlog, the second of which claims another number of beams than it has.
+std::string logThatClaims(std::uint32_t beams) {
+  mrpt::io::CMemoryStream stream;
+  auto archive = mrpt::serialization::archiveFrom(stream);
+  archive << toMrpt(someScan(), {}, kMaxRange);
+  const std::size_t second = stream.getTotalBytesCount();
+  archive << toMrpt(someScan(), {}, kMaxRange);
+  std::string bytes(static_cast<const char*>(stream.getRawBufferData()),
+                    stream.getTotalBytesCount());
+  const float first_ranges[] = {1.0F, 2.5F};  // of someScan(); the count stands before them
+  const std::string ranges(reinterpret_cast<const char*>(first_ranges), sizeof first_ranges);
+  const std::size_t at = bytes.find(ranges, second) - sizeof beams;
+  bytes.replace(at, sizeof beams, reinterpret_cast<const char*>(&beams), sizeof beams);
+  return bytes;
+}
+
+TEST(Rawlog, AnObjectThatClaimsGigabytesIsRefusedBeforeItTakesThem) {
+#ifdef __SANITIZE_ADDRESS__
+  GTEST_SKIP() << "the sanitizer ends a program that asks for too much";
+#endif
+  const TemporaryFolder folder;
+  const std::string path = folder / "claims.rawlog";
+  for (const std::uint32_t beams : {100'000'000U, 2'000'000'000U, 4'294'967'295U}) {
+    std::ofstream(path, std::ios::binary) << logThatClaims(beams);
+    const auto log = openLog(path);
+    EXPECT_TRUE(log->next().has_value());
+    EXPECT_FALSE(log->next().has_value());
+    EXPECT_THAT(log->warnings(), testing::HasSubstr("claims more"));
+  }
+  rusage used{};
+  getrusage(RUSAGE_SELF, &used);
+  EXPECT_LT(used.ru_maxrss, 400'000);  // kB
 }
 
 TEST(SimpleMap, GivesStoredPosesAsCorrected) {
