@@ -2,7 +2,10 @@
 #include "cca_mrpt/navigation/explorer.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
+
+#include "cca_mrpt/navigation/motion_control.hpp"
 
 namespace cca {
 namespace {
@@ -12,6 +15,8 @@ constexpr double kHome = 0.3;              // m
 constexpr double kReachedWayPoint = 0.15;  // m, a little more than Tangent Bug stops at
 // A goal's time: that of its path at a fifth of full speed, and some for turning and giving way.
 constexpr double kSlowest = 0.2, kGrace = 30.0;  // s
+
+constexpr double kLookAround = 0.5;  // of the full turning rate
 
 // Of the safety margin, kept by paths: narrow passages are worth a try, and Tangent Bug, which has
 // the last word, keeps more of it where there is room.
@@ -28,6 +33,17 @@ GlobalPlannerParameters plannerParameters(const RobotParameters& robot,
   return planner;
 }
 
+/// Whether a beam goes where a place lies, however far.
+bool looksTowards(const Scan& scan, const Eigen::Vector2d& p_map) {
+  if (scan.size() == 0) return false;
+  const Pose2& T = scan.T_map_sensor;
+  const Eigen::Vector2d to = p_map - T.position();
+  const double last = scan.bearing(scan.size() - 1);
+  const double middle = 0.5 * (scan.angle_min + last), half = 0.5 * std::abs(last - scan.angle_min);
+  const double off = wrapAngle(std::atan2(to.y(), to.x()) - T.theta - middle);
+  return std::abs(off) <= half + std::abs(scan.angle_increment);
+}
+
 /// The first way-point that is not reached yet. One that the robot stands at would hold it there:
 /// Tangent Bug has arrived, and the next path may well begin with the same corner.
 std::size_t nextWayPoint(const std::vector<Eigen::Vector2d>& path, const Eigen::Vector2d& robot) {
@@ -41,7 +57,7 @@ std::size_t nextWayPoint(const std::vector<Eigen::Vector2d>& path, const Eigen::
 Explorer::Explorer(const CcaParameters& mapping, const RobotParameters& robot,
                    const ExplorerParameters& parameters)
     : parameters_(parameters),
-      max_speed_(robot.max_linear_velocity),
+      robot_(robot),
       line_map_(mapping),
       planner_(plannerParameters(robot, parameters)),
       tangent_bug_(robot) {}
@@ -72,6 +88,8 @@ Action Explorer::explore(const Observation& observation) {
     }
     return {{}, {}, ExplorationStatus::kFinished, plan.reason};
   }
+  if (plan.look_around) return lookAround(observation);
+  looks_around_since_.reset();
   if (plan.path.empty()) return {{}, {}, ExplorationStatus::kExploring, "waiting for a scan"};
   Action action{{}, plan.path.back(), ExplorationStatus::kExploring, plan.reason};
   const std::size_t next = parameters_.path == "paper"
@@ -84,8 +102,24 @@ Action Explorer::explore(const Observation& observation) {
     planner_.setGoalAside();
     way_point_.reset();
   } else if (state == TangentBugState::kReached && is_last) {
-    planner_.noteArrival();
+    if (looksTowards(observation.scan, plan.look_at)) {
+      planner_.noteArrival();
+    } else {
+      const Eigen::Vector2d look_at_robot = observation.T_map_robot.inverse() * plan.look_at;
+      action.velocity.angular = velocityTowards(look_at_robot, true, robot_).angular;
+    }
   }
+  return action;
+}
+
+// A disc may always turn. Should something hold it nevertheless, then not for ever.
+Action Explorer::lookAround(const Observation& observation) {
+  const Eigen::Vector2d robot = observation.T_map_robot.position();
+  if (!looks_around_since_) looks_around_since_ = observation.time;
+  if (observation.time - *looks_around_since_ > kGrace) planner_.noteLookAround(robot);
+  Action action{{}, robot, ExplorationStatus::kExploring, planner_.plan().reason};
+  action.velocity = driveTo(robot, observation);
+  action.velocity.angular = kLookAround * robot_.max_angular_velocity;
   return action;
 }
 
@@ -98,7 +132,8 @@ Action Explorer::goHome(const Observation& observation) {
   const auto path = planner_.pathTo(robot, *start_map_);
   if (goal_number_ != -2) {
     goal_number_ = -2;
-    deadline_ = observation.time + kGrace + pathLength(path) / (kSlowest * max_speed_);
+    deadline_ =
+        observation.time + kGrace + pathLength(path) / (kSlowest * robot_.max_linear_velocity);
   }
   if (path.empty() || observation.time > deadline_)
     return {{}, {}, ExplorationStatus::kFinished, why + "; the way back to the start is blocked"};
@@ -120,7 +155,8 @@ Velocity Explorer::driveTo(const Eigen::Vector2d& way_point, const Observation& 
 bool Explorer::isOverdue(const std::vector<Eigen::Vector2d>& path, const Observation& observation) {
   if (goal_number_ != planner_.goals()) {
     goal_number_ = planner_.goals();
-    deadline_ = observation.time + kGrace + pathLength(path) / (kSlowest * max_speed_);
+    deadline_ =
+        observation.time + kGrace + pathLength(path) / (kSlowest * robot_.max_linear_velocity);
   }
   return observation.time > deadline_;
 }

@@ -20,6 +20,27 @@ constexpr double kPassed = 0.1;                  // m, of a corner
 constexpr double kMuchShorter = 0.5;             // m
 constexpr int kSameTarget = 3;                   // cells
 
+/// The directions (map frame) that a scan looks into, each of 32 sectors a bit.
+std::uint32_t directionsOf(const Scan& scan) {
+  constexpr int kSectors = 32;
+  constexpr std::uint32_t kAll = 0xFFFFFFFF;
+  constexpr double kSector = 2.0 * M_PI / kSectors;
+  const double span = static_cast<double>(scan.size()) * std::abs(scan.angle_increment);
+  if (scan.size() == 0 || !std::isfinite(span)) return 0;
+  if (span >= 2.0 * M_PI - 0.5 * std::abs(scan.angle_increment)) return kAll;
+  const double last = scan.bearing(scan.size() - 1);
+  const double from = scan.T_map_sensor.theta + std::min(scan.angle_min, last);
+  if (!std::isfinite(from)) return 0;
+  std::uint32_t directions = 0;
+  const double lowest = std::floor(from / kSector);
+  const int count = static_cast<int>(std::floor((from + span) / kSector) - lowest);
+  for (int k = 0; k <= count; ++k) {
+    const double sector = std::fmod(lowest + k, kSectors);
+    directions |= 1u << static_cast<int>(sector < 0.0 ? sector + kSectors : sector);
+  }
+  return directions;
+}
+
 bool isInside(const std::vector<Eigen::Vector2d>& polygon, const Eigen::Vector2d& p) {
   bool inside = false;
   for (std::size_t i = 0, j = polygon.size() - 1; i < polygon.size(); j = i++) {
@@ -43,7 +64,11 @@ void GlobalPlanner::observe(const Scan& scan, const Eigen::Vector2d& robot_map) 
   grid_.insert(scan);
   takeChanges();
   if (!isOnGrid(robot_map)) return;
-  scanned_[FreeSpace::blockOf(grid_.cellOf(robot_map))] = 1;
+  const Cell block = FreeSpace::blockOf(grid_.cellOf(robot_map));
+  if (scanned_.at(block)) return;
+  std::uint32_t& looked = looked_[block];
+  looked |= directionsOf(scan);
+  if (looked == 0xFFFFFFFF) scanned_[block] = 1;
 }
 
 bool GlobalPlanner::isOnGrid(const Eigen::Vector2d& p_map) const {
@@ -143,6 +168,7 @@ void GlobalPlanner::decide(const Eigen::Vector2d& robot_map) {
     plan_.path = shortestPath(space_, grid_.resolution(), field_, chosen.cell);
     if (!goal_ || goal_->target != chosen.target) ++goals_;
     goal_ = chosen;
+    plan_.look_at = grid_.centreOf(chosen.target);
     if (!plan_.path.empty()) {
       if (plan_.path.size() == 1) plan_.path.insert(plan_.path.begin(), robot_map);
       plan_.reason = "to see what is behind a frontier";
@@ -152,6 +178,11 @@ void GlobalPlanner::decide(const Eigen::Vector2d& robot_map) {
     view_points_.erase(view_points_.begin() + static_cast<std::ptrdiff_t>(*best));
   }
   goal_.reset();
+  if (!scanned_.at(FreeSpace::blockOf(grid_.cellOf(robot_map)))) {
+    plan_.look_around = true;
+    plan_.reason = "to look around";
+    return;
+  }
   plan_.finished = true;
   plan_.reason = field_.isStarted()
                      ? "no reachable frontier of useful size is left"
@@ -238,6 +269,10 @@ void GlobalPlanner::setGoalAside() {
 
 void GlobalPlanner::noteArrival() {
   if (goal_) scanned_[FreeSpace::blockOf(goal_->cell)] = 1;
+}
+
+void GlobalPlanner::noteLookAround(const Eigen::Vector2d& robot_map) {
+  if (isOnGrid(robot_map)) scanned_[FreeSpace::blockOf(grid_.cellOf(robot_map))] = 1;
 }
 
 // Before it ends, what was set aside gets another chance if enough has been seen since then.

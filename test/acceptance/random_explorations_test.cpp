@@ -107,10 +107,12 @@ void explore(int seed, const Trial& trial, Outcome& outcome) {
   Explorer explorer(parameters.mapping, parameters.robot, parameters.exploration);
   Coverage coverage(simulation.world(), *start, simulated.robot.radius, simulated.laser.range);
   bool finished = false;
+  std::string reason;
   while (!finished && simulation.time() < kLongestTime) {
     const Action action = explorer.step(simulation.observe());
     coverage.look(simulation.T_map_robot());
     finished = action.status == ExplorationStatus::kFinished;
+    reason = action.reason;
     if (!finished) simulation.drive(action.velocity, parameters.run.control_period);
   }
   const double seen = coverage.curve().back();
@@ -125,9 +127,9 @@ void explore(int seed, const Trial& trial, Outcome& outcome) {
   outcome.coverage += seen;
   outcome.least_coverage = std::min(outcome.least_coverage, seen);
   if (std::getenv("CCA_RANDOM_VERBOSE")) {
-    std::printf("seed %d: %s, %.1f m, %.0f s, %.4f seen, %d collisions, %d mover contacts\n", seed,
-                finished ? "ended" : "HANGS", simulation.distance(), simulation.time(), seen,
-                simulation.collisions(), simulation.moverContacts());
+    std::printf("seed %d: %s, %.1f m, %.0f s, %.4f seen, %d collisions, %d mover contacts; %s\n",
+                seed, finished ? "ended" : "HANGS", simulation.distance(), simulation.time(), seen,
+                simulation.collisions(), simulation.moverContacts(), reason.c_str());
     std::fflush(stdout);
   }
 }

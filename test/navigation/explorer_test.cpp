@@ -13,24 +13,37 @@ const KnownWorld kRooms{{"##############", "#......#.....#", "#......#.....#", "
                         10};
 const Pose2 kStart{1.0, 1.0, 0.0};
 
+/// The beams of a scan up to `half` rad from straight ahead.
+Scan ahead(const Scan& scan, double half) {
+  Scan narrow = scan;
+  narrow.ranges.clear();
+  for (std::size_t i = 0; i < scan.size(); ++i) {
+    if (std::abs(scan.bearing(i)) > half) continue;
+    if (narrow.ranges.empty()) narrow.angle_min = scan.bearing(i);
+    narrow.ranges.push_back(scan.ranges[i]);
+  }
+  return narrow;
+}
+
 /// A robot that drives exactly as it is told, at 10 Hz.
 struct Driver {
   Explorer explorer;
   Pose2 T_map_robot = kStart;
   Velocity velocity;
   double time = 0.0, distance = 0.0;
+  double half_view = M_PI;  // rad
 
   explicit Driver(const ExplorerParameters& parameters = {}) : explorer({}, {}, parameters) {}
 
   Action step() {
-    const Action action =
-        explorer.step({kRooms.scanFrom(T_map_robot, 4.0), T_map_robot, velocity, time});
+    const Scan scan = ahead(kRooms.scanFrom(T_map_robot, 4.0), half_view);
+    const Action action = explorer.step({scan, T_map_robot, velocity, time});
     velocity = action.velocity;
     constexpr double kPeriod = 0.1;
-    const Eigen::Vector2d ahead = kPeriod * velocity.linear * T_map_robot.heading();
-    T_map_robot = {T_map_robot.x + ahead.x(), T_map_robot.y + ahead.y(),
+    const Eigen::Vector2d way = kPeriod * velocity.linear * T_map_robot.heading();
+    T_map_robot = {T_map_robot.x + way.x(), T_map_robot.y + way.y(),
                    wrapAngle(T_map_robot.theta + kPeriod * velocity.angular)};
-    distance += ahead.norm();
+    distance += way.norm();
     time += kPeriod;
     return action;
   }
@@ -51,6 +64,18 @@ TEST(Explorer, ExploresTwoRoomsFinishesAndSaysWhy) {
   EXPECT_EQ(driver.explorer.grid().at({120, 20}), CellState::kFree);
   EXPECT_LT(driver.distance, 25.0);
   EXPECT_EQ(driver.velocity.linear, 0.0);
+}
+
+// It begins with its nose to a wall: nothing that it could stand on is known until it turns.
+TEST(Explorer, WithANarrowViewLooksAroundBeforeItSaysThatNothingIsLeft) {
+  for (const double half_view : {0.4, 0.8, 1.57, 2.4}) {
+    Driver driver;
+    driver.half_view = half_view;
+    driver.T_map_robot = {0.9, 1.0, M_PI};
+    EXPECT_EQ(driver.run().status, ExplorationStatus::kFinished);
+    for (const Cell c : {Cell{120, 20}, Cell{120, 50}, Cell{30, 50}})
+      EXPECT_EQ(driver.explorer.grid().at(c), CellState::kFree) << half_view << ": " << c.x;
+  }
 }
 
 TEST(Explorer, AlsoFinishesByTangentBugAlone) {

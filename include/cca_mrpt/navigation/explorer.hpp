@@ -87,19 +87,21 @@ class Explorer {
 
  private:
   Action explore(const Observation& observation);
+  Action lookAround(const Observation& observation);
   Action goHome(const Observation& observation);
   Velocity driveTo(const Eigen::Vector2d& way_point, const Observation& observation);
   bool isOverdue(const std::vector<Eigen::Vector2d>& path, const Observation& observation);
 
   ExplorerParameters parameters_;
-  double max_speed_;
+  RobotParameters robot_;
   LineMap line_map_;
   GlobalPlanner planner_;
   TangentBug tangent_bug_;
   std::optional<Eigen::Vector2d> start_map_;
   std::optional<Eigen::Vector2d> way_point_;
-  int goal_number_ = -1;   ///< of the planner, that the deadline is for
-  double deadline_ = 0.0;  ///< s
+  int goal_number_ = -1;                      ///< of the planner, that the deadline is for
+  double deadline_ = 0.0;                     ///< s
+  std::optional<double> looks_around_since_;  ///< s
   bool is_paused_ = false;
   bool is_returning_ = false;
   std::string why_finished_;

@@ -31,6 +31,10 @@ struct Plan {
   /// m, map frame, from the robot to the goal: corner points, two at least. Empty where finished,
   /// and before the first scan that shows something.
   std::vector<Eigen::Vector2d> path;
+  Eigen::Vector2d look_at = Eigen::Vector2d::Zero();  ///< m, map frame: what the goal is to show
+  /// No goal is known, but not all directions have been looked into from here (a laser of less than
+  /// 360 degrees): the robot shall turn on the spot.
+  bool look_around = false;
   std::string reason;
 };
 
@@ -39,8 +43,8 @@ struct Plan {
 ///
 /// A goal is a place to look from: the one of the shortest way that sees a point half a metre and
 /// more behind a frontier. It is given up as soon as that point has been seen, or the way to it is
-/// blocked. Places that a scan was taken from are never goals again; a goal that showed nothing new
-/// is set aside until the map has changed.
+/// blocked. Places from which all directions have been looked into are never goals again; a goal
+/// that showed nothing new is set aside until the map has changed.
 class GlobalPlanner {
  public:
   /// @throws std::runtime_error for an unknown strategy.
@@ -62,6 +66,9 @@ class GlobalPlanner {
   /// Says that the robot is as near to the goal as it gets: if there is nothing new to see from
   /// here, the goal is not tried again until the map has changed.
   void noteArrival();
+
+  /// Says that nothing more will be seen from here, wherever the laser has looked.
+  void noteLookAround(const Eigen::Vector2d& robot_map);
 
   /// The shortest known way from one place to another; empty where there is none.
   std::vector<Eigen::Vector2d> pathTo(const Eigen::Vector2d& robot_map,
@@ -108,7 +115,8 @@ class GlobalPlanner {
   FreeSpace space_;
   FrontierCells frontier_cells_;
   DistanceField field_;
-  TiledGrid<char> scanned_{0};  ///< blocks that a scan was taken from
+  TiledGrid<char> scanned_{0};          ///< blocks from which all directions were looked into
+  TiledGrid<std::uint32_t> looked_{0};  ///< the directions, a bit each, while some are missing
   ViewTour view_tour_;
   std::vector<ViewPoint> view_points_;
   std::vector<Aside> aside_;
