@@ -22,6 +22,7 @@ int bestParting(const RunFitter& fitter, int first, int low, int high, int last,
   int best = -1;
   double least = price - kNoGain;
   for (int middle = low; middle <= high; ++middle) {
+    if (fitter.leastPriceOfTwo(first, middle, last) >= least) continue;
     const double parted = fitter.priceOfTwo(first, middle, last);
     if (parted < least) {
       least = parted;

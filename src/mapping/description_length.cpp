@@ -17,6 +17,13 @@ FittedSegment::FittedSegment(const PointMoments& points, const FittedLine& fitte
   price = is_line ? told : alone;
 }
 
+RunFitter::RunFitter(const std::vector<Eigen::Vector2d>& points, const PointNoise& noise)
+    : prefix_(points), noise_(noise), half_over_most_variance_(0.5) {
+  double farthest_sq = 0.0;
+  for (const Eigen::Vector2d& p : points) farthest_sq = std::max(farthest_sq, p.squaredNorm());
+  half_over_most_variance_ = 0.5 / noise.mostAcross(farthest_sq);
+}
+
 FittedSegment RunFitter::fit(const PointMoments& moments) const {
   const FittedLine line = fitLine(moments);
   return {moments, line, noise_.onLine(line.centroid, line.direction)};

@@ -35,21 +35,21 @@ double similarityToNext(const ScanPoints& points, const RunFitter& fitter, const
   return run->similarity;
 }
 
-SimilarityMatrix consecutiveSimilarity(const ScanPoints& points, const RunFitter& fitter,
-                                       double cut, Runs* runs) {
-  const int n = static_cast<int>(runs->size());
-  SimilarityMatrix s(n);
-  for (int i = 0; i + 1 < n; ++i) {
-    double similarity = similarityToNext(points, fitter, (*runs)[i + 1], &(*runs)[i]);
+/// The similarities among runs first <= i < last, of which each is alike the next.
+SimilarityMatrix similarityOfRow(const ScanPoints& points, const RunFitter& fitter, double cut,
+                                 const Runs& runs, int first, int last) {
+  SimilarityMatrix s(last - first);
+  for (int i = first; i + 1 < last; ++i) {
+    double similarity = runs[i].similarity;
     for (int j = i + 1; similarity >= cut; ++j) {
-      s.set(i, j, similarity);
+      s.set(i - first, j - first, similarity);
       const int next = j + 1;
-      if (next >= n || next > i + kNeighbours) break;
-      const FittedRun &last = (*runs)[j], &far = (*runs)[next];
-      if (!mayFollow(points, last, far)) break;
-      const FittedSegment before = fitter.fit((*runs)[i].first, last.last);
-      const FittedSegment joint = fitter.fit((*runs)[i].first, far.last);
-      similarity = memberships(before, far, joint, 0.0, 0.0).similarity();
+      if (next >= last || next > i + kNeighbours) break;
+      const FittedRun &before = runs[j], &far = runs[next];
+      if (!mayFollow(points, before, far)) break;
+      const FittedSegment row = fitter.fit(runs[i].first, before.last);
+      const FittedSegment joint = fitter.fit(runs[i].first, far.last);
+      similarity = memberships(row, far, joint, 0.0, 0.0).similarity();
     }
   }
   return s;
@@ -174,19 +174,31 @@ bool mergeInterrupted(const ScanPoints& points, const RunFitter& fitter, double 
 }  // namespace
 
 bool mergeConsecutive(const ScanPoints& points, const RunFitter& fitter, double cut, Runs* runs) {
-  const SimilarityMatrix similarity = consecutiveSimilarity(points, fitter, cut, runs);
-  if (similarity.entries().empty()) return false;
-  const std::vector<int> group_of = rankOrderGroups(similarity, cut);
-  std::size_t kept = 0;
-  for (std::size_t i = 0; i < runs->size();) {
-    std::size_t j = i + 1;
-    while (j < runs->size() && group_of[j] == group_of[i]) ++j;
-    (*runs)[kept++] = j == i + 1 ? (*runs)[i] : fitter.fit((*runs)[i].first, (*runs)[j - 1].last);
-    i = j;
+  const int n = static_cast<int>(runs->size());
+  int kept = 0;
+  const auto keep = [&](int first, int last) {
+    (*runs)[kept++] = last == first + 1 ? (*runs)[first]
+                                        : fitter.fit((*runs)[first].first, (*runs)[last - 1].last);
+  };
+  // The matrix falls apart into rows of runs of which each is alike the next, and so does its
+  // clustering.
+  for (int first = 0, last = 1; first < n; first = last++) {
+    while (last < n && similarityToNext(points, fitter, (*runs)[last], &(*runs)[last - 1]) >= cut) {
+      ++last;
+    }
+    if (last <= first + 2) {
+      keep(first, last);
+      continue;
+    }
+    const auto row = similarityOfRow(points, fitter, cut, *runs, first, last);
+    const std::vector<int> group_of = rankOrderGroups(row, cut);
+    for (int i = first, j = first + 1; i < last; i = j++) {
+      while (j < last && group_of[j - first] == group_of[i - first]) ++j;
+      keep(i, j);
+    }
   }
-  const bool merged = kept < runs->size();
   runs->resize(kept);
-  return merged;
+  return kept < n;
 }
 
 std::vector<std::vector<int>> groupInterrupted(const ScanPoints& points, const RunFitter& fitter,

@@ -10,45 +10,44 @@ namespace cca {
 namespace {
 
 /// K-means serves as a first cut that later steps refine: it need not have converged.
-constexpr int kLloydSweeps = 3;
+constexpr int kLloydSweeps = 2;
 /// Two-sided 99.9 % quantile of the normal distribution: gate of a single residual.
 constexpr double kResidualGate = 3.29;
+
+double cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
+  return a.x() * b.y() - a.y() * b.x();
+}
+
 /// Centroids in cyclic order of bearing.
 class CentroidRing {
  public:
-  CentroidRing(const std::vector<Eigen::Vector2d>& centroids) : centroids_(centroids) {
-    const std::size_t n = centroids.size();
-    std::vector<double> bearing(n);
-    for (std::size_t k = 0; k < n; ++k) bearing[k] = std::atan2(centroids[k].y(), centroids[k].x());
-    order_.resize(n);
-    std::iota(order_.begin(), order_.end(), 0);
-    std::stable_sort(order_.begin(), order_.end(),
-                     [&](int a, int b) { return bearing[a] < bearing[b]; });
-    place_.resize(n);
-    ray_.resize(n);
-    for (std::size_t k = 0; k < n; ++k) place_[order_[k]] = static_cast<int>(k);
-    for (std::size_t k = 0; k < n; ++k) {
-      const double norm = centroids[k].norm();
-      ray_[k] = norm > 0.0 ? Eigen::Vector2d(centroids[k] / norm) : Eigen::Vector2d::Zero();
+  explicit CentroidRing(const std::vector<Eigen::Vector2d>& centroids)
+      : ring_(centroids.size()), place_(centroids.size()) {
+    const std::vector<int> order = byBearing(centroids);
+    for (std::size_t k = 0; k < order.size(); ++k) {
+      const Eigen::Vector2d& c = centroids[order[k]];
+      const double norm = c.norm();
+      ring_[k] = {c, norm > 0.0 ? Eigen::Vector2d(c / norm) : Eigen::Vector2d::Zero(), order[k]};
+      place_[order[k]] = static_cast<int>(k);
     }
   }
 
   /// Index of the centroid nearest to p, the lowest where several are; starts beside `guess`.
   int nearest(const Eigen::Vector2d& p, int guess) const {
-    const int n = static_cast<int>(order_.size());
+    const int n = static_cast<int>(ring_.size()), start = place_[guess];
     int best = guess;
-    double best_sq = (p - centroids_[guess]).squaredNorm();
+    double best_sq = (p - ring_[start].centroid).squaredNorm();
     for (const int step : {1, n - 1}) {
-      int place = place_[guess];
+      int place = start;
       for (int walked = 1; walked < n; ++walked) {
         place += step;
         if (place >= n) place -= n;
-        const int k = order_[place];
-        if (lowerBoundSq(p, k) > best_sq) break;
-        const double sq = (p - centroids_[k]).squaredNorm();
-        if (sq < best_sq || (sq == best_sq && k < best)) {
+        const Member& m = ring_[place];
+        if (lowerBoundSq(p, m.ray) > best_sq) break;
+        const double sq = (p - m.centroid).squaredNorm();
+        if (sq < best_sq || (sq == best_sq && m.index < best)) {
           best_sq = sq;
-          best = k;
+          best = m.index;
         }
       }
     }
@@ -56,32 +55,51 @@ class CentroidRing {
   }
 
  private:
-  /// Squared distance of p from the ray on which centroid k lies.
-  double lowerBoundSq(const Eigen::Vector2d& p, int k) const {
-    const Eigen::Vector2d& ray = ray_[k];
-    if (p.dot(ray) <= 0.0) return ray.isZero() ? 0.0 : p.squaredNorm();
-    const double cross = p.x() * ray.y() - p.y() * ray.x();
-    return cross * cross * (1.0 - 1e-12);
+  struct Member {
+    Eigen::Vector2d centroid, ray;
+    int index;
+  };
+
+  /// Centroids of a scan mostly follow one another already: bearings are asked for only if not.
+  static std::vector<int> byBearing(const std::vector<Eigen::Vector2d>& centroids) {
+    const std::size_t n = centroids.size();
+    std::vector<int> order(n);
+    std::iota(order.begin(), order.end(), 0);
+    bool in_order = true;
+    for (std::size_t k = 1; k < n && in_order; ++k) {
+      in_order = cross(centroids[k - 1], centroids[k]) > 0.0;
+    }
+    if (in_order) return order;
+    std::vector<double> bearing(n);
+    for (std::size_t k = 0; k < n; ++k) bearing[k] = std::atan2(centroids[k].y(), centroids[k].x());
+    std::stable_sort(order.begin(), order.end(),
+                     [&](int a, int b) { return bearing[a] < bearing[b]; });
+    return order;
   }
 
-  const std::vector<Eigen::Vector2d>& centroids_;
-  std::vector<int> order_, place_;
-  std::vector<Eigen::Vector2d> ray_;
+  /// Squared distance of p from the ray on which a centroid lies.
+  static double lowerBoundSq(const Eigen::Vector2d& p, const Eigen::Vector2d& ray) {
+    if (p.dot(ray) <= 0.0) return ray.isZero() ? 0.0 : p.squaredNorm();
+    const double off = cross(p, ray);
+    return off * off * (1.0 - 1e-12);
+  }
+
+  std::vector<Member> ring_;
+  std::vector<int> place_;
 };
 
-std::vector<Eigen::Vector2d> centroidsOf(const std::vector<Eigen::Vector2d>& positions,
-                                         const std::vector<int>& cluster,
-                                         const std::vector<Eigen::Vector2d>& previous) {
-  std::vector<Eigen::Vector2d> sum(previous.size(), Eigen::Vector2d::Zero());
-  std::vector<int> count(previous.size(), 0);
+/// Moves each centroid to the mean of its points; one without points stays.
+void moveToMeans(const std::vector<Eigen::Vector2d>& positions, const std::vector<int>& cluster,
+                 std::vector<Eigen::Vector2d>* centroids) {
+  std::vector<Eigen::Vector2d> sum(centroids->size(), Eigen::Vector2d::Zero());
+  std::vector<int> count(centroids->size(), 0);
   for (std::size_t i = 0; i < positions.size(); ++i) {
     sum[cluster[i]] += positions[i];
     ++count[cluster[i]];
   }
   for (std::size_t k = 0; k < sum.size(); ++k) {
-    sum[k] = count[k] > 0 ? Eigen::Vector2d(sum[k] / count[k]) : previous[k];
+    if (count[k] > 0) (*centroids)[k] = sum[k] / count[k];
   }
-  return sum;
 }
 
 bool isLinear(const ScanPoints& points, const PrefixMoments& prefix, const PointNoise& noise,
@@ -148,7 +166,7 @@ std::vector<int> kMeansInOrder(const ScanPoints& points, int clusters, int sweep
       cluster[i] = nearest;
     }
     if (!moved) break;
-    centroids = centroidsOf(points.positions, cluster, centroids);
+    moveToMeans(points.positions, cluster, &centroids);
   }
   return cluster;
 }

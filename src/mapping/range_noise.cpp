@@ -35,13 +35,20 @@ struct Deviation {
 
 std::vector<Deviation> deviations(const Scan& scan) {
   const double two_cos = 2.0 * std::cos(scan.angle_increment);
+  const auto inverse = [](double range) { return isReturn(range) ? 1.0 / range : 0.0; };
   std::vector<Deviation> found;
+  if (scan.size() < 3) return found;
   found.reserve(scan.size());
+  double q_before = inverse(scan.ranges[0]), q_here = inverse(scan.ranges[1]);
   for (std::size_t i = 1; i + 1 < scan.size(); ++i) {
-    const double a = scan.ranges[i - 1], b = scan.ranges[i], c = scan.ranges[i + 1];
-    if (!isReturn(a) || !isReturn(b) || !isReturn(c)) continue;
-    const double e = std::abs(b * (b * (1.0 / a + 1.0 / c) - two_cos));
-    if (std::isfinite(e)) found.push_back({std::abs(c - a), e});
+    const double q_after = inverse(scan.ranges[i + 1]), r = scan.ranges[i];
+    if (q_before > 0.0 && q_here > 0.0 && q_after > 0.0) {
+      const double e = std::abs(r * (r * (q_before + q_after) - two_cos));
+      const double slope = std::abs(scan.ranges[i + 1] - scan.ranges[i - 1]);
+      if (std::isfinite(e)) found.push_back({slope, e});
+    }
+    q_before = q_here;
+    q_here = q_after;
   }
   return found;
 }

@@ -62,8 +62,7 @@ struct FittedRun : FittedSegment {
 /// Fits any run of a scan in O(1).
 class RunFitter {
  public:
-  RunFitter(const std::vector<Eigen::Vector2d>& points, const PointNoise& noise)
-      : prefix_(points), noise_(noise) {}
+  RunFitter(const std::vector<Eigen::Vector2d>& points, const PointNoise& noise);
 
   FittedRun fit(int first, int last) const;
   /// The price alone, of two runs that share first <= i < last at `middle`.
@@ -72,12 +71,27 @@ class RunFitter {
   }
   /// The price of a run alone: the same as fit(first, last).price, cheaper; 0 of an empty run.
   double price(int first, int last) const;
+  /// A lower bound of priceOfTwo(), without roots: most partings are not worth more.
+  double leastPriceOfTwo(int first, int middle, int last) const {
+    return leastPrice(first, middle) + leastPrice(middle, last);
+  }
   FittedSegment fit(const PointMoments& moments) const;
   const PrefixMoments& prefix() const { return prefix_; }
 
  private:
+  double leastPrice(int first, int last) const {
+    const double points = last - first, alone = kPointPrice * points;
+    if (points < kFewestPoints) return alone;
+    // The smaller eigenvalue is at least determinant / trace.
+    const PointMoments m = prefix_.run(first, last);
+    const double xx = m.scatter(0, 0), xy = m.scatter(0, 1), yy = m.scatter(1, 1);
+    const double least = xx + yy > 0.0 ? (xx * yy - xy * xy) / (xx + yy) : 0.0;
+    return std::min(alone, kLinePrice + least * half_over_most_variance_);
+  }
+
   PrefixMoments prefix_;
   PointNoise noise_;
+  double half_over_most_variance_;  ///< 1/m^2, of any line through these points
 };
 
 }  // namespace cca

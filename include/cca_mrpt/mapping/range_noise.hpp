@@ -42,13 +42,20 @@ struct PointNoise {
     const double turned = (xx - yy) * axis.cos_2 + 2.0 * point.x() * point.y() * axis.sin_2;
     return onLine(xx + yy, 0.5 * (xx + yy + turned));
   }
+  /// The largest variance [m^2] across any line, of points up to sqrt(farthest_sq) [m] away.
+  double mostAcross(double farthest_sq) const {
+    return wallVariance() + bearing_sigma * bearing_sigma * farthest_sq +
+           kFinestSigma * kFinestSigma;
+  }
 
  private:
+  double wallVariance() const {
+    return std::max(range_sigma * range_sigma, straightness * straightness);
+  }
   LineNoise onLine(double range_sq, double along_sq) const {
     const double grazing = range_sq > 0.0 ? std::clamp(along_sq / range_sq, 0.0, 1.0) : 0.0;
     const double range_variance = range_sigma * range_sigma;
-    const double wall_variance = std::max(range_variance, straightness * straightness);
-    return {wall_variance * (1.0 - grazing) + bearing_sigma * bearing_sigma * along_sq +
+    return {wallVariance() * (1.0 - grazing) + bearing_sigma * bearing_sigma * along_sq +
                 kFinestSigma * kFinestSigma,
             range_variance * grazing};
   }
