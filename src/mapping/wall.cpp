@@ -55,12 +55,13 @@ struct FrameChange {
   }
 };
 
-constexpr double kDrift = 0.1;          // m, of the line from its frame; the index reaches 0.3 m
-constexpr int kBridgedBins = 4;         // longer gaps without hits would be phantoms
-constexpr double kShortestLine = 0.27;  // m, six bins: what a line costs to tell
-constexpr double kFewestHits = 12.0;    // two to three scans that meet it
-constexpr double kLoosest = 1.2;        // deviations of a return
-constexpr double kLooseShare = 0.08;    // of its length
+constexpr double kDrift = 0.1;         // m, of the line from its frame; the index reaches 0.3 m
+constexpr int kBridgedBins = 4;        // longer gaps without hits would be phantoms
+constexpr double kSameDoor = 0.2;      // m, between the lines of a doorway before and after a join
+constexpr double kShortestLine = 0.3;  // m, six bins: what a line costs to tell
+constexpr double kFewestHits = 20.0;   // three to four scans that meet it
+constexpr double kLoosest = 1.2;       // deviations of a return
+constexpr double kLooseShare = 0.08;   // of its length
 
 LineSegment segmentOf(const Wall& wall, const BinRange& range, const MapNoise& noise) {
   SupportBin sum;
@@ -124,13 +125,15 @@ void absorb(Wall& wall, const Wall& other) {
     const SupportBin& bin = other.profile.bin(i);
     if (bin.hits > 0.0) wall.profile.add(change(bin));
   }
-  // A doorway has rays but no hits: it stands where it stood.
+  // A doorway has rays but no hits: it stands where it stood. Rays through a line that was off are
+  // not held against what the wall itself has there.
   for (int i = other.profile.first(); i < other.profile.last(); ++i) {
     const SupportBin& bin = other.profile.bin(i);
-    const double t = (i + 0.5) * SupportProfile::kBinLength;
-    if (bin.hits <= 0.0 && bin.passed > 0.0) {
-      wall.profile.pass(wall.toWall(other.toMap(t, 0.0)).x(), bin.passed);
-    }
+    if (bin.hits > 0.0 || bin.passed <= 0.0) continue;
+    const Eigen::Vector2d td = wall.toWall(other.onLine((i + 0.5) * SupportProfile::kBinLength));
+    const int here = SupportProfile::binOf(td.x());
+    const bool stands = wall.profile.contains(here) && wall.profile.bin(here).hits > 0.0;
+    if (!stands && std::abs(wall.offLine(td)) < kSameDoor) wall.profile.pass(td.x(), bin.passed);
   }
 }
 

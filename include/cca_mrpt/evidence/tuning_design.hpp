@@ -15,7 +15,7 @@ namespace cca::evidence {
 /// The factorial experiment on the three input parameters: every combination of their levels, in
 /// every scene (world x range noise x seed).
 struct TuningDesign {
-  std::vector<int> points_per_cluster{3, 4, 5, 7, 10};
+  std::vector<int> points_per_cluster{3, 5, 8, 12, 18};
   std::vector<double> similarity_cut{0.2, 0.35, 0.5, 0.65, 0.8};
   std::vector<int> scans_per_batch{1, 2, 4, 8};
   std::vector<std::string> worlds;  ///< .yaml

@@ -6,7 +6,7 @@ namespace cca {
 /// The three input parameters of the Consecutive Clustering Algorithm; all else is tuned from the
 /// data (sensor noise, membership widths, gates, pose error).
 struct CcaParameters {
-  int points_per_cluster = 5;
+  int points_per_cluster = 8;
   double similarity_cut = 0.5;
   int scans_per_batch = 1;
 };

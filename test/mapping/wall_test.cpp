@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "cca_mrpt/mapping/wall.hpp"
+
+#include <gtest/gtest.h>
+
+namespace cca {
+namespace {
+
+/// A wall along y = `y`, hit ten times in each bin of [from, to).
+Wall wallAlongX(double y, double from, double to) {
+  Wall wall;
+  wall.origin = {0.0, y};
+  for (double t = from + 0.025; t < to; t += SupportProfile::kBinLength) {
+    for (int k = 0; k < 10; ++k) wall.profile.hit(t, 0.0);
+  }
+  wall.fit = wall.profile.fit();
+  return wall;
+}
+
+double passed(const Wall& wall, double t) {
+  const int i = SupportProfile::binOf(t);
+  return wall.profile.contains(i) ? wall.profile.bin(i).passed : 0.0;
+}
+
+/// Two stretches with a gap from 1 m to 2 m, through which five rays went at 1.525 m.
+Wall wallWithAGapSeenThrough(double y) {
+  Wall wall = wallAlongX(y, 0.0, 1.0);
+  for (double t = 2.025; t < 3.0; t += SupportProfile::kBinLength) wall.profile.hit(t, 0.0);
+  wall.profile.pass(1.525, 5.0);
+  return wall;
+}
+
+TEST(Absorb, KeepsTheDoorwayOfTheOtherWallOpen) {
+  Wall wall = wallAlongX(0.0, 0.0, 1.0);
+  absorb(wall, wallWithAGapSeenThrough(0.05));
+  EXPECT_DOUBLE_EQ(passed(wall, 1.525), 5.0);
+}
+
+TEST(Absorb, DoesNotHoldRaysThroughTheOtherLineAgainstHitsOfItsOwn) {
+  Wall wall = wallAlongX(0.0, 1.0, 2.0);
+  absorb(wall, wallWithAGapSeenThrough(0.05));
+  EXPECT_DOUBLE_EQ(passed(wall, 1.525), 0.0);
+  EXPECT_DOUBLE_EQ(wall.profile.bin(SupportProfile::binOf(1.525)).hits, 10.0);
+}
+
+TEST(Absorb, ForgetsADoorwayOfALineThatWasFarOff) {
+  Wall wall = wallAlongX(0.0, 0.0, 1.0);
+  absorb(wall, wallWithAGapSeenThrough(0.3));
+  EXPECT_DOUBLE_EQ(passed(wall, 1.525), 0.0);
+}
+
+TEST(Absorb, KeepsEveryHitAndItsPlace) {
+  Wall wall = wallAlongX(0.0, 0.0, 1.0);
+  const Wall other = wallAlongX(0.02, 0.5, 3.0);
+  absorb(wall, other);
+  double hits = 0.0, t = 0.0, d = 0.0;
+  for (int i = wall.profile.first(); i < wall.profile.last(); ++i) {
+    hits += wall.profile.bin(i).hits;
+    t += wall.profile.bin(i).t;
+    d += wall.profile.bin(i).d;
+  }
+  EXPECT_NEAR(hits, 200.0 + 500.0, 1e-9);
+  EXPECT_NEAR(t, 200.0 * 0.5 + 500.0 * 1.75, 1e-6);
+  EXPECT_NEAR(d, 500.0 * 0.02, 1e-9);
+}
+
+}  // namespace
+}  // namespace cca
