@@ -36,10 +36,16 @@ void FreeSpace::grow(Cell obstacle, int sign) {
     const Cell c = obstacle + offset;
     if (!isStorable(c)) continue;
     std::uint16_t& cell = cells_[c];
-    const bool was_clear = cell == kFreeAndClear;
+    const bool was_traversable = isTraversable(cell);
     cell = static_cast<std::uint16_t>(cell + sign);
-    if (was_clear != (cell == kFreeAndClear)) mark(c);
+    if (was_traversable != isTraversable(cell)) mark(c);
   }
+}
+
+void FreeSpace::pass(Cell c) {
+  if (!isStorable(c)) return;
+  cells_[c] |= kPassed;
+  mark(c);
 }
 
 void FreeSpace::mark(Cell c) {

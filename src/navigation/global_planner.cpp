@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cca_mrpt/navigation/beam.hpp"
+
 namespace cca {
 namespace {
 
@@ -16,6 +18,7 @@ constexpr double kReconsiderAfter = 0.3;     // m driven
 constexpr std::size_t kWorthReconsidering = 20;  // cells newly seen
 constexpr std::size_t kWorthAnotherTry = 200;    // cells newly seen: half a square metre
 constexpr std::size_t kRetryAfter = 4000;        // cells newly seen: 10 m^2
+constexpr double kLongestStep = 0.5;             // m, between scans; a farther one is a jump
 constexpr double kPassed = 0.1;                  // m, of a corner
 constexpr double kMuchShorter = 0.5;             // m
 constexpr int kSameTarget = 3;                   // cells
@@ -64,11 +67,24 @@ void GlobalPlanner::observe(const Scan& scan, const Eigen::Vector2d& robot_map) 
   grid_.insert(scan);
   takeChanges();
   if (!isOnGrid(robot_map)) return;
+  notePassage(robot_map);
   const Cell block = FreeSpace::blockOf(grid_.cellOf(robot_map));
   if (scanned_.at(block)) return;
   std::uint32_t& looked = looked_[block];
   looked |= directionsOf(scan);
   if (looked == 0xFFFFFFFF) scanned_[block] = 1;
+}
+
+void GlobalPlanner::notePassage(const Eigen::Vector2d& robot_map) {
+  const Eigen::Vector2d from = last_place_.value_or(robot_map) / grid_.resolution();
+  const Eigen::Vector2d step = robot_map / grid_.resolution() - from;
+  const double length = step.norm();
+  last_place_ = robot_map;
+  if (length == 0.0 || length > kLongestStep / grid_.resolution()) return;
+  walkBeam(from, step / length, length, [&](Cell c, double) {
+    space_.pass(c);
+    return true;
+  });
 }
 
 bool GlobalPlanner::isOnGrid(const Eigen::Vector2d& p_map) const {

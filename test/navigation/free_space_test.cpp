@@ -62,6 +62,28 @@ TEST(FreeSpace, StaysEqualToItsDefinitionWhileCellsChangeBackAndForth) {
   }
 }
 
+TEST(FreeSpace, WhereTheRobotHasBeenStaysOpenUntilTheCellItselfIsOccupied) {
+  ExplorationGrid grid;
+  FreeSpace space(0.25, grid.resolution());
+  const auto set = [&](Cell c, CellState state) {
+    grid.set(c, state);
+    space.update(grid, {c});
+  };
+  set({0, 0}, CellState::kFree);
+  space.pass({0, 0});
+  set({2, 0}, CellState::kOccupied);  // within the clearance
+  EXPECT_TRUE(space.isTraversable({0, 0}));
+  EXPECT_TRUE(space.traversableCells({0, 0}) & FreeSpace::bitOf({0, 0}));
+  set({0, 0}, CellState::kOccupied);
+  EXPECT_FALSE(space.isTraversable({0, 0}));
+  EXPECT_FALSE(space.traversableCells({0, 0}) & FreeSpace::bitOf({0, 0}));
+  set({0, 0}, CellState::kFree);  // what stood there has gone
+  EXPECT_TRUE(space.isTraversable({0, 0}));
+  // Beside the robot's way the clearance counts.
+  set({1, 0}, CellState::kFree);
+  EXPECT_FALSE(space.isTraversable({1, 0}));
+}
+
 TEST(FreeSpace, HoldsNothingBeforeAnythingIsKnown) {
   const FreeSpace space(0.3, 0.05);
   EXPECT_FALSE(space.isTraversable({0, 0}));

@@ -11,7 +11,8 @@
 namespace cca {
 
 /// Where the robot's centre may be, as far as is known: free cells that keep a clearance from every
-/// occupied cell. The robot's configuration space, since the robot is round.
+/// occupied cell, and cells where it has been. The robot's configuration space, since the robot is
+/// round.
 ///
 /// Unknown cells are not grown: what they hold is for the local planner to see in time.
 class FreeSpace {
@@ -31,7 +32,12 @@ class FreeSpace {
   /// times the cells of the grown disc.
   void update(const ExplorationGrid& grid, const std::vector<Cell>& changed);
 
-  bool isTraversable(Cell c) const { return cells_.at(c) == kFreeAndClear; }
+  /// The robot's centre has been in this cell, so it can be there again, whatever noise says of the
+  /// clearance, as long as the cell itself is not seen occupied: what the robot came through must
+  /// not close behind it.
+  void pass(Cell c);
+
+  bool isTraversable(Cell c) const { return isTraversable(cells_.at(c)); }
   /// Like isTraversable, for each cell of a block: bit 4 (y mod 4) + (x mod 4).
   unsigned traversableCells(Cell block) const { return blocks_.at(block); }
   /// The same of the eight blocks around one, in the order of kNeighbours.
@@ -40,7 +46,10 @@ class FreeSpace {
   double clearance() const { return clearance_; }
 
  private:
-  static constexpr std::uint16_t kFree = 0x8000, kOccupied = 0x4000, kFreeAndClear = kFree;
+  static constexpr std::uint16_t kFree = 0x8000, kOccupied = 0x4000, kPassed = 0x2000;
+  static bool isTraversable(std::uint16_t cell) {
+    return cell == kFree || (cell & (kPassed | kOccupied)) == kPassed;
+  }
   void grow(Cell obstacle, int sign);
   void mark(Cell c);
 

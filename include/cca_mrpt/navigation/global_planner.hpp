@@ -88,6 +88,7 @@ class GlobalPlanner {
 
  private:
   void takeChanges();
+  void notePassage(const Eigen::Vector2d& robot_map);
   void learnRange(const Scan& scan);
   bool goalStands() const;
   bool pathStands() const;
@@ -117,6 +118,7 @@ class GlobalPlanner {
   DistanceField field_;
   TiledGrid<char> scanned_{0};          ///< blocks from which all directions were looked into
   TiledGrid<std::uint32_t> looked_{0};  ///< the directions, a bit each, while some are missing
+  std::optional<Eigen::Vector2d> last_place_;  ///< m, of the robot at the last scan
   ViewTour view_tour_;
   std::vector<ViewPoint> view_points_;
   std::vector<Aside> aside_;
