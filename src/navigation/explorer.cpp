@@ -16,6 +16,7 @@ constexpr double kReachedWayPoint = 0.15;  // m, a little more than Tangent Bug 
 // A goal's time: that of its path at a fifth of full speed, and some for turning and giving way.
 constexpr double kSlowest = 0.2, kGrace = 30.0;  // s
 
+constexpr double kAround = 0.8;      // m, of the robot: what may stand beside it
 constexpr double kLookAround = 0.5;  // of the full turning rate
 
 // Of the safety margin, kept by paths: narrow passages are worth a try, and Tangent Bug, which has
@@ -31,6 +32,29 @@ GlobalPlannerParameters plannerParameters(const RobotParameters& robot,
   planner.smallest_gain = parameters.smallest_gain;
   planner.clearance = robot.radius + kLeastMargin * robot.safety_margin;
   return planner;
+}
+
+bool seesAllAround(const Scan& scan) {
+  const double spacing = std::abs(scan.angle_increment);
+  return static_cast<double>(scan.size()) * spacing > 2.0 * M_PI - 1.5 * spacing;
+}
+
+/// Of each occupied cell around a place, the point nearest to it; m, map frame.
+std::vector<Eigen::Vector2d> obstaclesAround(const ExplorationGrid& grid,
+                                             const Eigen::Vector2d& p_map) {
+  std::vector<Eigen::Vector2d> obstacles;
+  const double side = grid.resolution();
+  if (!p_map.allFinite() || p_map.cwiseAbs().maxCoeff() > side * kFarthestCell) return obstacles;
+  const int reach = static_cast<int>(std::ceil(kAround / side));
+  const Cell here = grid.cellOf(p_map);
+  for (int y = here.y - reach; y <= here.y + reach; ++y) {
+    for (int x = here.x - reach; x <= here.x + reach; ++x) {
+      if (grid.at({x, y}) != CellState::kOccupied) continue;
+      obstacles.emplace_back(std::clamp(p_map.x(), x * side, (x + 1) * side),
+                             std::clamp(p_map.y(), y * side, (y + 1) * side));
+    }
+  }
+  return obstacles;
 }
 
 /// Whether a beam goes where a place lies, however far.
@@ -147,6 +171,10 @@ Velocity Explorer::driveTo(const Eigen::Vector2d& way_point, const Observation& 
   if (!way_point_ || (*way_point_ - way_point).norm() > kSameWayPoint) {
     tangent_bug_.setGoal(way_point);
     way_point_ = way_point;
+  }
+  if (!seesAllAround(observation.scan)) {
+    tangent_bug_.setKnownObstacles(
+        obstaclesAround(planner_.grid(), observation.T_map_robot.position()));
   }
   return tangent_bug_.step(observation.scan, observation.T_map_robot, observation.velocity,
                            observation.time);

@@ -134,6 +134,9 @@ void TangentBug::observe(const Scan& raw_scan, const Pose2& T_map_robot, double 
   for (const auto& points : {memory_.points(), shut_map_}) {
     view_.obstacles.insert(view_.obstacles.end(), points.begin(), points.end());
   }
+  for (const Eigen::Vector2d& p_map : known_map_) {
+    if (!view_.inFieldOfView(p_map)) view_.obstacles.push_back(p_map);
+  }
   view_.ends_here.resize(view_.obstacles.size(), false);
   way_space_ = {view_.obstacles, radius};
   // Pressed to an obstacle, the robot still sees the ways along it.

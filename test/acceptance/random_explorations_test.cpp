@@ -177,6 +177,17 @@ TEST(RandomExplorations, AmongMoversEndAndTheDrivingRobotTouchesNobody) {
   });
 }
 
+// Door posts that the robot sees no longer, and has not seen for long, when it turns beside them.
+TEST(RandomExplorations, WithANarrowFieldOfViewTouchNoPostBesideThem) {
+  Outcome outcome;
+  Trial trial;
+  trial.laser.range = 8.0;
+  trial.laser.field_of_view_deg = 90.0;
+  trial.laser.beams = 91;
+  explore(310, trial, outcome);
+  EXPECT_EQ(outcome.runs, 1);
+}
+
 TEST(RandomExplorations, WithANarrowFieldOfViewEndAndTouchNothing) {
   exploreAll(2, [](int seed) {
     constexpr double kFieldsOfView[] = {90.0, 120.0, 180.0, 240.0, 270.0};

@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <deque>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "cca_mrpt/mapping/scan.hpp"
@@ -37,6 +38,12 @@ class TangentBug {
 
   /// Starts anew towards a goal. @param goal_map  m, map frame.
   void setGoal(const Eigen::Vector2d& goal_map);
+
+  /// Obstacles (m, map frame) around the robot that are known from elsewhere. Steps heed those out
+  /// of the laser's view, which a memory of the last seconds of a narrow view does not hold.
+  void setKnownObstacles(std::vector<Eigen::Vector2d> obstacles_map) {
+    known_map_ = std::move(obstacles_map);
+  }
 
   /// One decision. @param velocity the robot's present velocity. @param time s, never falling.
   /// @return the velocity to drive with: within the robot's limits, and never into what the scan
@@ -80,6 +87,7 @@ class TangentBug {
   double noise_allowance_ = 0.0;  ///< m, added to every distance that is kept
   std::deque<std::vector<Eigen::Vector2d>> lately_near_map_;  ///< by scan, where ranges are noisy
   ShortMemory memory_;
+  std::vector<Eigen::Vector2d> known_map_;  ///< around the robot, from elsewhere
   LocalView view_;
   ConfigurationSpace way_space_, trace_space_;
   std::vector<FreeRange> free_ranges_;
