@@ -68,10 +68,19 @@ bool passes(const Ray& ray, const Wall& wall, double* t_cross) {
 
 }  // namespace
 
-void depositReturns(const Scan& scan, const std::vector<NewLine>& lines, std::size_t scan_in_batch,
+std::vector<Eigen::Vector2d> beamDirections(const Scan& scan) {
+  std::vector<Eigen::Vector2d> beams(scan.size());
+  for (std::size_t beam = 0; beam < scan.size(); ++beam) {
+    const double bearing = scan.T_map_sensor.theta + scan.bearing(beam);
+    beams[beam] = {std::cos(bearing), std::sin(bearing)};
+  }
+  return beams;
+}
+
+void depositReturns(const Scan& scan, const std::vector<Eigen::Vector2d>& beams,
+                    const std::vector<NewLine>& lines, std::size_t scan_in_batch,
                     const MapNoise& noise, Walls& walls) {
-  const Pose2& T = scan.T_map_sensor;
-  const Eigen::Vector2d viewpoint = T.position();
+  const Eigen::Vector2d viewpoint = scan.T_map_sensor.position();
   std::vector<const NewLine*> mine;
   for (const NewLine& line : lines) {
     if (line.scan == scan_in_batch) mine.push_back(&line);
@@ -81,9 +90,7 @@ void depositReturns(const Scan& scan, const std::vector<NewLine>& lines, std::si
   std::size_t next = 0;
   for (std::size_t beam = 0; beam < scan.size(); ++beam) {
     if (!isReturn(scan.ranges[beam]) || scan.ranges[beam] > kLongestReturn) continue;
-    const double bearing = T.theta + scan.bearing(beam);
-    const Eigen::Vector2d p =
-        viewpoint + scan.ranges[beam] * Eigen::Vector2d(std::cos(bearing), std::sin(bearing));
+    const Eigen::Vector2d p = viewpoint + scan.ranges[beam] * beams[beam];
     Slot slot = -1;
     // Lines come by bearing: a return lies on the current one or on one of the next.
     for (std::size_t k = next; k < std::min(next + 3, mine.size()); ++k) {
@@ -109,18 +116,17 @@ void depositReturns(const Scan& scan, const std::vector<NewLine>& lines, std::si
   }
 }
 
-void passRays(const Scan& scan, const MapNoise& noise, Walls& walls) {
-  const Pose2& T = scan.T_map_sensor;
+void passRays(const Scan& scan, const std::vector<Eigen::Vector2d>& beams, const MapNoise& noise,
+              Walls& walls) {
   Ray ray;
-  ray.origin = T.position();
+  ray.origin = scan.T_map_sensor.position();
   ray.clear = std::max(kClear, kGates * noise.lateralSigma());
   for (std::size_t beam = 0; beam < scan.size(); ++beam) {
     const double range = scan.ranges[beam];
     ray.reach = isReturn(range) ? range : isNoReturn(range) ? scan.free_range_without_return : 0.0;
     ray.reach = std::min(ray.reach, kLongestRay);
     if (!(ray.reach > 2.0 * ray.clear)) continue;
-    const double bearing = T.theta + scan.bearing(beam);
-    ray.direction = {std::cos(bearing), std::sin(bearing)};
+    ray.direction = beams[beam];
     const std::uint64_t number = walls.nextRay();
     for (CellWalk walk(ray.origin, ray.direction); walk.entered() < ray.reach; walk.advance()) {
       for (const Slot slot : walls.at(walk.cell())) {

@@ -57,10 +57,14 @@ void LineMap::finishBatch() {
   std::vector<NewLine> lines = newLines();
   clusterIntoMap(lines, parameters_.similarity_cut, noise_, walls_);
   learn(lines);
+  std::vector<std::vector<Eigen::Vector2d>> beams;
   for (std::size_t s = 0; s < batch_.size(); ++s) {
-    depositReturns(batch_[s].scan, lines, s, noise_, walls_);
+    beams.push_back(beamDirections(batch_[s].scan));
+    depositReturns(batch_[s].scan, beams[s], lines, s, noise_, walls_);
   }
-  for (const Waiting& waiting : batch_) passRays(waiting.scan, noise_, walls_);
+  for (std::size_t s = 0; s < batch_.size(); ++s) {
+    passRays(batch_[s].scan, beams[s], noise_, walls_);
+  }
   seeToTouched(walls_, noise_, next_id_);
   batch_.clear();
 }

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace cca {
 namespace {
@@ -105,12 +106,13 @@ void SupportProfile::grow(int i) {
 void SupportProfile::hit(double t, double d) {
   const int i = binOf(t);
   grow(i);
-  bin(i).hit(t, d);
+  at(i).hit(t, d);
+  summed_ = false;
 }
 
 void SupportProfile::pass(double t, double rays) {
   const int i = binOf(t);
-  if (contains(i)) bin(i).passed = std::min(bin(i).passed + rays, kMostHits);
+  if (contains(i)) at(i).passed = std::min(at(i).passed + rays, kMostHits);
 }
 
 void SupportProfile::add(const SupportBin& other) {
@@ -118,15 +120,22 @@ void SupportProfile::add(const SupportBin& other) {
   const int i = binOf(other.t_min), j = binOf(other.t_max);
   grow(i);
   grow(j);
-  if (i == j) return bin(i).add(other);
+  summed_ = false;
+  if (i == j) return at(i).add(other);
   // The hits straddle two bins: they are shared out as if they were spread evenly.
   const double border = j * kBinLength;
   const double share = (border - other.t_min) / (other.t_max - other.t_min);
-  bin(i).add(part(other, share, other.t_min, border));
-  bin(j).add(part(other, 1.0 - share, border, other.t_max));
+  at(i).add(part(other, share, other.t_min, border));
+  at(j).add(part(other, 1.0 - share, border, other.t_max));
+}
+
+SupportBin SupportProfile::take(int i) {
+  summed_ = false;
+  return std::exchange(at(i), SupportBin{});
 }
 
 SupportProfile SupportProfile::cutFrom(int from) {
+  summed_ = false;
   SupportProfile tail;
   const auto begin = bins_.begin() + (from - first_);
   tail.first_ = from;
@@ -141,6 +150,7 @@ bool SupportProfile::prune() {
       const double passed = bin.passed;
       bin = SupportBin{};
       bin.passed = passed;
+      summed_ = false;
     }
   }
   const auto stands = [](const SupportBin& bin) { return bin.hits > 0.0; };
@@ -159,13 +169,13 @@ bool SupportProfile::prune() {
 
 bool SupportProfile::occupied(int i) const {
   if (bin(i).hits <= 0.0) return false;
+  const SupportBin* from = bins_.data() + (std::max(first(), i - kWindow) - first_);
+  const SupportBin* to = bins_.data() + (std::min(last(), i + kWindow + 1) - first_);
   double hits = 0.0, passed = 0.0;
-  const int from = std::max(first(), i - kWindow), to = std::min(last(), i + kWindow + 1);
-  for (int j = from; j < to; ++j) {
-    hits += bin(j).hits;
-    passed += bin(j).passed;
-  }
-  return passed < kFewestRays || passed < kRaysPerHit * hits;
+  for (const SupportBin* b = from; b < to; ++b) passed += b->passed;
+  if (passed < kFewestRays) return true;
+  for (const SupportBin* b = from; b < to; ++b) hits += b->hits;
+  return passed < kRaysPerHit * hits;
 }
 
 void SupportProfile::supportedRanges(int max_gap, std::vector<BinRange>& ranges) const {
@@ -186,6 +196,12 @@ void SupportProfile::supportedRanges(int max_gap, std::vector<BinRange>& ranges)
   }
 }
 
+const BinSums& SupportProfile::sums() const {
+  if (!summed_) sums_ = sums(first(), last());
+  summed_ = true;
+  return sums_;
+}
+
 BinSums SupportProfile::sums(int from, int to) const {
   BinSums sum;
   for (int i = from; i < to; ++i) {
@@ -196,7 +212,7 @@ BinSums SupportProfile::sums(int from, int to) const {
 }
 
 LateralFit SupportProfile::fit() const {
-  const BinSums s = sums();
+  const BinSums& s = sums();
   if (s.w <= 0.0) return {};
   const double var_t = s.tt - s.t * s.t / s.w, cov = s.td - s.t * s.d / s.w;
   const double slope = var_t > 1e-9 ? cov / var_t : 0.0;

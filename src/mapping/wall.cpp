@@ -141,13 +141,12 @@ bool yieldOverlap(Wall& lesser, Wall& greater, double gate) {
   const FrameChange change(greater, lesser);
   bool moved = false;
   for (int i = lesser.profile.first(); i < lesser.profile.last(); ++i) {
-    SupportBin& bin = lesser.profile.bin(i);
+    const SupportBin& bin = lesser.profile.bin(i);
     if (bin.hits <= 0.0) continue;
     const Eigen::Vector2d p = lesser.toMap(bin.t / bin.hits, bin.d / bin.hits);
     const Eigen::Vector2d td = greater.toWall(p);
     if (!greater.hitNear(p) || std::abs(greater.offLine(td)) > gate) continue;
-    greater.profile.add(change(bin));
-    bin = SupportBin{};
+    greater.profile.add(change(lesser.profile.take(i)));
     moved = true;
   }
   return moved;

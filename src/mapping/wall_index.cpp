@@ -5,15 +5,6 @@
 #include <cmath>
 
 namespace cca {
-namespace {
-
-std::size_t inBlock(const WallIndex::Cell& cell, int bits) {
-  const int mask = (1 << bits) - 1;
-  return static_cast<std::size_t>(((cell.y() & mask) << bits) | (cell.x() & mask));
-}
-
-}  // namespace
-
 WallIndex::WallIndex(const WallIndex& other) {
   for (const auto& [key, block] : other.blocks_) blocks_[key] = std::make_unique<Block>(*block);
 }
@@ -23,27 +14,18 @@ WallIndex& WallIndex::operator=(const WallIndex& other) {
   return *this = std::move(copy);
 }
 
-std::int64_t WallIndex::keyOf(const Cell& cell) {
-  const std::int64_t x = cell.x() >> kBlockBits, y = cell.y() >> kBlockBits;
-  return x * (std::int64_t{1} << 32) + (y & 0xffffffffLL);
-}
-
-const std::vector<WallIndex::Slot>& WallIndex::at(const Cell& cell) const {
-  static const std::vector<Slot> none;
-  const std::int64_t key = keyOf(cell);
-  if (last_block_ == nullptr || key != last_key_) {
-    const auto found = blocks_.find(key);
-    if (found == blocks_.end()) return none;
-    last_key_ = key;
-    last_block_ = found->second.get();
-  }
-  return last_block_->cells[inBlock(cell, kBlockBits)];
+bool WallIndex::find(std::int64_t key) const {
+  const auto found = blocks_.find(key);
+  if (found == blocks_.end()) return false;
+  last_key_ = key;
+  last_block_ = found->second.get();
+  return true;
 }
 
 std::vector<WallIndex::Slot>& WallIndex::touch(const Cell& cell) {
   std::unique_ptr<Block>& block = blocks_[keyOf(cell)];
   if (!block) block = std::make_unique<Block>();
-  return block->cells[inBlock(cell, kBlockBits)];
+  return block->cells[inBlock(cell)];
 }
 
 void WallIndex::insert(Slot slot, const Eigen::Vector2d& from, const Eigen::Vector2d& to,

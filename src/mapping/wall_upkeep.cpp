@@ -51,7 +51,7 @@ bool oneWall(const Wall& wall, const Wall& other, const MapNoise& noise) {
   const double overlap = std::min(mine.last, theirs.last) - std::max(mine.first, theirs.first);
   const double whole = mine.length() + theirs.length() - overlap;
   if (-overlap > kLargestGap || (whole > kLongestWall && overlap < theirs.length())) return false;
-  const BinSums a = wall.profile.sums(), b = sumsInFrameOf(wall, other);
+  const BinSums &a = wall.profile.sums(), b = sumsInFrameOf(wall, other);
   if (a.w <= 0.0 || b.w <= 0.0) return false;
   const bool same_side = cosine > 0.0 || wall.two_sided || other.two_sided;
   const double sigma = noise.lateralSigma();

@@ -8,11 +8,16 @@
 
 namespace cca {
 
+/// Unit vectors of a scan's beams in the map frame.
+std::vector<Eigen::Vector2d> beamDirections(const Scan& scan);
+
 /// Enters each return of the scan as a hit of the wall that it came from: the wall of the new line
 /// that it lies on, else the nearest wall that was hit there before, else none.
 ///
+/// @param beams  as beamDirections() gives them.
 /// @param lines  those of this scan, by bearing.
-void depositReturns(const Scan& scan, const std::vector<NewLine>& lines, std::size_t scan_in_batch,
+void depositReturns(const Scan& scan, const std::vector<Eigen::Vector2d>& beams,
+                    const std::vector<NewLine>& lines, std::size_t scan_in_batch,
                     const MapNoise& noise, Walls& walls);
 
 /// Counts each ray against the bins of the walls that it went clearly through: further behind them
@@ -20,6 +25,7 @@ void depositReturns(const Scan& scan, const std::vector<NewLine>& lines, std::si
 /// scan.free_range_without_return.
 ///
 /// Cost: O(beams x cells of a ray), whatever the size of the map.
-void passRays(const Scan& scan, const MapNoise& noise, Walls& walls);
+void passRays(const Scan& scan, const std::vector<Eigen::Vector2d>& beams, const MapNoise& noise,
+              Walls& walls);
 
 }  // namespace cca

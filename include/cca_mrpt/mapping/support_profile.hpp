@@ -57,7 +57,6 @@ class SupportProfile {
   int first() const { return first_; }
   int last() const { return first_ + static_cast<int>(bins_.size()); }
   const SupportBin& bin(int i) const { return bins_[static_cast<std::size_t>(i - first_)]; }
-  SupportBin& bin(int i) { return bins_[static_cast<std::size_t>(i - first_)]; }
   bool contains(int i) const { return i >= first() && i < last(); }
 
   /// A return at (t, d); the profile grows to hold it.
@@ -66,6 +65,8 @@ class SupportProfile {
   void pass(double t, double rays = 1.0);
   /// Another profile's bin, already in this frame.
   void add(const SupportBin& bin);
+  /// Empties a bin and returns what it held.
+  SupportBin take(int i);
   /// Cuts [from, last()) off and returns it.
   SupportProfile cutFrom(int from);
   /// Forgets bins that rays have refuted, and empty ends. True where something went.
@@ -76,7 +77,8 @@ class SupportProfile {
   /// Maximal occupied runs; gaps up to `max_gap` bins are closed where no ray went through them.
   void supportedRanges(int max_gap, std::vector<BinRange>& ranges) const;
 
-  BinSums sums() const { return sums(first(), last()); }
+  /// Of all bins; remembered until a hit changes.
+  const BinSums& sums() const;
   BinSums sums(int from, int to) const;
   LateralFit fit() const;
   /// The cut that lowers the residual sum of squares most.
@@ -88,8 +90,11 @@ class SupportProfile {
 
  private:
   void grow(int i);
+  SupportBin& at(int i) { return bins_[static_cast<std::size_t>(i - first_)]; }
   int first_ = 0;
   std::vector<SupportBin> bins_;
+  mutable BinSums sums_;
+  mutable bool summed_ = false;  ///< sums_ holds
 };
 
 }  // namespace cca

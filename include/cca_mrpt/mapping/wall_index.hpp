@@ -28,7 +28,11 @@ class WallIndex {
   }
 
   /// The walls of a cell, in order of insertion; empty where nothing is.
-  const std::vector<Slot>& at(const Cell& cell) const;
+  const std::vector<Slot>& at(const Cell& cell) const {
+    const std::int64_t key = keyOf(cell);
+    if ((last_block_ == nullptr || key != last_key_) && !find(key)) return none_;
+    return last_block_->cells[inBlock(cell)];
+  }
 
   /// Names `slot` in each cell that the segment comes within `margin` of; the cells that were not
   /// yet named are appended to `cells`.
@@ -45,9 +49,19 @@ class WallIndex {
   struct Block {
     std::vector<Slot> cells[1 << (2 * kBlockBits)];
   };
-  static std::int64_t keyOf(const Cell& cell);
+  static std::int64_t keyOf(const Cell& cell) {
+    const std::int64_t x = cell.x() >> kBlockBits, y = cell.y() >> kBlockBits;
+    return x * (std::int64_t{1} << 32) + (y & 0xffffffffLL);
+  }
+  static std::size_t inBlock(const Cell& cell) {
+    const int mask = (1 << kBlockBits) - 1;
+    return static_cast<std::size_t>(((cell.y() & mask) << kBlockBits) | (cell.x() & mask));
+  }
+  /// Makes a block the last one; false where it does not exist.
+  bool find(std::int64_t key) const;
   std::vector<Slot>& touch(const Cell& cell);
 
+  inline static const std::vector<Slot> none_;
   std::unordered_map<std::int64_t, std::unique_ptr<Block>> blocks_;
   mutable std::int64_t last_key_ = 0;
   mutable const Block* last_block_ = nullptr;
