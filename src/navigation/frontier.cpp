@@ -24,7 +24,8 @@ Cell middleOf(const std::vector<Cell>& cells) {
 }  // namespace
 
 bool isFrontier(const ExplorationGrid& grid, Cell c) {
-  if (grid.at(c) != CellState::kFree) return false;
+  const CellState state = grid.at(c);
+  if (state != CellState::kFree && state != CellState::kPresumedFree) return false;
   for (std::size_t d = 0; d < 4; ++d) {
     if (grid.at(c + kNeighbours[d]) == CellState::kUnknown) return true;
   }

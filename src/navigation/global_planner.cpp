@@ -9,8 +9,15 @@
 namespace cca {
 namespace {
 
-constexpr int kFrontierExtent = 40;          // cells: longer frontiers are several
-constexpr double kBehindFrontier = 0.5;      // m, into the unknown: what a view point is to see
+constexpr int kFrontierExtent = 40;  // cells: longer frontiers are several
+// m, into the unknown: what a view point is to see. Half a metre lets the robot peek around a
+// corner and decide anew, time and again: nine worlds took 4 % more to 90 % coverage, and no less
+// to 99 %.
+constexpr double kBehindFrontier = 2.0;
+// A frontier of fewer cells than this is a rest: it waits until nothing larger is left, unless it
+// can be looked at in passing.
+constexpr std::size_t kRest = 25;
+constexpr double kInPassing = 2.5;           // m
 constexpr double kViewShare = 0.9;           // of the laser's range: beams lie too far apart beyond
 constexpr double kGainRange = 3.0;           // m, around what is to be seen
 constexpr std::size_t kMostViewPoints = 60;  // of a decision; the nearest frontiers
@@ -215,6 +222,7 @@ void GlobalPlanner::findViewPoints() {
   struct Candidate {
     double distance;
     Cell target;
+    bool is_rest;
   };
   std::vector<Candidate> candidates;
   const Cell here = grid_.cellOf(decided_at_);
@@ -225,21 +233,27 @@ void GlobalPlanner::findViewPoints() {
     const Cell m = frontier.middle;
     const double known_way = field_.distanceTo(m);
     const double line = std::hypot(m.x - here.x, m.y - here.y) * grid_.resolution();
-    candidates.push_back({known_way < DistanceField::kUnreached ? known_way : line, target});
+    candidates.push_back({known_way < DistanceField::kUnreached ? known_way : line, target,
+                          frontier.cells.size() < kRest});
   }
   if (candidates.size() > kMostViewPoints) {
     std::stable_sort(candidates.begin(), candidates.end(),
                      [](const auto& a, const auto& b) { return a.distance < b.distance; });
   }
   view_points_.clear();
+  std::vector<ViewPoint> rests;
   for (const Candidate& candidate : candidates) {
-    if (view_points_.size() >= kMostViewPoints) break;
+    if (view_points_.size() + rests.size() >= kMostViewPoints) break;
     const double gain = unknownAreaInView(grid_, candidate.target, kGainRange);
     if (gain < parameters_.smallest_gain) continue;
     auto view_point = nearestViewPoint(grid_, space_, field_, scanned_, candidate.target, reach());
     if (!view_point || !isWithinLimits(view_point->cell)) continue;
     view_point->gain = gain;
-    view_points_.push_back(*view_point);
+    (candidate.is_rest ? rests : view_points_).push_back(*view_point);
+  }
+  const bool only_rests = view_points_.empty();
+  for (const ViewPoint& rest : rests) {
+    if (only_rests || rest.distance < kInPassing) view_points_.push_back(rest);
   }
 }
 

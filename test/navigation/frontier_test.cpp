@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <set>
 
 #include "known_world.hpp"
@@ -64,6 +66,25 @@ TEST(FrontierCells, AreGroupedIntoAPartitionOfNoMoreThanTheExtent) {
   }
   EXPECT_EQ(count, 100u);
   EXPECT_EQ(all.size(), 100u);
+}
+
+TEST(FrontierCells, AtTheEndOfTheRangeDoNotFallToPiecesBetweenTheBeams) {
+  for (const double range : {4.0, 8.0, 20.0}) {
+    Scan scan;
+    scan.ranges.assign(361, std::numeric_limits<double>::infinity());
+    scan.angle_min = -M_PI;
+    scan.angle_increment = 2.0 * M_PI / 360.0;
+    scan.free_range_without_return = range;
+    scan.T_map_sensor = {0.01, 0.02, 0.003};
+    ExplorationGrid grid;
+    grid.insert(scan);
+    FrontierCells cells;
+    cells.update(grid, grid.changed());
+    std::size_t in_pieces = 0;
+    for (const Frontier& f : cells.frontiers(40))
+      in_pieces += f.cells.size() < 5 ? f.cells.size() : 0;
+    EXPECT_LT(in_pieces, cells.cells().size() / 20) << "range " << range;
+  }
 }
 
 }  // namespace

@@ -15,7 +15,9 @@ struct Frontier {
   Cell middle;  ///< the member nearest to the mean of all
 };
 
-/// Whether a cell is free and a side neighbour is unknown. A presumed wall is not unknown here.
+/// Whether a cell is free, or presumed so, and a side neighbour is unknown. A presumed wall is not
+/// unknown here. At the end of the laser's range most cells of a frontier are presumed ones:
+/// without them it falls to pieces as small as a beam, and a room behind it would not be missed.
 bool isFrontier(const ExplorationGrid& grid, Cell c);
 
 /// The frontier cells of a grid, kept up to date cell by cell.

@@ -41,10 +41,11 @@ struct Plan {
 /// The paper's global planner (Step 0): keeps what is known of the place, and sets one goal after
 /// the other until no reachable frontier of useful size is left.
 ///
-/// A goal is a place to look from: the one of the shortest way that sees a point half a metre and
-/// more behind a frontier. It is given up as soon as that point has been seen, or the way to it is
-/// blocked. Places from which all directions have been looked into are never goals again; a goal
-/// that showed nothing new is set aside until the map has changed.
+/// A goal is a place to look from: the one of the shortest way that sees a point up to two metres
+/// behind a frontier. It is given up as soon as that point has been seen, or the way to it is
+/// blocked. Small frontiers wait until no other is left, or one comes by. Places from which all
+/// directions have been looked into are never goals again; a goal that showed nothing new is set
+/// aside until the map has changed.
 class GlobalPlanner {
  public:
   /// @throws std::runtime_error for an unknown strategy.
