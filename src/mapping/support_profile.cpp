@@ -51,11 +51,6 @@ void SupportBin::hit(double t_hit, double d_hit) {
 }
 
 void SupportBin::add(const SupportBin& other) {
-  gather(other);
-  if (hits > kMostHits) scale(kMostHits / hits);
-}
-
-void SupportBin::gather(const SupportBin& other) {
   if (other.hits > 0.0) {
     t_min = hits > 0.0 ? std::min(t_min, other.t_min) : other.t_min;
     t_max = hits > 0.0 ? std::max(t_max, other.t_max) : other.t_max;
@@ -67,19 +62,20 @@ void SupportBin::gather(const SupportBin& other) {
   tt += other.tt;
   td += other.td;
   dd += other.dd;
+  if (hits > kMostHits) scale(kMostHits / hits);
 }
 
 void SupportBin::scale(double factor) {
   for (double* sum : {&hits, &passed, &t, &d, &tt, &td, &dd}) *sum *= factor;
 }
 
-void BinSums::add(const BinSums& o, double sign) {
-  w += sign * o.w;
-  t += sign * o.t;
-  d += sign * o.d;
-  tt += sign * o.tt;
-  td += sign * o.td;
-  dd += sign * o.dd;
+void BinSums::remove(const BinSums& o) {
+  w -= o.w;
+  t -= o.t;
+  d -= o.d;
+  tt -= o.tt;
+  td -= o.td;
+  dd -= o.dd;
 }
 
 void BinSums::addPoint(double weight, double t_mean, double d_mean) {
@@ -229,7 +225,7 @@ SupportProfile::Cut SupportProfile::bestCut() const {
     BinSums one;
     one.addPoint(binWeight(b), b.t / b.hits, b.d / b.hits);
     left.add(one);
-    right.add(one, -1.0);
+    right.remove(one);
     const double gain = whole - left.residual() - right.residual();
     if (gain > best.gain) best = {i + 1, gain};
   }

@@ -64,9 +64,12 @@ constexpr double kLoosest = 1.2;       // deviations of a return
 constexpr double kLooseShare = 0.08;   // of its length
 
 LineSegment segmentOf(const Wall& wall, const BinRange& range, const MapNoise& noise) {
-  SupportBin sum;
-  for (int i = range.first; i < range.last; ++i) sum.gather(wall.profile.bin(i));
-  const double n = sum.hits, visits = std::max(1.0, wall.visits);
+  BinSums sum;  // of the hits themselves, each bin with all its weight
+  for (int i = range.first; i < range.last; ++i) {
+    const SupportBin& b = wall.profile.bin(i);
+    sum.add({b.hits, b.t, b.d, b.tt, b.td, b.dd});
+  }
+  const double n = sum.w, visits = std::max(1.0, wall.visits);
   LineSegment s;
   if (n <= 0.0) return s;
   const double t = sum.t / n, d = sum.d / n;

@@ -17,7 +17,6 @@ struct SupportBin {
 
   void hit(double t_hit, double d_hit);
   void add(const SupportBin& other);
-  void gather(const SupportBin& other);  ///< the same, unbounded
   void scale(double factor);
 };
 
@@ -25,7 +24,15 @@ struct SupportBin {
 struct BinSums {
   double w = 0.0, t = 0.0, d = 0.0, tt = 0.0, td = 0.0, dd = 0.0;
 
-  void add(const BinSums& other, double sign = 1.0);
+  void add(const BinSums& other) {
+    w += other.w;
+    t += other.t;
+    d += other.d;
+    tt += other.tt;
+    td += other.td;
+    dd += other.dd;
+  }
+  void remove(const BinSums& other);
   void addPoint(double weight, double t_mean, double d_mean);
   /// Weighted sum of squared lateral residuals of the best line; 0 where fewer than two bins stand.
   double residual() const;
