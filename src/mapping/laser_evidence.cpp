@@ -128,7 +128,8 @@ void passRays(const Scan& scan, const std::vector<Eigen::Vector2d>& beams, const
     if (!(ray.reach > 2.0 * ray.clear)) continue;
     ray.direction = beams[beam];
     const std::uint64_t number = walls.nextRay();
-    for (CellWalk walk(ray.origin, ray.direction); walk.entered() < ray.reach; walk.advance()) {
+    const double last = ray.reach - 2.0 * ray.clear;
+    for (CellWalk walk(ray.origin, ray.direction); walk.entered() < last; walk.advance()) {
       for (const Slot slot : walls.at(walk.cell())) {
         Wall& wall = walls[slot];
         double t = 0.0;

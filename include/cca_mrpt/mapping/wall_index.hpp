@@ -15,7 +15,7 @@ class WallIndex {
  public:
   using Slot = std::int32_t;
   using Cell = Eigen::Vector2i;
-  static constexpr double kCellSize = 0.5;  ///< m
+  static constexpr double kCellSize = 0.8;  ///< m
 
   WallIndex() = default;
   WallIndex(const WallIndex& other);
