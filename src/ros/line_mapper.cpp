@@ -54,8 +54,8 @@ class LineMapper {
     const ros::WallTime begin = ros::WallTime::now();
     const std::lock_guard<std::mutex> lock(saver_.mutex());
     line_map_.insert(scan.scan);
-    record_.add(scan.scan, scan.T_map_robot);
     publisher_.publish(line_map_.lines(), scan.stamp);
+    record_.add(scan.scan, scan.T_map_robot);  // after the lines: somebody may wait for them
     diagnostics_.scanUsed((ros::WallTime::now() - begin).toSec());
   }
 

@@ -13,6 +13,7 @@ from tf2_msgs.msg import TFMessage
 from ros_watch import cast
 
 PERIOD, BEAMS, RANGE = 0.1, 181, 8.0
+NAP = 0.005  # s
 
 
 class FakeRobot:
@@ -51,13 +52,16 @@ class FakeRobot:
             time.sleep(0.02)
         return self.moves()
 
-    def seconds_until_told_to_stop(self, longest=3.0):
-        """From now to the first command of zero; longest where none comes."""
-        begin = time.time()
+    def seconds_until_told_to_stop(self, longest=10.0):
+        """From now to the first command of zero (longest where none comes), less what the machine was
+        late meanwhile: the time by which short sleeps here were overslept. Idle machines are not."""
+        begin, late = time.time(), 0.0
         while time.time() < begin + longest:
             if any(t > begin and (v, w) == (0.0, 0.0) for t, v, w in self.commands):
-                return time.time() - begin
-            time.sleep(0.005)
+                return time.time() - begin - late
+            nap = time.time()
+            time.sleep(NAP)
+            late += max(0.0, time.time() - nap - 2 * NAP)
         return longest
 
     def _take(self, twist):

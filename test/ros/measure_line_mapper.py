@@ -4,18 +4,17 @@
 
 The time from a scan's arrival at this program to the arrival of the line_markers made from it (its
 stamp tells which), at 40 Hz and 1081 beams; and the processor time of line_mapper at 10 Hz and 361
-beams, while the robot turns and drives through the office.
+beams, while the robot turns and drives through the office. Messages are not taken apart here, but for
+their stamps: Python would need longer for the markers' points than the node for the scan.
 """
 import os
 import statistics
-import sys
+import struct
 import threading
 import time
 
 import rospy
 from geometry_msgs.msg import Twist
-from sensor_msgs.msg import LaserScan
-from visualization_msgs.msg import MarkerArray
 
 from own_master import OwnMaster, main
 
@@ -26,6 +25,11 @@ def processor_seconds(pid):
     with open("/proc/%d/stat" % pid) as file:
         fields = file.read().rsplit(")", 1)[1].split()
     return (int(fields[11]) + int(fields[12])) / os.sysconf("SC_CLK_TCK")
+
+
+def stamp(message, offset):
+    """Of a serialised header that begins at this offset: (seconds, nanoseconds)."""
+    return struct.unpack_from("<II", message._buff, offset + 4)
 
 
 class LineMapper(OwnMaster):
@@ -39,15 +43,15 @@ class LineMapper(OwnMaster):
         came, latencies = {}, []
 
         def on_scan(message):
-            came[message.header.stamp] = time.perf_counter()
+            came[stamp(message, 0)] = time.perf_counter()
 
         def on_markers(message):
-            begin = came.pop(message.markers[0].header.stamp, None)
+            begin = came.pop(stamp(message, 4), None)  # behind the number of markers
             if begin is not None:
                 latencies.append(1e3 * (time.perf_counter() - begin))
 
-        rospy.Subscriber("scan", LaserScan, on_scan, tcp_nodelay=True)
-        rospy.Subscriber("line_markers", MarkerArray, on_markers, tcp_nodelay=True)
+        rospy.Subscriber("scan", rospy.AnyMsg, on_scan, tcp_nodelay=True)
+        rospy.Subscriber("line_markers", rospy.AnyMsg, on_markers, tcp_nodelay=True)
         drive = rospy.Publisher("cmd_vel", Twist, queue_size=1)
         command = Twist()
         command.linear.x, command.angular.z = 0.3, 0.4

@@ -8,6 +8,13 @@ import time
 from own_master import OwnMaster, main, until
 
 
+def velocities(file):
+    """(linear, angular) of each command that `rostopic echo -p` wrote."""
+    with open(file) as rows:
+        cells = [row.split(",") for row in rows.read().splitlines()[1:]]
+    return [(float(row[1]), float(row[6])) for row in cells if len(row) == 7]
+
+
 class NodeEnds(OwnMaster):
     def exploring(self):
         node = self.node("explore", "_world:=office", "_out:=" + self.out)
@@ -24,14 +31,14 @@ class NodeEnds(OwnMaster):
             with self.subTest(sign):
                 node = self.exploring()
                 node.send_signal(sign)
-                self.assertEqual(node.wait(timeout=20), 0)
+                self.assertEqual(node.wait(timeout=90), 0)
                 self.expect_saved()
                 self.ask("rm", "-r", self.out)
 
     def test_rosnode_kill_saves_the_map(self):
         node = self.exploring()
         self.ask("rosnode", "kill", "/explore")
-        self.assertEqual(node.wait(timeout=20), 0)
+        self.assertEqual(node.wait(timeout=90), 0)
         self.expect_saved()
 
     def drives(self):
@@ -42,22 +49,22 @@ class NodeEnds(OwnMaster):
         self.node("simulator", "_world:=office")
         node = self.node("explore", "_world:=none", "_out:=" + self.out)
         self.assertTrue(self.says("/status", "exploring"))
-        heard = self.start("rostopic", "echo", "-p", "/cmd_vel")
+        heard = os.path.join(self.home.name, "heard")
+        echo = self.start("sh", "-c", "exec rostopic echo -p /cmd_vel >" + heard)
         self.assertTrue(until(lambda: "/rostopic" in (self.ask("rostopic", "info", "/cmd_vel") or "")))
         self.assertTrue(until(self.drives), "it drives")
         node.send_signal(signal.SIGINT)
-        self.assertEqual(node.wait(timeout=20), 0)
-        time.sleep(0.5)
-        heard.send_signal(signal.SIGINT)
-        rows = [row.split(",") for row in heard.communicate(timeout=10)[0].splitlines()[1:] if row]
-        velocities = [(float(row[1]), float(row[6])) for row in rows if len(row) == 7]
-        self.assertTrue(any(v != (0.0, 0.0) for v in velocities), "it drove")
-        self.assertEqual(velocities[-1], (0.0, 0.0))
+        self.assertEqual(node.wait(timeout=90), 0)
+        until(lambda: velocities(heard)[-1:] == [(0.0, 0.0)], 20.0)
+        echo.send_signal(signal.SIGINT)
+        echo.wait(timeout=30)
+        self.assertTrue(any(v != (0.0, 0.0) for v in velocities(heard)), "it drove")
+        self.assertEqual(velocities(heard)[-1], (0.0, 0.0))
         self.expect_saved()
 
     def expect_refusal(self, node, arguments, words):
         process = self.node(node, *arguments)
-        output, _ = process.communicate(timeout=20)
+        output, _ = process.communicate(timeout=90)
         self.assertEqual(process.returncode, 2, output)
         for word in words:
             self.assertIn(word, output)
@@ -93,7 +100,7 @@ class NodeEnds(OwnMaster):
                               (self.ask("rosservice", "call", "/explore/stop") or "")))
         self.assertIsNone(node.poll())
         node.send_signal(signal.SIGINT)
-        self.assertEqual(node.wait(timeout=20), 0)
+        self.assertEqual(node.wait(timeout=90), 0)
 
 
 if __name__ == "__main__":

@@ -19,7 +19,7 @@ def free_port():
         return s.getsockname()[1]
 
 
-def until(condition, seconds=20.0):
+def until(condition, seconds=60.0):
     end = time.time() + seconds
     while time.time() < end:
         if condition():
@@ -59,7 +59,7 @@ class OwnMaster(unittest.TestCase):
         self.assertTrue(until(lambda: self.ask("rosparam", "list") is not None))
         return master
 
-    def ask(self, *command, seconds=10):
+    def ask(self, *command, seconds=40):
         try:
             done = subprocess.run(command, capture_output=True, text=True, timeout=seconds)
         except subprocess.TimeoutExpired:
@@ -70,7 +70,7 @@ class OwnMaster(unittest.TestCase):
         return self.start(os.path.join(NODES, name), *arguments)
 
     def says(self, topic, word):
-        return until(lambda: word in (self.ask("rostopic", "echo", "-n1", topic, seconds=5) or ""))
+        return until(lambda: word in (self.ask("rostopic", "echo", "-n1", topic, seconds=15) or ""))
 
 
 def main():

@@ -24,7 +24,7 @@ def main():
     rostest = subprocess.Popen(["sh", "-c", command, devel, home, test], env=environment,
                                start_new_session=True)
     try:
-        status = rostest.wait(timeout=280)
+        status = rostest.wait(timeout=450)
     except subprocess.TimeoutExpired:
         status = "a timeout"
     try:
