@@ -17,6 +17,7 @@ namespace {
 constexpr double kDegreesPerRadian = 180.0 / M_PI;
 constexpr std::array<const char*, 6> kColumns = {"x1", "y1", "x2", "y2", "id", "support"};
 constexpr std::size_t kNeeded = 4;
+constexpr double kLargest = 1e16;  // in whatever column: what is read must fit a row when written
 
 double sigma(double variance) { return std::sqrt(std::max(0.0, variance)); }
 
@@ -47,8 +48,8 @@ double number(const std::string& cell, const std::string& where) {
   double value = 0.0;
   const char* const end = cell.data() + cell.size();
   const auto result = std::from_chars(cell.data(), end, value);
-  if (result.ec != std::errc() || result.ptr != end || !std::isfinite(value)) {
-    throw std::runtime_error(where + ": '" + cell + "' is not a finite number");
+  if (result.ec != std::errc() || result.ptr != end || !(std::abs(value) <= kLargest)) {
+    throw std::runtime_error(where + ": '" + cell + "' must be a number in [-1e16, 1e16]");
   }
   return value;
 }

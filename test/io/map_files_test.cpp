@@ -84,7 +84,8 @@ TEST(LinesCsv, NamesFileRowAndColumnOfWhatIsWrong) {
   EXPECT_THAT(message("a,b\n1,2\n"), HasSubstr("some.csv: not a line map: no column x1"));
   EXPECT_THAT(message("x1,y1,x2,y2\n1,2,3\n"), HasSubstr("row 2, column y2: missing"));
   EXPECT_THAT(message("x1,y1,x2,y2\n1,2,3,4\n1,nan,3,4\n"), HasSubstr("row 3, column y1"));
-  EXPECT_THAT(message("x1,y1,x2,y2\n1,2,3,4m\n"), HasSubstr("'4m' is not a finite number"));
+  EXPECT_THAT(message("x1,y1,x2,y2\n1,2,3,4m\n"), HasSubstr("'4m' must be a number"));
+  EXPECT_THAT(message("x1,y1,x2,y2\n1,2,3,1e17\n"), HasSubstr("'1e17' must be a number in"));
 }
 
 TEST(LoneLines, AreThoseOfNoPolyLine) {
