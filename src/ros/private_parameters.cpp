@@ -86,6 +86,7 @@ void PrivateParameters::program(Parameters& p) {
   text("config", config);
   if (!config.empty()) loadParameters(config, p);
   const auto fields = listParameters(p);
+  const auto own = known_;  // the node's: `pose` is its own, and the program's is run/pose
   const auto set = [this](const ParameterField& field, const std::string& name) {
     XmlRpc::XmlRpcValue parameter;
     if (!given(name, parameter)) return;
@@ -99,7 +100,8 @@ void PrivateParameters::program(Parameters& p) {
     const auto namesakes = std::count_if(fields.begin(), fields.end(), [&field](const auto& other) {
       return other.name == field.name;
     });
-    if (namesakes == 1) set(field, field.name);
+    const bool is_own = std::find(own.begin(), own.end(), field.name) != own.end();
+    if (namesakes == 1 && !is_own) set(field, field.name);
     set(field, field.section + "/" + field.name);
   }
 }

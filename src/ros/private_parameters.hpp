@@ -24,7 +24,8 @@ class PrivateParameters {
   void number(const std::string& name, double& value, double lowest, double highest,
               const std::string& unit);
   void choice(const std::string& name, std::string& value, const std::vector<std::string>& allowed);
-  /// The program's parameters; those of the .ini file that `~config` names come first.
+  /// The program's parameters; those of the .ini file that `~config` names come first. To be called
+  /// after the node's own were read: a short name that is one of these is not the program's.
   void program(Parameters& p);
 
   /// @throws std::runtime_error naming what nobody asked for, and all that there is.

@@ -2,6 +2,7 @@
 """Tests that start nodes themselves, each with a master of its own: rostest cannot restart a master,
 nor look at the exit status of a node."""
 import os
+import signal
 import socket
 import subprocess
 import sys
@@ -40,21 +41,24 @@ class OwnMaster(unittest.TestCase):
 
     def tearDown(self):
         for process in reversed(self.running):
-            if process.poll() is None:
-                process.kill()
+            try:
+                os.killpg(process.pid, signal.SIGKILL)  # also what a roslaunch has left behind
+            except ProcessLookupError:
+                pass
             process.communicate()
         self.home.cleanup()
 
     def start(self, *command):
         process = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
-                                   text=True)
+                                   text=True, start_new_session=True)
         self.running.append(process)
         return process
 
     def start_master(self):
         # The bare master: roscore's own children would hide it from a signal.
         master = subprocess.Popen(["rosmaster", "--core", "-p", str(self.port)],
-                                  stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+                                  stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
+                                  start_new_session=True)
         self.running.append(master)
         self.assertTrue(until(lambda: self.ask("rosparam", "list") is not None))
         return master
@@ -77,6 +81,6 @@ def main():
     """DEVEL_SPACE [names of tests]: runs them in the environment of that space."""
     if not os.environ.get("CMAKE_PREFIX_PATH", "").startswith(DEVEL):
         os.environ["PATH"] = "/usr/bin:/bin:" + os.environ["PATH"]
-        again = '. "$0/setup.sh" && exec /usr/bin/python3 "$@"'
-        os.execvp("sh", ["sh", "-c", again, DEVEL] + sys.argv)
+        again = '. "$0/setup.bash" && exec /usr/bin/python3 "$@"'
+        os.execvp("bash", ["bash", "-c", again, DEVEL] + sys.argv)
     unittest.main(argv=sys.argv[:1] + sys.argv[2:], verbosity=2)
