@@ -11,14 +11,6 @@ namespace {
 constexpr double kStation = 0.25, kLateral = 0.15;  // m
 constexpr std::size_t kFewestPoints = 5, kMostPoints = 400000;
 
-double percentile(std::vector<double> values, double q) {  // linear between ranks
-  std::sort(values.begin(), values.end());
-  const double at = q * static_cast<double>(values.size() - 1);
-  const auto low = static_cast<std::size_t>(at);
-  const std::size_t high = std::min(low + 1, values.size() - 1);
-  return values[low] + (at - static_cast<double>(low)) * (values[high] - values[low]);
-}
-
 }  // namespace
 
 LateralBias lateralBias(const std::vector<Eigen::Vector2d>& points,
@@ -59,8 +51,8 @@ LateralBias lateralBias(const std::vector<Eigen::Vector2d>& points,
   double sum = 0.0;
   for (const double m : medians) sum += m * m;
   bias.rms = std::sqrt(sum / static_cast<double>(medians.size()));
-  bias.p95 = percentile(medians, 0.95);
-  bias.spread_median = 1.4826 * percentile(spreads, 0.5);
+  bias.p95 = quantile(medians, 0.95);
+  bias.spread_median = 1.4826 * quantile(spreads, 0.5);
   return bias;
 }
 

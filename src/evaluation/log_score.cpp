@@ -13,6 +13,8 @@ namespace {
 
 using log_score::EndPoints;
 using log_score::MapSamples;
+using log_score::quantile;
+using log_score::shareWithin;
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 constexpr double kUnsupportedRun = 0.5;     // m
@@ -24,28 +26,11 @@ constexpr double kMostSamples = 400000.0;
 
 double count(std::size_t n) { return static_cast<double>(n); }
 
-/// Share of the values at or below a limit; 0 where there are none.
-double shareWithin(const std::vector<double>& values, double limit) {
-  if (values.empty()) return 0.0;
-  return count(static_cast<std::size_t>(std::count_if(values.begin(), values.end(),
-                                                      [limit](double v) { return v <= limit; }))) /
-         count(values.size());
-}
-
 double mean(const std::vector<double>& values) {
   if (values.empty()) return kNaN;
   double sum = 0.0;
   for (const double v : values) sum += v;
   return sum / count(values.size());
-}
-
-double quantile(std::vector<double> values, double q) {
-  if (values.empty()) return kNaN;
-  std::sort(values.begin(), values.end());
-  const double at = q * count(values.size() - 1);
-  const auto low = static_cast<std::size_t>(at);
-  const std::size_t high = std::min(low + 1, values.size() - 1);
-  return values[low] + (at - count(low)) * (values[high] - values[low]);
 }
 
 /// k(d) = exp(-d^2 / (2 smear^2)), cut at two deviations.

@@ -80,6 +80,10 @@ FreeSpace freeSpace(const std::vector<Scan>& scans, const std::vector<Segment2>&
 
 /// Value of rank floor(q n) of an unsorted list; NaN where it is empty.
 double ranked(std::vector<double> values, double q);
+/// The same, linear between ranks q (n - 1); NaN where the list is empty.
+double quantile(std::vector<double> values, double q);
+/// Share of the values at or below a limit; 0 where there are none.
+double shareWithin(const std::vector<double>& values, double limit);
 
 /// Distance of a scan's beam that counts as a return here.
 inline bool counts(double range) { return isReturn(range) && range >= 0.05; }

@@ -117,4 +117,20 @@ double ranked(std::vector<double> values, double q) {
   return values[rank];
 }
 
+double quantile(std::vector<double> values, double q) {
+  if (values.empty()) return std::numeric_limits<double>::quiet_NaN();
+  std::sort(values.begin(), values.end());
+  const double at = q * static_cast<double>(values.size() - 1);
+  const auto low = static_cast<std::size_t>(at);
+  const std::size_t high = std::min(low + 1, values.size() - 1);
+  return values[low] + (at - static_cast<double>(low)) * (values[high] - values[low]);
+}
+
+double shareWithin(const std::vector<double>& values, double limit) {
+  if (values.empty()) return 0.0;
+  const auto within =
+      std::count_if(values.begin(), values.end(), [limit](double v) { return v <= limit; });
+  return static_cast<double>(within) / static_cast<double>(values.size());
+}
+
 }  // namespace cca::log_score

@@ -65,11 +65,10 @@ std::vector<double> distancesToNearest(const std::vector<Eigen::Vector2d>& point
   return distances;
 }
 
-double shareWithin(const std::vector<double>& values, std::size_t number, double limit) {
-  if (number == 0) return kNaN;
-  return static_cast<double>(std::count_if(values.begin(), values.end(),
-                                           [limit](double v) { return v <= limit; })) /
-         static_cast<double>(number);
+/// Share of `ends` whose distance is within the tolerance; NaN where there are none.
+double shareFound(const std::vector<Eigen::Vector2d>& ends, const std::vector<double>& distances,
+                  double tolerance) {
+  return ends.empty() ? kNaN : log_score::shareWithin(distances, tolerance);
 }
 
 }  // namespace
@@ -125,8 +124,8 @@ LogScore scoreAgainstWorld(const std::vector<Segment2>& all_truth,
              {"angle_mean_deg", right > 0.0 ? angles / right * 180.0 / M_PI : kNaN},
              {"end_error_median_m", log_score::ranked(map_to_truth, 0.5)},
              {"end_error_p90_m", log_score::ranked(map_to_truth, 0.9)},
-             {"vertices_found", shareWithin(truth_to_map, truth_ends.size(), p.tolerance)},
-             {"vertices_right", shareWithin(map_to_truth, map_ends.size(), p.tolerance)}}}}};
+             {"vertices_found", shareFound(truth_ends, truth_to_map, p.tolerance)},
+             {"vertices_right", shareFound(map_ends, map_to_truth, p.tolerance)}}}}};
 }
 
 }  // namespace cca
