@@ -4,6 +4,7 @@
 #include <mrpt/config/CConfigFile.h>
 #include <mrpt/system/filesystem.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <cstring>
@@ -93,11 +94,27 @@ std::vector<ParameterField> listParameters(Parameters& p) {
   return fields;
 }
 
+namespace {
+
+mrpt::config::CConfigFile openIni(const std::string& path) {
+  try {
+    return mrpt::config::CConfigFile(path);
+  } catch (const std::exception& error) {
+    // MRPT's message is several lines with a call stack; one begins with the number of the line.
+    const std::string text = error.what();
+    const std::size_t at = std::min(text.find("Line "), text.size());
+    throw std::runtime_error(
+        path + ": cannot be read as an .ini file: " + text.substr(at, text.find('\n', at) - at));
+  }
+}
+
+}  // namespace
+
 void loadParameters(const std::string& ini_path, Parameters& p) {
   if (!mrpt::system::fileExists(ini_path) || mrpt::system::directoryExists(ini_path)) {
     throw std::runtime_error(ini_path + ": no such file");
   }
-  const mrpt::config::CConfigFile ini(ini_path);
+  const mrpt::config::CConfigFile ini = openIni(ini_path);
   Parameters changed = p;
   const auto fields = listParameters(changed);
   std::vector<std::string> sections, keys;

@@ -91,5 +91,18 @@ TEST(Parameters, DefaultsLieWithinTheirOwnRangesAndKeysAreUnique) {
   }
 }
 
+TEST(Parameters, AnIniFileThatCannotBeReadIsNamedWithItsLine) {
+  const std::string path = testing::TempDir() + "broken.ini";
+  std::ofstream(path) << "[mapping]\npoints_per_cluster = $env{HOME\n";
+  Parameters p;
+  try {
+    loadParameters(path, p);
+    FAIL() << "no error";
+  } catch (const std::runtime_error& error) {
+    EXPECT_EQ(std::string(error.what()).rfind(path + ": ", 0), 0u) << error.what();
+    EXPECT_NE(std::string(error.what()).find("Line 2"), std::string::npos) << error.what();
+  }
+}
+
 }  // namespace
 }  // namespace cca
