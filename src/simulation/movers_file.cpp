@@ -36,7 +36,8 @@ Eigen::Vector2d place(const YamlNode& entry, const std::string& key, const std::
 
 void requireFree(const YamlNode& entry, const std::string& key, const World& world,
                  const Eigen::Vector2d& p, double radius) {
-  if (world.clearance(p, radius) >= radius) return;
+  constexpr double kFarther = 0.01;  // m: at its limit a clearance is rounded
+  if (world.clearance(p, radius + kFarther) >= radius) return;
   char text[120];
   std::snprintf(text, sizeof text, "comes into a wall at %.2f, %.2f m", p.x(), p.y());
   entry.fail(key, text);
