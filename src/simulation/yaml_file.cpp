@@ -33,6 +33,11 @@ YamlNode YamlNode::load(const std::string& path) {
   std::ifstream file(path);
   const std::string text{std::istreambuf_iterator<char>(file), {}};
   if (!file) throw std::runtime_error(path + ": cannot be read");
+  // MRPT's YAML library hangs on a malformed directive, and these files need none.
+  if (text.rfind('%', 0) == 0 || text.find("\n%") != std::string::npos ||
+      text.find("\r%") != std::string::npos) {
+    throw std::runtime_error(path + ": YAML directives (%...) are not read");
+  }
   yaml node;
   try {
     node.loadFromText(text);

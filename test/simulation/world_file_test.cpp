@@ -119,6 +119,14 @@ TEST(WorldFile, RefusesAMonsterByItsHeaderBeforeUnpackingIt) {
             std::string::npos);
 }
 
+TEST(WorldFile, RefusesDirectivesOnSomeOfWhichTheYamlLibraryHangs) {
+  const std::string hangs(
+      "image: small.pgm\n% rgin: [0.0,\xA0"
+      "0.0\n");
+  EXPECT_NE(complaintAbout(hangs).find("directives"), std::string::npos);
+  EXPECT_NE(complaintAbout("%YAML 1.1\n" + kRest).find("directives"), std::string::npos);
+}
+
 TEST(WorldFile, AMissingFileIsNamed) {
   try {
     loadWorld("nowhere/world.yaml");
