@@ -2,6 +2,7 @@
 #include "cca_mrpt/evaluation/spatial_index.hpp"
 
 #include <algorithm>
+#define BOOST_ALLOW_DEPRECATED_HEADERS  // Boost.Geometry includes one itself
 #include <boost/geometry.hpp>
 #include <boost/geometry/geometries/box.hpp>
 #include <boost/geometry/geometries/point_xy.hpp>
