@@ -215,7 +215,7 @@ void GlobalPlanner::decide(const Eigen::Vector2d& robot_map) {
 std::optional<std::size_t> GlobalPlanner::choose() {
   if (strategy_ != Strategy::kViewTour) return selectGoal(strategy_, view_points_);
   const auto present = goal_ ? std::optional<Cell>(goal_->target) : std::nullopt;
-  return view_tour_.choose(grid_, space_, view_points_, reach(), present);
+  return view_tour_.choose(grid_, space_, view_points_, reach(), present, only_rests_);
 }
 
 void GlobalPlanner::findViewPoints() {
@@ -251,9 +251,9 @@ void GlobalPlanner::findViewPoints() {
     view_point->gain = gain;
     (candidate.is_rest ? rests : view_points_).push_back(*view_point);
   }
-  const bool only_rests = view_points_.empty();
+  only_rests_ = view_points_.empty();
   for (const ViewPoint& rest : rests) {
-    if (only_rests || rest.distance < kInPassing) view_points_.push_back(rest);
+    if (only_rests_ || rest.distance < kInPassing) view_points_.push_back(rest);
   }
 }
 

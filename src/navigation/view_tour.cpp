@@ -31,13 +31,13 @@ std::vector<std::vector<std::size_t>> visibility(const ExplorationGrid& grid,
 
 std::optional<std::size_t> ViewTour::choose(const ExplorationGrid& grid, const FreeSpace& space,
                                             const std::vector<ViewPoint>& view_points, double reach,
-                                            std::optional<Cell> present) {
+                                            std::optional<Cell> present, bool only_rests) {
   if (view_points.empty()) return {};
   ++choices_;
   const std::vector<Stop> stops = cover(grid, view_points, reach, present);
   const Eigen::MatrixXd distance = distances(grid, space, view_points, stops);
   TourObjective objective;
-  objective.hurry = parameters_.hurry;
+  objective.hurry = only_rests ? 0.0 : parameters_.hurry;
   double sum = 0.0;
   for (const Stop& stop : stops) sum += stop.gain;
   for (const Stop& stop : stops) objective.weights.push_back(sum > 0.0 ? stop.gain / sum : 0.0);

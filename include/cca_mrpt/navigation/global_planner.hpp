@@ -122,6 +122,7 @@ class GlobalPlanner {
   std::optional<Eigen::Vector2d> last_place_;  ///< m, of the robot at the last scan
   ViewTour view_tour_;
   std::vector<ViewPoint> view_points_;
+  bool only_rests_ = false;  ///< whether the view points are rests
   std::vector<Aside> aside_;
   std::optional<ViewPoint> goal_;
   double laser_range_ = 1.0;  ///< m, the longest that a beam was seen to be free

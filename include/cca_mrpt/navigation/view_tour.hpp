@@ -37,11 +37,12 @@ class ViewTour {
   /// @param view_points  with distances from the robot and gains.
   /// @param reach        m, how far the robot sees.
   /// @param present      target of the present goal, if it still stands.
+  /// @param only_rests   nothing large is left to hurry for: the shortest tour is taken.
   /// @return             index of the view point to go to; empty for no view points.
   /// Cost: O(n^2 reach) lines of sight for n view points, and a few distance fields.
   std::optional<std::size_t> choose(const ExplorationGrid& grid, const FreeSpace& space,
                                     const std::vector<ViewPoint>& view_points, double reach,
-                                    std::optional<Cell> present);
+                                    std::optional<Cell> present, bool only_rests);
 
  private:
   struct Stop {
