@@ -40,27 +40,23 @@ ExplorationRecord::ExplorationRecord(const Simulation& simulation, const std::st
       coverage_(simulation.world(), simulation.T_map_robot().position(),
                 simulation.parameters().robot.radius, simulation.parameters().laser.range) {}
 
-void ExplorationRecord::add(const Simulation& simulation, const Action& action) {
+void ExplorationRecord::add(const Cycle& cycle) {
   ++scans_;
-  if (hasMoved(last_look_, simulation.T_map_robot())) look(simulation);
-  if (action.goal && (!goal_ || *goal_ != *action.goal)) ++goals_;
-  goal_ = action.goal;
-}
-
-void ExplorationRecord::keep(const Observation& believed, const Pose2& T_odom_robot,
-                             double scan_us) {
-  rawlog_.insert(believed.scan, believed.T_map_robot.inverse() * believed.scan.T_map_sensor,
-                 T_odom_robot, believed.time);
-  if (hasMoved(last_insertion_, believed.T_map_robot)) {
-    grid_.insert(believed.scan);
-    believed_way_.push_back(believed.T_map_robot);
+  if (hasMoved(last_look_, cycle.T_map_robot)) look(cycle.T_map_robot, cycle.time, cycle.distance);
+  if (cycle.goal && (!goal_ || *goal_ != *cycle.goal)) ++goals_;
+  goal_ = cycle.goal;
+  const auto& [scan, T_map_robot, velocity, time] = cycle.believed;
+  rawlog_.insert(scan, T_map_robot.inverse() * scan.T_map_sensor, cycle.T_odom_robot, time);
+  if (hasMoved(last_insertion_, T_map_robot)) {
+    grid_.insert(scan);
+    believed_way_.push_back(T_map_robot);
   }
-  scan_us_.push_back(scan_us);
+  work_us_.push_back(cycle.work_us);
 }
 
-void ExplorationRecord::look(const Simulation& simulation) {
-  coverage_.look(simulation.T_map_robot());
-  looks_.push_back({simulation.time(), simulation.distance()});
+void ExplorationRecord::look(const Pose2& T_map_robot, double time, double distance) {
+  coverage_.look(T_map_robot);
+  looks_.push_back({time, distance});
 }
 
 void ExplorationRecord::writeTrajectory(const Simulation& simulation) const {
@@ -99,8 +95,8 @@ nlohmann::ordered_json ExplorationRecord::summary(const Simulation& simulation, 
   summary["collisions"] = simulation.collisions();
   summary["mover_contacts"] = simulation.moverContacts();
   summary["scans"] = scans();
-  summary["scan_us_median"] = rounded(quantile(scan_us_, 0.5), 10.0);
-  summary["scan_us_p99"] = rounded(quantile(scan_us_, 0.99), 10.0);
+  summary["scan_us_median"] = rounded(quantile(work_us_, 0.5), 10.0);
+  summary["scan_us_p99"] = rounded(quantile(work_us_, 0.99), 10.0);
   return summary;
 }
 
@@ -117,7 +113,7 @@ MapProducts ExplorationRecord::products(const Simulation& simulation,
 
 void ExplorationRecord::write(const Simulation& simulation, const Explorer& explorer,
                               const End& end) {
-  look(simulation);
+  look(simulation.T_map_robot(), simulation.time(), simulation.distance());
   rawlog_.commit();
   writeTrajectory(simulation);
   writeCoverage();

@@ -27,11 +27,15 @@ class ExplorationRecord {
   /// @throws std::runtime_error where the folder cannot be written to.
   ExplorationRecord(const Simulation& simulation, const std::string& folder);
 
-  /// One cycle, as it was.
-  void add(const Simulation& simulation, const Action& action);
-  /// The same cycle, as the robot sees it. It shares nothing with add(): both may run side by side.
-  /// @param believed  what the explorer was given. @param scan_us  the time that its work took.
-  void keep(const Observation& believed, const Pose2& T_odom_robot, double scan_us);
+  /// One cycle: what was, and what the robot made of it.
+  struct Cycle {
+    double time, distance;            ///< s, m, since the start
+    Pose2 T_map_robot, T_odom_robot;  ///< the truth, and what the wheels say
+    Observation believed;             ///< what the explorer was given
+    std::optional<Eigen::Vector2d> goal;
+    double work_us;  ///< of the explorer
+  };
+  void add(const Cycle& cycle);
 
   /// Writes every file of the folder. @throws std::runtime_error naming the file.
   void write(const Simulation& simulation, const Explorer& explorer, const End& end);
@@ -46,7 +50,7 @@ class ExplorationRecord {
   struct Look {
     double time, distance;
   };
-  void look(const Simulation& simulation);
+  void look(const Pose2& T_map_robot, double time, double distance);
   void writeTrajectory(const Simulation& simulation) const;
   void writeCoverage();
   nlohmann::ordered_json summary(const Simulation& simulation, const End& end);
@@ -57,7 +61,7 @@ class ExplorationRecord {
   Coverage coverage_;
   std::vector<Look> looks_;
   std::vector<Pose2> believed_way_;
-  std::vector<double> scan_us_;
+  std::vector<double> work_us_;
   std::optional<Pose2> last_look_, last_insertion_;
   std::optional<Eigen::Vector2d> goal_;
   int goals_ = 0;

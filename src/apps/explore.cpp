@@ -119,13 +119,16 @@ ExplorationRecord::End drive(Simulation& simulation, Explorer& explorer, Explora
     belief.replacePose(observation, simulation.T_odom_robot());
     const auto start = Clock::now();
     const Action action = explorer.navigate(observation);
-    const double navigation_s = secondsSince(start);
-    beside.add([&, observation, navigation_s, T_odom_robot = simulation.T_odom_robot()] {
+    ExplorationRecord::Cycle cycle{
+        simulation.time(),         simulation.distance(), simulation.T_map_robot(),
+        simulation.T_odom_robot(), observation,           action.goal,
+        1e6 * secondsSince(start)};
+    beside.add([&, cycle = std::move(cycle)]() mutable {
       const auto map_start = Clock::now();
-      explorer.map(observation.scan);
-      record.keep(observation, T_odom_robot, 1e6 * (navigation_s + secondsSince(map_start)));
+      explorer.map(cycle.believed.scan);
+      cycle.work_us += 1e6 * secondsSince(map_start);
+      record.add(cycle);
     });
-    record.add(simulation, action);
     if (action.status == ExplorationStatus::kFinished) {
       beside.wait();
       return {true, action.reason, 0.0};
@@ -135,7 +138,10 @@ ExplorationRecord::End drive(Simulation& simulation, Explorer& explorer, Explora
       beside.wait();
       window->show(record.products(simulation, explorer), simulation, observation, action);
     }
-    if (progress) showProgress(*progress, simulation, record, action, begin);
+    if (progress && progress->isDue()) {
+      beside.wait();
+      showProgress(*progress, simulation, record, action, begin);
+    }
   }
   beside.wait();
   return {false, interruption.requested() ? "interrupted" : "the longest simulated time is over",

@@ -7,7 +7,6 @@
 
 namespace cca::apps {
 namespace {
-constexpr std::chrono::milliseconds kPeriod{200};
 constexpr double kEnoughToForecast = 0.02;
 }  // namespace
 
@@ -22,7 +21,7 @@ Progress::~Progress() {
 }
 
 void Progress::show(double done, const std::string& detail) {
-  if (!terminal_ || Clock::now() - last_ < kPeriod) return;
+  if (!isDue()) return;
   last_ = Clock::now();
   shown_ = true;
   std::fprintf(stderr, "\r\033[K%s: %3.0f %%, %s", what_.c_str(), 100.0 * done, detail.c_str());

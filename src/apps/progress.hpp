@@ -14,11 +14,14 @@ class Progress {
   /// Removes the line.
   ~Progress();
 
+  /// Whether show() would show anything now.
+  bool isDue() const { return terminal_ && Clock::now() - last_ >= kPeriod; }
   /// @param done  in [0, 1]. Costs next to nothing when called often.
   void show(double done, const std::string& detail);
 
  private:
   using Clock = std::chrono::steady_clock;
+  static constexpr std::chrono::milliseconds kPeriod{200};
 
   std::string what_;
   bool terminal_, shown_ = false;
