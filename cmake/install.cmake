@@ -12,7 +12,7 @@ if(CCA_ROS)
       install(FILES ${setup_dir}/${setup} DESTINATION .)
     endforeach()
     #catkin_lint: ignore_once wrong_bin_install_destination wrong_install_destination missing_file
-    install(PROGRAMS ${setup_dir}/_setup_util.py DESTINATION .)
+    install(PROGRAMS ${CATKIN_DEVEL_PREFIX}/_setup_util.py DESTINATION .)
   endif()
 else()
   set(config_dir ${CMAKE_INSTALL_LIBDIR}/cmake/cca_mrpt)
