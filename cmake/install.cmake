@@ -11,7 +11,7 @@ if(CCA_ROS)
       #catkin_lint: ignore_once wrong_install_destination missing_file (catkin makes them)
       install(FILES ${setup_dir}/${setup} DESTINATION .)
     endforeach()
-    #catkin_lint: ignore_once wrong_bin_install_destination wrong_install_destination missing_file
+    #catkin_lint: ignore_once wrong_bin_install_destination wrong_install_destination external_file missing_file
     install(PROGRAMS ${CATKIN_DEVEL_PREFIX}/_setup_util.py DESTINATION .)
   endif()
 else()
