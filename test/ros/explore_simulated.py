@@ -168,7 +168,7 @@ class ExploreSimulated(unittest.TestCase):
         self.assertTrue(0 <= start < 20, "the robot stood there")
 
     def test_12_lines_are_the_true_walls(self):
-        lines = self.lines.messages[-1].lines
+        lines = Watch("lines", LineMap).wait(seconds=5).lines  # the latched one: queues may lag
         self.assertEqual(len({line.id for line in lines}), len(lines))
         ends = numpy.array([[p.x, p.y] for line in lines for p in (line.start, line.end)])
         mids = 0.5 * (ends[::2] + ends[1::2])
