@@ -17,7 +17,7 @@ while [ $# -gt 0 ] && [[ $1 == *.yaml ]]; do
 done
 mkdir -p "$out"
 if [ ${#worlds[@]} -eq 0 ]; then
-  worlds=(maps/*.yaml)
+  for truth in maps/*.truth.csv; do worlds+=("${truth%.truth.csv}.yaml"); done
   for seed in 1 2 3 4 5; do
     "$program" generate-world random --seed "$seed" --name "random_$seed" --out "$out" --force
     worlds+=("$out/random_$seed.yaml")

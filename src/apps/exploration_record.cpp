@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "exploration_record.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <cstdio>
 
+#include "cca_mrpt/evidence/statistics.hpp"
 #include "cca_mrpt/io/atomic_file.hpp"
 
 namespace cca::apps {
@@ -20,14 +20,6 @@ bool hasMoved(std::optional<Pose2>& last, const Pose2& now) {
   }
   last = now;
   return true;
-}
-
-/// The value below which a share of all values lies; 0 of none.
-double quantile(std::vector<double> values, double share) {
-  if (values.empty()) return 0.0;
-  const auto nth = values.begin() + static_cast<std::ptrdiff_t>(share * (values.size() - 1.0));
-  std::nth_element(values.begin(), nth, values.end());
-  return *nth;
 }
 
 double rounded(double value, double per_unit) { return std::round(value * per_unit) / per_unit; }
@@ -95,8 +87,8 @@ nlohmann::ordered_json ExplorationRecord::summary(const Simulation& simulation, 
   summary["collisions"] = simulation.collisions();
   summary["mover_contacts"] = simulation.moverContacts();
   summary["scans"] = scans();
-  summary["scan_us_median"] = rounded(quantile(work_us_, 0.5), 10.0);
-  summary["scan_us_p99"] = rounded(quantile(work_us_, 0.99), 10.0);
+  summary["scan_us_median"] = rounded(evidence::quantile(work_us_, 0.5), 10.0);
+  summary["scan_us_p99"] = rounded(evidence::quantile(work_us_, 0.99), 10.0);
   return summary;
 }
 

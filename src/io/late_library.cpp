@@ -23,7 +23,9 @@ std::string besideThisLibrary(const char* file) {
 
 void* lateFunction(const char* library, const char* function) {
   // Never closed: objects made by it may outlive any scope here.
-  void* const handle = dlopen(besideThisLibrary(library).c_str(), RTLD_NOW | RTLD_LOCAL);
+  void* handle = dlopen(besideThisLibrary(library).c_str(), RTLD_NOW | RTLD_LOCAL);
+  // Linked statically, this is the program, which knows where its libraries lie.
+  if (!handle) handle = dlopen(library, RTLD_NOW | RTLD_LOCAL);
   void* const found = handle ? dlsym(handle, function) : nullptr;
   if (!found) throw std::runtime_error(std::string(library) + ": cannot be loaded: " + dlerror());
   return found;
