@@ -2,6 +2,7 @@
 #include "cca_mrpt/mapping/laser_evidence.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -49,6 +50,63 @@ struct Ray {
   double reach, clear;
 };
 
+bool isUsable(double range) { return isReturn(range) && range <= kLongestReturn; }
+
+/// Half-open range of beams.
+struct BeamRange {
+  std::size_t first = 0, last = 0;
+};
+
+/// The beams that can meet a line, within `off` [m] of it: one range, or two where the line lies
+/// across the scan's seam or the last beams repeat the first.
+std::array<BeamRange, 2> beamsTowards(const Scan& scan, const LineSegment& line, double off) {
+  const Pose2& T = scan.T_map_sensor;
+  const Eigen::Vector2d a = line.start - T.position(), b = line.end - T.position();
+  const double spacing = std::abs(scan.angle_increment), nearest = std::min(a.norm(), b.norm());
+  const double all = static_cast<double>(scan.size());
+  if (!(spacing > 0.0) || !(nearest > off)) return {BeamRange{0, scan.size()}, {}};
+  const Eigen::Vector2d& from = scan.angle_increment > 0.0 ? a : b;  // met first
+  const double turned = wrapAngle(std::atan2(from.y(), from.x()) - T.theta - scan.angle_min);
+  const double first = scan.angle_increment > 0.0 ? turned : -turned;
+  const double width = std::abs(std::atan2(a.x() * b.y() - a.y() * b.x(), a.dot(b)));
+  const double slack = spacing + std::asin(off / nearest);
+  std::array<BeamRange, 2> ranges;
+  for (std::size_t turn = 0; turn < 2; ++turn) {
+    const double begin = first - slack + 2.0 * M_PI * static_cast<double>(turn);
+    const double end = begin + width + 2.0 * slack;
+    ranges[turn].first = static_cast<std::size_t>(std::clamp(begin / spacing, 0.0, all));
+    ranges[turn].last = static_cast<std::size_t>(std::clamp(end / spacing + 1.0, 0.0, all));
+  }
+  return ranges;
+}
+
+/// The wall of the new line that each return lies on; -1 where there is none. The lines may come in
+/// any order: those of a full turn begin at a corner, not at the first beam.
+std::vector<Slot> wallsOfReturns(const Scan& scan, const std::vector<Eigen::Vector2d>& beams,
+                                 const std::vector<NewLine>& lines, std::size_t scan_in_batch,
+                                 const MapNoise& noise) {
+  const Eigen::Vector2d viewpoint = scan.T_map_sensor.position();
+  const double on_line = kGates * std::sqrt(noise.rangeVariance()) + 0.01;
+  std::vector<Slot> slots(scan.size(), -1);
+  std::vector<double> off(scan.size(), on_line);
+  for (const NewLine& line : lines) {
+    if (line.scan != scan_in_batch) continue;
+    const Eigen::Vector2d u = line.segment.direction();
+    const double length = line.segment.length();
+    for (const BeamRange& range : beamsTowards(scan, line.segment, on_line)) {
+      for (std::size_t beam = range.first; beam < range.last; ++beam) {
+        if (!isUsable(scan.ranges[beam])) continue;
+        const Eigen::Vector2d v = viewpoint + scan.ranges[beam] * beams[beam] - line.segment.start;
+        const double t = u.dot(v), d = std::abs(u.x() * v.y() - u.y() * v.x());
+        if (t < -1e-6 || t > length + 1e-6 || d >= off[beam]) continue;
+        off[beam] = d;
+        slots[beam] = line.wall;
+      }
+    }
+  }
+  return slots;
+}
+
 /// Where along the wall the ray went clearly through its line; false where it did not.
 bool passes(const Ray& ray, const Wall& wall, double* t_cross) {
   const Eigen::Vector2d o = wall.toWall(ray.origin);
@@ -81,27 +139,12 @@ void depositReturns(const Scan& scan, const std::vector<Eigen::Vector2d>& beams,
                     const std::vector<NewLine>& lines, std::size_t scan_in_batch,
                     const MapNoise& noise, Walls& walls) {
   const Eigen::Vector2d viewpoint = scan.T_map_sensor.position();
-  std::vector<const NewLine*> mine;
-  for (const NewLine& line : lines) {
-    if (line.scan == scan_in_batch) mine.push_back(&line);
-  }
-  const double on_line = kGates * std::sqrt(noise.rangeVariance()) + 0.01;
+  const std::vector<Slot> walls_of_lines = wallsOfReturns(scan, beams, lines, scan_in_batch, noise);
   const double on_wall = kGates * noise.lateralSigma();
-  std::size_t next = 0;
   for (std::size_t beam = 0; beam < scan.size(); ++beam) {
-    if (!isReturn(scan.ranges[beam]) || scan.ranges[beam] > kLongestReturn) continue;
+    if (!isUsable(scan.ranges[beam])) continue;
     const Eigen::Vector2d p = viewpoint + scan.ranges[beam] * beams[beam];
-    Slot slot = -1;
-    // Lines come by bearing: a return lies on the current one or on one of the next.
-    for (std::size_t k = next; k < std::min(next + 3, mine.size()); ++k) {
-      const LineSegment& s = mine[k]->segment;
-      const Eigen::Vector2d u = s.direction(), v = p - s.start;
-      const double t = u.dot(v), d = std::abs(u.x() * v.y() - u.y() * v.x());
-      if (t < -1e-6 || t > s.length() + 1e-6 || d > on_line) continue;
-      slot = mine[k]->wall;
-      next = k;
-      break;
-    }
+    Slot slot = walls_of_lines[beam];
     // A wall grows only where no other wall stands.
     if (slot < 0 || !walls[slot].hitNear(p)) {
       const Slot known = walls.hitBy(p, viewpoint, on_wall);

@@ -3,9 +3,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
+#include "cca_mrpt/mapping/line_extraction.hpp"
 #include "segment_world.hpp"
 
 namespace cca {
@@ -103,6 +105,60 @@ TEST(LineMap, PolyLinesHoldTheLinesAndNothingElse) {
     }
   }
   EXPECT_EQ(members, lines.size());
+}
+
+/// A room with a niche in each side: twenty walls, all in view from the middle.
+SegmentWorld roomWithNiches() {
+  const std::vector<Eigen::Vector2d> quarter = {{3.0, -1.0}, {4.0, -1.0}, {4.0, 1.0}, {3.0, 1.0}};
+  std::vector<Eigen::Vector2d> corners;
+  for (int k = 0; k < 4; ++k) {
+    const Pose2 turn{0.0, 0.0, k * M_PI_2};
+    for (const Eigen::Vector2d& p : quarter) corners.push_back(turn * p);
+    corners.push_back(turn * Eigen::Vector2d(3.0, 3.0));
+  }
+  SegmentWorld world;
+  for (std::size_t k = 0; k < corners.size(); ++k) {
+    world.walls.push_back({corners[k], corners[(k + 1) % corners.size()]});
+  }
+  return world;
+}
+
+Scan reversed(Scan scan) {
+  scan.angle_min = scan.bearing(scan.size() - 1);
+  scan.angle_increment = -scan.angle_increment;
+  std::reverse(scan.ranges.begin(), scan.ranges.end());
+  return scan;
+}
+
+TEST(LineMap, WhereAScanBeginsAndWhichWayItTurnsDoesNotMatter) {
+  const SegmentWorld world = roomWithNiches();
+  for (const bool clockwise : {false, true}) {
+    for (int heading = 0; heading < 24; ++heading) {
+      LineMap map;
+      std::mt19937 random(16);
+      for (int i = 0; i < 4; ++i) {
+        const Scan scan = world.scan({0.05 * i, 0.0, heading * M_PI / 12.0}, 0.005, random, 720);
+        map.insert(clockwise ? reversed(scan) : scan);
+      }
+      EXPECT_GT(recall(world, map.lines(), 0.03), 0.97) << "heading " << 15 * heading;
+      double support = 0.0;
+      for (const MapLine& line : map.lines()) support += line.support;
+      EXPECT_GT(support, 0.95 * 4 * 720) << "heading " << 15 * heading;
+    }
+  }
+}
+
+TEST(LineMap, LinesThatWereExtractedElsewhereMayComeInAnyOrder) {
+  const SegmentWorld world = roomWithNiches();
+  LineMap map;
+  std::mt19937 random(17);
+  for (int i = 0; i < 4; ++i) {
+    const Scan scan = world.scan({0.05 * i, 0.0, 0.3}, 0.005, random, 720);
+    std::vector<LineSegment> lines = extractLines(scan);
+    std::shuffle(lines.begin(), lines.end(), random);
+    map.insert(scan, lines);
+  }
+  EXPECT_GT(recall(world, map.lines(), 0.03), 0.97);
 }
 
 TEST(LineMap, TwoFacesOfAWallStayTwo) {

@@ -15,7 +15,8 @@ std::vector<Eigen::Vector2d> beamDirections(const Scan& scan);
 /// that it lies on, else the nearest wall that was hit there before, else none.
 ///
 /// @param beams  as beamDirections() gives them.
-/// @param lines  those of this scan, by bearing.
+/// @param lines  of the batch, in any order.
+/// Cost: O(beams).
 void depositReturns(const Scan& scan, const std::vector<Eigen::Vector2d>& beams,
                     const std::vector<NewLine>& lines, std::size_t scan_in_batch,
                     const MapNoise& noise, Walls& walls);

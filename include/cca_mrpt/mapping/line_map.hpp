@@ -24,7 +24,7 @@ class LineMap {
   /// the
   ///          scan is then left out.
   bool insert(const Scan& scan);
-  /// The same with lines (sensor frame, by bearing) that were extracted elsewhere.
+  /// The same with lines (sensor frame, in any order) that were extracted elsewhere.
   bool insert(const Scan& scan, std::vector<LineSegment> lines);
   /// Merges scans that still wait for their batch to fill.
   void finishBatch();
