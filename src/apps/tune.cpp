@@ -138,8 +138,9 @@ void printRecommendation(const Recommendation& r, bool with_batches) {
     std::printf("The shipped combination is not one of the design's.\n");
     return;
   }
-  std::printf("Shipped: %.4f; short of the best by %.4f [%.4f, %.4f].\n", r.shipped_value,
-              r.shortfall.value, r.shortfall.low, r.shortfall.high);
+  std::printf("Shipped: %.4f; short of the best by %.4f [%.4f, %.4f]: %s.\n", r.shipped_value,
+              r.shortfall.value, r.shortfall.low, r.shortfall.high,
+              r.shortfall.low <= 0.0 ? "the two cannot be told apart" : "worse");
 }
 
 void analyse(const Options& options) {

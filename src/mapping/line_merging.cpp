@@ -59,9 +59,9 @@ double cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
   return a.x() * b.y() - a.y() * b.x();
 }
 
-/// A wall goes on unseen for a third of what is seen of it, to even odds: behind furniture longer
-/// walls end, turn or open too often.
-constexpr double kSeenPerHidden = 3.0;
+/// A wall goes on unseen for an eighth of what is seen of it, to even odds: behind furniture longer
+/// walls end, turn or open too often. Measured in random worlds: a third costs 0.02 of F1.
+constexpr double kSeenPerHidden = 8.0;
 
 /// A line in pieces that something hides in part: its runs in scan order.
 struct Interrupted {
