@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "cca_mrpt/navigation/exploration_grid.hpp"
 
+#include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "cca_mrpt/navigation/beam.hpp"
@@ -17,7 +19,7 @@ constexpr double kBehindSurface = 0.3;
 constexpr double kSteepest = 4.0;        // widest gap in one surface, in spacings of the beams
 constexpr double kWidestPresumed = 0.5;  // m: no robot fits through
 constexpr double kWidestGuess = 1.5;
-constexpr double kMostBetween = 8;           // rays between two beams
+constexpr std::size_t kMostBetween = 8;      // rays between two beams
 constexpr double kLongestRangeCells = 4000;  // 200 m at 5 cm
 
 Eigen::Vector2d directionOf(const Scan& scan, std::size_t beam) {
@@ -114,15 +116,23 @@ void ExplorationGrid::presumeFree(const Scan& scan) {
                                 : 0.0) /
            resolution_;
   };
+  const double apart = std::abs(scan.angle_increment);
+  // By k / (between + 1) of the way from one beam to the next: few turns serve all beams.
+  std::array<std::array<Eigen::Matrix2d, kMostBetween + 1>, kMostBetween + 1> turns;
+  for (std::size_t between = 1; between <= kMostBetween; ++between) {
+    for (std::size_t k = 1; k <= between; ++k) {
+      const double angle = scan.angle_increment * static_cast<double>(k) / (between + 1.0);
+      turns[between][k] = Eigen::Rotation2Dd(angle).toRotationMatrix();
+    }
+  }
   for (std::size_t i = 0; i + 1 < scan.size(); ++i) {
     const double range =
         std::min({freeRange(i), freeRange(i + 1), kLongestRangeCells}) - kBehindSurface;
-    const double apart = std::abs(scan.angle_increment);
-    const int between = static_cast<int>(std::min(range * apart, kMostBetween));
-    for (int k = 1; k <= between; ++k) {
-      const double angle =
-          scan.T_map_sensor.theta + scan.bearing(i) + scan.angle_increment * k / (between + 1.0);
-      const Eigen::Vector2d direction(std::cos(angle), std::sin(angle));
+    if (!(range > 0.0)) continue;
+    const auto between =
+        static_cast<std::size_t>(std::min(range * apart, static_cast<double>(kMostBetween)));
+    for (std::size_t k = 1; k <= between; ++k) {
+      const Eigen::Vector2d direction = turns[between][k] * directions_[i];
       const double gapless = std::min(1.0 / apart, range);
       TiledGrid<Evidence>::Reader evidence(evidence_);
       walkBeam(origin + gapless * direction, direction, range - gapless, [&](Cell c, double) {
