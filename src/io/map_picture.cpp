@@ -106,9 +106,11 @@ double scaleBarMetres(const Canvas& canvas) {
   return 2.0 * decade <= longest ? 2.0 * decade : decade;
 }
 
-void drawScaleBar(Canvas& canvas, double unit) {
+/// Beside the caption; on a sheet without one, in the lower left corner.
+void drawScaleBar(Canvas& canvas, bool beside_caption, double unit) {
   const double metres = scaleBarMetres(canvas), length = metres * canvas.pixelsPerMetre();
-  const double x = 16.0 * unit, y = canvas.height() - 18.0 * unit;
+  const double x = beside_caption ? canvas.width() - length - 16.0 * unit : 16.0 * unit;
+  const double y = (beside_caption ? kHeader * unit : canvas.height()) - 18.0 * unit;
   canvas.bar(x - 8.0 * unit, y - 24.0 * unit, length + 16.0 * unit, 36.0 * unit, {1, 1, 1, 0.8});
   for (int part = 0; part < 4; ++part) {
     canvas.bar(x + 0.25 * part * length, y, 0.25 * length, 5.0 * unit, part % 2 ? kSoftInk : kInk);
@@ -164,8 +166,8 @@ void writePicture(const std::string& png_path, const MapProducts& products,
   if (options.trajectory) drawTrajectory(canvas, products.trajectory, unit);
   drawLines(canvas, products, unit);
   if (options.trajectory) drawEnds(canvas, products.trajectory, unit);
-  drawScaleBar(canvas, unit);
   if (options.caption) drawCaption(canvas, products, unit);
+  drawScaleBar(canvas, options.caption, unit);
   AtomicFile file(png_path);
   canvas.writePng(file.temporary());
   file.commit();
