@@ -90,6 +90,13 @@ double BinSums::residual() const {
   return std::max(0.0, var_d - cov * cov / var_t);
 }
 
+LateralFit BinSums::fit() const {
+  if (w <= 0.0) return {};
+  const double var_t = tt - t * t / w, cov = td - t * d / w;
+  const double slope = var_t > 1e-9 ? cov / var_t : 0.0;
+  return {(d - slope * t) / w, slope};
+}
+
 void SupportProfile::grow(int i) {
   if (bins_.empty()) first_ = i;
   if (i < first_) {
@@ -205,14 +212,6 @@ BinSums SupportProfile::sums(int from, int to) const {
     if (b.hits > 0.0) sum.addPoint(binWeight(b), b.t / b.hits, b.d / b.hits);
   }
   return sum;
-}
-
-LateralFit SupportProfile::fit() const {
-  const BinSums& s = sums();
-  if (s.w <= 0.0) return {};
-  const double var_t = s.tt - s.t * s.t / s.w, cov = s.td - s.t * s.d / s.w;
-  const double slope = var_t > 1e-9 ? cov / var_t : 0.0;
-  return {(s.d - slope * s.t) / s.w, slope};
 }
 
 SupportProfile::Cut SupportProfile::bestCut() const {

@@ -63,6 +63,18 @@ constexpr double kFewestHits = 20.0;   // three to four scans that meet it
 constexpr double kLoosest = 1.2;       // deviations of a return
 constexpr double kLooseShare = 0.08;   // of its length
 
+/// Weight of the wall's line, in bins, where one of its pieces is fitted.
+constexpr double kTrustInWall = 3.0;
+
+/// The line of a piece between t_first and t_last: that of its own bins, held to the wall's line by
+/// a few bins' worth. A wall is straight to its noise from end to end; a piece of it is nearer to
+/// its own returns, and ends where it ends at no further price.
+LateralFit fitOfPiece(const Wall& wall, const BinRange& range, double t_first, double t_last) {
+  BinSums sums = wall.profile.sums(range.first, range.last);
+  for (const double t : {t_first, t_last}) sums.addPoint(0.5 * kTrustInWall, t, wall.fit.at(t));
+  return sums.fit();
+}
+
 LineSegment segmentOf(const Wall& wall, const BinRange& range, const MapNoise& noise) {
   BinSums sum;  // of the hits themselves, each bin with all its weight
   for (int i = range.first; i < range.last; ++i) {
@@ -74,8 +86,11 @@ LineSegment segmentOf(const Wall& wall, const BinRange& range, const MapNoise& n
   if (n <= 0.0) return s;
   const double t = sum.t / n, d = sum.d / n;
   const double tt = sum.tt - n * t * t, td = sum.td - n * t * d, dd = sum.dd - n * d * d;
-  s.start = wall.onLine(wall.profile.bin(range.first).t_min);
-  s.end = wall.onLine(wall.profile.bin(range.last - 1).t_max);
+  const double t_first = wall.profile.bin(range.first).t_min;
+  const double t_last = wall.profile.bin(range.last - 1).t_max;
+  const LateralFit fit = fitOfPiece(wall, range, t_first, t_last);
+  s.start = wall.toMap(t_first, fit.at(t_first));
+  s.end = wall.toMap(t_last, fit.at(t_last));
   s.moments.weight = n;
   s.moments.mean = wall.toMap(t, d);
   Eigen::Matrix2d axes, scatter;

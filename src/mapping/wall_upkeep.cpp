@@ -44,6 +44,18 @@ Extent extentOf(const Wall& other, const Wall& frame) {
   return {std::min(a, b), std::max(a, b)};
 }
 
+/// Whether the two hold hits beside each other. In the bin where one ends and the other goes on,
+/// both may.
+bool standSideBySide(const Wall& wall, const Wall& other) {
+  int common = 0;
+  for (int i = other.profile.first(); i < other.profile.last(); ++i) {
+    const SupportBin& bin = other.profile.bin(i);
+    if (bin.hits <= 0.0) continue;
+    if (wall.hitNear(other.toMap(bin.t / bin.hits, bin.d / bin.hits)) && ++common > 1) return true;
+  }
+  return false;
+}
+
 bool oneWall(const Wall& wall, const Wall& other, const MapNoise& noise) {
   const double cosine = wall.fittedDirection().dot(other.fittedDirection());
   if (std::abs(cosine) < 0.9) return false;
@@ -58,14 +70,17 @@ bool oneWall(const Wall& wall, const Wall& other, const MapNoise& noise) {
   BinSums joint = a;
   joint.add(b);
   const double loss = std::max(0.0, joint.residual() - a.residual() - b.residual());
-  if (overlap > 0.5 * std::min(mine.length(), theirs.length())) {
+  const bool beside = overlap > 0.5 * std::min(mine.length(), theirs.length());
+  if (beside && standSideBySide(wall, other)) {
     // Of two faces with one front only one can be seen; of two with opposite fronts both can, where
     // they lie far enough apart to be told apart. Parallels h apart lose h^2 w_a w_b / (w_a + w_b).
     const double gate = same_side ? std::max(kSameFrontLeast, 3.0 * sigma * kSameFront)
                                   : std::max(kTwoFrontsLeast, 3.0 * sigma * kTwoFronts);
     return loss * joint.w < gate * gate * a.w * b.w;
   }
-  return same_side && loss < 2.0 * sigma * sigma * kJoinShare * kBendCost;
+  // A stretch in another's gap, such as the niche of a door, has a bend at either end.
+  const double bends = beside ? 2.0 : 1.0;
+  return same_side && loss < 2.0 * sigma * sigma * kJoinShare * bends * kBendCost;
 }
 
 /// Where two walls that are not one run side by side all the same, the longer one takes it all.

@@ -181,6 +181,27 @@ TEST(LineMap, TwoFacesOfAWallStayTwo) {
   EXPECT_TRUE(lower);
 }
 
+TEST(LineMap, ADoorSetBackIntoItsWallIsALineOfItsOwn) {
+  SegmentWorld world;
+  world.box(-4.0, -3.0, 4.0, 3.0);
+  world.walls.erase(world.walls.begin());
+  world.walls.insert(world.walls.end(), {{{-4.0, -3.0}, {-1.0, -3.0}},
+                                         {{-1.0, -3.0}, {-1.0, -3.05}},
+                                         {{-1.0, -3.05}, {0.0, -3.05}},
+                                         {{0.0, -3.05}, {0.0, -3.0}},
+                                         {{0.0, -3.0}, {4.0, -3.0}}});
+  LineMap map;
+  std::mt19937 random(3);
+  for (int lap = 0; lap < 2; ++lap) drive(map, world, random);
+  const std::vector<MapLine> lines = map.lines();
+  const auto door = std::find_if(lines.begin(), lines.end(), [](const MapLine& line) {
+    return line.segment.start.y() < -3.03 && line.segment.end.y() < -3.03;
+  });
+  ASSERT_NE(door, lines.end());
+  EXPECT_NEAR(door->segment.length(), 1.0, 0.15);
+  EXPECT_GT(recall(world, lines, 0.02), 0.98);
+}
+
 TEST(LineMap, ADoorThatOpensLeavesItsWallWhole) {
   SegmentWorld shut = room(), open = room();
   shut.walls.push_back({{-4.0, 2.0}, {4.0, 2.0}});

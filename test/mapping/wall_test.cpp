@@ -64,5 +64,21 @@ TEST(Absorb, KeepsEveryHitAndItsPlace) {
   EXPECT_NEAR(d, 500.0 * 0.02, 1e-9);
 }
 
+TEST(Recut, EachPieceLiesOnItsOwnReturns) {
+  Wall wall = wallAlongX(0.0, 0.0, 2.0);
+  for (double t = 3.025; t < 5.0; t += SupportProfile::kBinLength) {
+    for (int k = 0; k < 10; ++k) wall.profile.hit(t, 0.03);
+  }
+  refit(wall);
+  std::uint64_t next_id = 1;
+  recut(wall, MapNoise{}, next_id);
+  ASSERT_EQ(wall.pieces.size(), 2u);
+  for (const MapLine& piece : wall.pieces) {
+    const double y = piece.segment.start.x() < 2.5 ? 0.0 : 0.03;
+    EXPECT_NEAR(piece.segment.start.y(), y, 0.002);
+    EXPECT_NEAR(piece.segment.end.y(), y, 0.002);
+  }
+}
+
 }  // namespace
 }  // namespace cca

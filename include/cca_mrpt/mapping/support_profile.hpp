@@ -20,6 +20,13 @@ struct SupportBin {
   void scale(double factor);
 };
 
+/// d = offset + slope * t.
+struct LateralFit {
+  double offset = 0.0;  ///< m
+  double slope = 0.0;   ///< rad
+  double at(double t) const { return offset + slope * t; }
+};
+
 /// Weighted sums of the bins' mean points: what a line fit, a joint fit and a cut are made from.
 struct BinSums {
   double w = 0.0, t = 0.0, d = 0.0, tt = 0.0, td = 0.0, dd = 0.0;
@@ -36,13 +43,8 @@ struct BinSums {
   void addPoint(double weight, double t_mean, double d_mean);
   /// Weighted sum of squared lateral residuals of the best line; 0 where fewer than two bins stand.
   double residual() const;
-};
-
-/// d = offset + slope * t.
-struct LateralFit {
-  double offset = 0.0;  ///< m
-  double slope = 0.0;   ///< rad
-  double at(double t) const { return offset + slope * t; }
+  /// The best line; zero where no bin stands, level where all lie in one place.
+  LateralFit fit() const;
 };
 
 /// Half-open range of bins.
@@ -87,7 +89,7 @@ class SupportProfile {
   /// Of all bins; remembered until a hit changes.
   const BinSums& sums() const;
   BinSums sums(int from, int to) const;
-  LateralFit fit() const;
+  LateralFit fit() const { return sums().fit(); }
   /// The cut that lowers the residual sum of squares most.
   struct Cut {
     int at = 0;
