@@ -168,7 +168,10 @@ Action Explorer::goHome(const Observation& observation) {
 }
 
 Velocity Explorer::driveTo(const Eigen::Vector2d& way_point, const Observation& observation) {
-  if (!way_point_ || (*way_point_ - way_point).norm() > kSameWayPoint) {
+  // A way-point may creep out of reach by less than what makes it another one.
+  const double left = (way_point - observation.T_map_robot.position()).norm();
+  const bool crept = tangent_bug_.state() == TangentBugState::kReached && left > kReachedWayPoint;
+  if (!way_point_ || (*way_point_ - way_point).norm() > kSameWayPoint || crept) {
     tangent_bug_.setGoal(way_point);
     way_point_ = way_point;
   }

@@ -51,6 +51,22 @@ Result explore(const World& world, const Pose2& start, int seed, double longest_
   return result;
 }
 
+/// s, without a move or a turn.
+double longestStandstill(const std::vector<TimedPose>& trajectory) {
+  double longest = 0.0, since = 0.0;
+  Pose2 last;
+  for (const TimedPose& pose : trajectory) {
+    const Pose2& T = pose.T_map_robot;
+    const double moved = (T.position() - last.position()).norm();
+    if (moved > 1e-3 || std::abs(wrapAngle(T.theta - last.theta)) > 1e-3) {
+      last = T;
+      since = pose.time;
+    }
+    longest = std::max(longest, pose.time - since);
+  }
+  return longest;
+}
+
 struct Case {
   const char* world;
   Pose2 start;
@@ -73,6 +89,7 @@ TEST_P(Worlds, AreSeenToNinetyNinePercentWithoutACollision) {
     nearest = std::min(nearest, world.clearance(pose.T_map_robot.position(), 1.0));
   }
   EXPECT_GE(nearest, 0.25 - 1e-6);
+  EXPECT_LT(longestStandstill(result.trajectory), 10.0);
   EXPECT_GT(result.lines.size(), 4u);
 }
 
