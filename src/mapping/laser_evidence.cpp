@@ -107,20 +107,25 @@ std::vector<Slot> wallsOfReturns(const Scan& scan, const std::vector<Eigen::Vect
   return slots;
 }
 
+/// All rays of a scan come from one place: where that is from the wall is found once.
+void see(Wall& wall, const Eigen::Vector2d& viewpoint) {
+  const Eigen::Vector2d td = wall.toWall(viewpoint);
+  wall.viewpoint_t = td.x();
+  wall.viewpoint_off = wall.offLine(td);
+}
+
 /// Where along the wall the ray went clearly through its line; false where it did not.
 bool passes(const Ray& ray, const Wall& wall, double* t_cross) {
-  const Eigen::Vector2d o = wall.toWall(ray.origin);
   const double along = wall.direction.dot(ray.direction);
   const double across =
       wall.direction.x() * ray.direction.y() - wall.direction.y() * ray.direction.x();
-  const double closing = wall.fit.slope * along - across;
-  const double off = wall.offLine(o);
+  const double closing = wall.fit.slope * along - across, off = wall.viewpoint_off;
   // off / closing is the distance along the ray; it has to be positive and well before its end.
   if (off * closing <= 0.0) return false;
+  if (ray.reach * std::abs(closing) - std::abs(off) < ray.clear) return false;
   const double at = off / closing;
   if (at <= kBlind || at >= ray.reach - 2.0 * ray.clear) return false;
-  if ((ray.reach - at) * std::abs(closing) < ray.clear) return false;
-  *t_cross = o.x() + at * along;
+  *t_cross = wall.viewpoint_t + at * along;
   return wall.profile.contains(SupportProfile::binOf(*t_cross));
 }
 
@@ -164,6 +169,7 @@ void passRays(const Scan& scan, const std::vector<Eigen::Vector2d>& beams, const
   Ray ray;
   ray.origin = scan.T_map_sensor.position();
   ray.clear = std::max(kClear, kGates * noise.lateralSigma());
+  const std::uint64_t first_ray = walls.nextRay();
   for (std::size_t beam = 0; beam < scan.size(); ++beam) {
     const double range = scan.ranges[beam];
     ray.reach = isReturn(range) ? range : isNoReturn(range) ? scan.free_range_without_return : 0.0;
@@ -177,6 +183,7 @@ void passRays(const Scan& scan, const std::vector<Eigen::Vector2d>& beams, const
         Wall& wall = walls[slot];
         double t = 0.0;
         if (wall.ray == number) continue;
+        if (wall.ray < first_ray) see(wall, ray.origin);
         wall.ray = number;
         if (!passes(ray, wall, &t)) continue;
         wall.profile.pass(t);

@@ -186,6 +186,17 @@ class Neighbourhood {
   std::vector<Slot> walls_;
 };
 
+/// Rank Order Clustering of a neighbourhood. Two were brought together because they are alike:
+/// there is nothing to order.
+std::vector<int> groupsOf(const Eigen::MatrixXd& s, double cut) {
+  if (s.rows() <= 2) return std::vector<int>(static_cast<std::size_t>(s.rows()), 0);
+  SimilarityMatrix sim(static_cast<int>(s.rows()));
+  for (int i = 0; i < s.rows(); ++i) {
+    for (int j = i + 1; j < s.cols(); ++j) sim.set(i, j, s(i, j));
+  }
+  return rankOrderGroups(sim, cut);
+}
+
 std::vector<Resemblance> resemblances(const std::vector<NewLine>& lines, double cut,
                                       const MapNoise& noise, const Walls& walls) {
   std::vector<Resemblance> all;
@@ -225,11 +236,7 @@ void clusterIntoMap(std::vector<NewLine>& lines, double cut, const MapNoise& noi
     if (m.empty()) continue;
     const Neighbourhood neighbourhood(std::move(m), alike);
     const Eigen::MatrixXd s = neighbourhood.matrix(lines, alike, walls);
-    SimilarityMatrix sim(static_cast<int>(s.rows()));
-    for (int i = 0; i < s.rows(); ++i) {
-      for (int j = i + 1; j < s.cols(); ++j) sim.set(i, j, s(i, j));
-    }
-    const std::vector<int> group_of = rankOrderGroups(sim, cut);
+    const std::vector<int> group_of = groupsOf(s, cut);
     std::vector<std::vector<int>> groups(group_of.size());
     for (std::size_t i = 0; i < group_of.size(); ++i) {
       groups[static_cast<std::size_t>(group_of[i])].push_back(static_cast<int>(i));

@@ -184,8 +184,12 @@ bool SupportProfile::occupied(int i) const {
 void SupportProfile::supportedRanges(int max_gap, std::vector<BinRange>& ranges) const {
   ranges.clear();
   double passed_since = 0.0;
-  for (int i = first(); i < last(); ++i) {
-    if (!occupied(i)) {
+  int rays = first() - kWindow - 1;  // the last bin up to i + kWindow that any ray went through
+  for (int i = first() - kWindow; i < last(); ++i) {
+    if (i + kWindow < last() && bin(i + kWindow).passed > 0.0) rays = i + kWindow;
+    if (i < first()) continue;
+    const bool stands = rays < i - kWindow ? bin(i).hits > 0.0 : occupied(i);
+    if (!stands) {
       passed_since += bin(i).passed;
       continue;
     }

@@ -70,7 +70,8 @@ constexpr double kTrustInWall = 3.0;
 /// a few bins' worth. A wall is straight to its noise from end to end; a piece of it is nearer to
 /// its own returns, and ends where it ends at no further price.
 LateralFit fitOfPiece(const Wall& wall, const BinRange& range, double t_first, double t_last) {
-  BinSums sums = wall.profile.sums(range.first, range.last);
+  const bool all = range.first == wall.profile.first() && range.last == wall.profile.last();
+  BinSums sums = all ? wall.profile.sums() : wall.profile.sums(range.first, range.last);
   for (const double t : {t_first, t_last}) sums.addPoint(0.5 * kTrustInWall, t, wall.fit.at(t));
   return sums.fit();
 }
@@ -193,12 +194,15 @@ void refit(Wall& wall) {
 }
 
 void recut(Wall& wall, const MapNoise& noise, std::uint64_t& next_id) {
+  const BinRange all{wall.profile.first(), wall.profile.last()};
+  wall.whole = segmentOf(wall, all, noise);
   std::vector<BinRange> ranges;
   wall.profile.supportedRanges(kBridgedBins, ranges);
   std::vector<MapLine> pieces;
   for (const BinRange& range : ranges) {
+    const bool whole = range.first == all.first && range.last == all.last;
     MapLine line;
-    line.segment = segmentOf(wall, range, noise);
+    line.segment = whole ? wall.whole : segmentOf(wall, range, noise);
     line.support = line.segment.moments.weight;
     if (line.segment.length() < kShortestLine || line.support < kFewestHits) continue;
     if (isLoose(line.segment, noise)) continue;
@@ -209,7 +213,6 @@ void recut(Wall& wall, const MapNoise& noise, std::uint64_t& next_id) {
     if (line.id == 0) line.id = next_id++;
   }
   wall.pieces = std::move(pieces);
-  wall.whole = segmentOf(wall, {wall.profile.first(), wall.profile.last()}, noise);
 }
 
 }  // namespace cca
