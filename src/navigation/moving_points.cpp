@@ -15,14 +15,21 @@ constexpr int kLeastBeams = 3;     // of a mover
 constexpr double kJoined = 0.2;    // m, between neighbouring returns of a mover
 constexpr double kBody = 0.8;      // m, how far a mover reaches from its suspicious part
 constexpr double kNearby = 0.75;   // m, around a place where a mover was
+constexpr double kStill = 0.05;    // m, beyond the noise: a walker of 0.15 m/s goes farther in kAge
+constexpr double kHeeded = 2.0;    // m; what is farther cannot come before the robot stands
 
-// The shortest free distance that the scan saw around the direction of a point; 0 where unknown.
-double seenAround(const Scan& scan, const Eigen::Vector2d& p_sensor) {
+// The beam of a scan next to the direction of a point; it may lie outside the scan.
+int beamTowards(const Scan& scan, const Eigen::Vector2d& p_sensor) {
   const double turn = 2.0 * M_PI / std::abs(scan.angle_increment);
   double at = std::fmod(
       (std::atan2(p_sensor.y(), p_sensor.x()) - scan.angle_min) / scan.angle_increment, turn);
   if (at < -0.5) at += turn;
-  const int beam = static_cast<int>(std::lround(at)), n = static_cast<int>(scan.size());
+  return static_cast<int>(std::lround(at));
+}
+
+// The shortest free distance that the scan saw around the direction of a point; 0 where unknown.
+double seenAround(const Scan& scan, const Eigen::Vector2d& p_sensor) {
+  const int beam = beamTowards(scan, p_sensor), n = static_cast<int>(scan.size());
   if (beam < kBeamsAround || beam >= n - kBeamsAround) return 0.0;
   double least = INFINITY;
   for (int i = beam - kBeamsAround; i <= beam + kBeamsAround; ++i) {
@@ -72,6 +79,30 @@ std::vector<std::pair<std::size_t, std::size_t>> runsInFreeSpace(
   return runs;
 }
 
+double distanceToSegment(const Eigen::Vector2d& p, const Eigen::Vector2d& a,
+                         const Eigen::Vector2d& b) {
+  const Eigen::Vector2d d = b - a;
+  const double length_sq = d.squaredNorm();
+  const double t = length_sq > 0.0 ? std::clamp(d.dot(p - a) / length_sq, 0.0, 1.0) : 0.0;
+  return (p - a - t * d).norm();
+}
+
+// Whether a scan, whose returns lie at `points`, saw a surface within `gate` of a point.
+bool sawSurfaceAt(const Scan& scan, const std::vector<Eigen::Vector2d>& points,
+                  const Eigen::Vector2d& p_map, double gate) {
+  const int n = static_cast<int>(scan.size());
+  if (n == 0) return false;
+  const int beam = beamTowards(scan, scan.T_map_sensor.inverse() * p_map);
+  const auto wrapped = [n](int i) { return static_cast<std::size_t>((i % n + n) % n); };
+  for (int i = beam - kBeamsAround; i <= beam + kBeamsAround; ++i) {
+    const std::size_t a = wrapped(i), b = wrapped(i + 1);
+    if (!isReturn(scan.ranges[a])) continue;
+    const bool joined = isReturn(scan.ranges[b]) && (points[a] - points[b]).norm() < kJoined;
+    if (distanceToSegment(p_map, points[a], joined ? points[b] : points[a]) < gate) return true;
+  }
+  return false;
+}
+
 }  // namespace
 
 std::vector<bool> MovingPoints::update(const Scan& scan, double range_sigma, double time) {
@@ -99,8 +130,22 @@ std::vector<bool> MovingPoints::update(const Scan& scan, double range_sigma, dou
     });
   }
   if (!places_.empty() && places_.back().time == time) last_seen_ = time;
+  findUnsettled(scan, points, moving, range_sigma, time);
   past_.push_back({scan, points, time});
   return moving;
+}
+
+void MovingPoints::findUnsettled(const Scan& scan, const std::vector<Eigen::Vector2d>& points,
+                                 const std::vector<bool>& moving, double range_sigma, double time) {
+  unsettled_.clear();
+  if (!areAround(time)) return;
+  const bool old_enough = !past_.empty() && past_.front().time <= time - kAge;
+  for (std::size_t i = 0; i < scan.size(); ++i) {
+    if (moving[i] || !isReturn(scan.ranges[i]) || scan.ranges[i] > kHeeded) continue;
+    const bool settled = old_enough && sawSurfaceAt(past_.front().scan, past_.front().points,
+                                                    points[i], kStill + 2.0 * range_sigma);
+    if (!settled) unsettled_.push_back(points[i]);
+  }
 }
 
 // All that is joined to the suspicious run, as far as a body reaches.

@@ -11,9 +11,11 @@
 namespace cca {
 namespace {
 
-constexpr double kStep = 0.05;    // s, of the predicted motion
-constexpr double kStill = 1e-9;   // m/s, rad/s
-constexpr double kDeeper = 1e-4;  // m, by which a hazard inside may seem to come nearer (rounding)
+constexpr double kStep = 0.05;   // s, of the predicted motion
+constexpr double kStill = 1e-9;  // m/s, rad/s
+// m, by which a hazard may come nearer that is inside the clearance, and inside the robot itself: a
+// robot that touches something only turns or leaves.
+constexpr double kDeeper = 1e-4, kRounding = 1e-9;
 
 double towards(double from, double to, double step) {
   return from < to ? std::min(to, from + step) : std::max(to, from - step);
@@ -53,13 +55,14 @@ std::vector<Predicted> stoppingPath(const Velocity& present, const Velocity& com
   return path;
 }
 
-bool isSafe(const std::vector<Predicted>& path, const std::vector<Hazard>& hazards, double radius) {
+bool isSafe(const std::vector<Predicted>& path, const std::vector<Hazard>& hazards, double radius,
+            double robot_radius) {
   for (const Hazard& hazard : hazards) {
     const double start = hazard.p_robot.norm();
-    const double keep = std::min(radius, start);
+    const double keep = std::min(radius, start) - (start < robot_radius ? kRounding : kDeeper);
     for (const Predicted& at : path) {
       const double distance = (hazard.p_robot - at.p_robot).norm();
-      if (distance - hazard.closing_speed * at.time < keep - kDeeper) return false;
+      if (distance - hazard.closing_speed * at.time < keep) return false;
     }
   }
   return true;
@@ -86,7 +89,8 @@ Velocity safeVelocity(const Velocity& wanted, const Velocity& present,
     if (hazard.p_robot.squaredNorm() < reach * reach) near.push_back(hazard);
   }
   const Velocity first = reachable(wanted.linear, wanted.angular);
-  if (near.empty() || isSafe(stoppingPath(present, first, robot, period), near, radius)) {
+  if (near.empty() ||
+      isSafe(stoppingPath(present, first, robot, period), near, radius, robot.radius)) {
     return first;
   }
   Velocity best = reachable(0.0, 0.0);
@@ -100,7 +104,8 @@ Velocity safeVelocity(const Velocity& wanted, const Velocity& present,
       const double cost = std::abs(candidate.linear - first.linear) / robot.max_linear_velocity +
                           std::abs(candidate.angular - wanted.angular) / robot.max_angular_velocity;
       if (cost >= least) continue;
-      if (!isSafe(stoppingPath(present, candidate, robot, period), near, radius)) continue;
+      if (!isSafe(stoppingPath(present, candidate, robot, period), near, radius, robot.radius))
+        continue;
       least = cost;
       best = candidate;
     }

@@ -268,6 +268,9 @@ Velocity TangentBug::drive(const Velocity& velocity, double time) const {
   for (const Eigen::Vector2d& p_map : view_.movers) {
     hazards.push_back({inRobot(p_map), kWalkingSpeed});
   }
+  for (const Eigen::Vector2d& p_map : moving_points_.unsettled()) {
+    hazards.push_back({inRobot(p_map), kWalkingSpeed});
+  }
   return safeVelocity(wanted, velocity, hazards, robot_,
                       robot_.radius + kSafe * robot_.safety_margin + noise_allowance_,
                       kControlPeriod);

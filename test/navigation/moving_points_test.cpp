@@ -71,6 +71,105 @@ INSTANTIATE_TEST_SUITE_P(Directions, MovingPointsWalk,
                          ::testing::Values(Walk{{8, 5}, {-1, 0}}, Walk{{7, 5}, {1, 0}},
                                            Walk{{7, 4.5}, {0, 1}}, Walk{{3, 3}, {0.4, 0.4}}));
 
+/// Returns of the scan on a disc: all of them, and those found to move or not to stand for certain.
+struct OnDisc {
+  int all = 0, heeded = 0;
+};
+
+OnDisc returnsOn(const Disc& disc, const Scan& scan, const std::vector<bool>& moving,
+                 const std::vector<Eigen::Vector2d>& unsettled) {
+  OnDisc count;
+  for (std::size_t i = 0; i < scan.size(); ++i) {
+    if (!isReturn(scan.ranges[i])) continue;
+    const Eigen::Vector2d p =
+        scan.T_map_sensor * Eigen::Vector2d(scan.ranges[i] * std::cos(scan.bearing(i)),
+                                            scan.ranges[i] * std::sin(scan.bearing(i)));
+    if (disc.distance(p) > 0.001) continue;
+    ++count.all;
+    count.heeded += moving[i] || std::any_of(unsettled.begin(), unsettled.end(),
+                                             [&](auto& u) { return (u - p).norm() < 0.001; });
+  }
+  return count;
+}
+
+/// A second walker, 3.5 m off: the scans show that movers are around.
+Disc passerBy(int step) { return {{8.0, 3.5 + 0.08 * step}, 0.25}; }
+
+TEST(MovingPoints, WhatComesFromBehindSomethingIsUnsettledAtOnce) {
+  MovingPoints points;
+  for (int i = 0; i < 30; ++i) {
+    const Disc walker{{6.2, 6.2 - 0.06 * i}, 0.2};  // behind the screen until i = 12
+    BoxWorld world;
+    world.addFrame(10, 10);
+    world.add(5.7, 5.3, 5.8, 7.0);
+    world.discs = {walker, passerBy(i)};
+    const Scan scan = world.scan({5, 5, 0}, 8.0);
+    const std::vector<bool> moving = points.update(scan, 0.0, 0.1 * i);
+    const OnDisc on = returnsOn(walker, scan, moving, points.unsettled());
+    if (i > 12 && i < 25) {
+      ASSERT_GT(on.all, 3) << i;
+      ASSERT_EQ(on.heeded, on.all) << i;
+    }
+  }
+}
+
+TEST(MovingPoints, SomebodySlowDoesNotPassForStanding) {
+  MovingPoints points;
+  for (int i = 0; i < 30; ++i) {
+    const Disc walker{{6.6 - 0.02 * i, 5.0}, 0.2};  // 0.2 m/s
+    BoxWorld world;
+    world.addFrame(10, 10);
+    world.discs = {walker, passerBy(i)};
+    const Scan scan = world.scan({5, 5, 0}, 8.0);
+    const std::vector<bool> moving = points.update(scan, 0.0, 0.1 * i);
+    if (i < 10) continue;
+    const OnDisc on = returnsOn(walker, scan, moving, points.unsettled());
+    ASSERT_GT(on.all, 10) << i;
+    ASSERT_GE(on.heeded, 0.9 * on.all) << i;  // at its rims a slow disc looks as if it stood
+  }
+}
+
+TEST(MovingPoints, WhatStandsIsSettledForARobotThatDrivesAndTurns) {
+  long unsettled = 0, near = 0;
+  for (unsigned seed = 0; seed < 10; ++seed) {
+    const Query query = randomQuery(seed);
+    MovingPoints points;
+    Pose2 pose = query.start;
+    std::mt19937 generator(seed);
+    std::normal_distribution<double> noise(0.0, 0.01);
+    for (int i = 0; i < 60; ++i) {
+      BoxWorld world = query.world;
+      // Somebody who comes and goes on the spot, 2.5 m before the robot.
+      const Eigen::Vector2d there = query.start.position() + Eigen::Vector2d(2.5, 0.0);
+      if (i % 10 < 5) world.discs.push_back({there, 0.25});
+      Scan scan = world.scan(pose, 8.0);
+      for (double& r : scan.ranges) r += isReturn(r) ? noise(generator) : 0.0;
+      points.update(scan, 0.01, 0.1 * i);
+      if (points.areAround(0.1 * i)) {
+        unsettled += static_cast<long>(points.unsettled().size());
+        near += std::count_if(scan.ranges.begin(), scan.ranges.end(),
+                              [](double r) { return isReturn(r) && r < 2.0; });
+      }
+      const Pose2 next = pose * Pose2{0.04, 0.0, 0.06};
+      if (query.world.clearance(next.position()) > 0.3) pose = next;
+      pose.theta = wrapAngle(pose.theta + 0.02);
+    }
+  }
+  EXPECT_GT(near, 1000);
+  EXPECT_LT(unsettled, near / 50);
+}
+
+TEST(MovingPoints, NothingIsUnsettledWhereNobodyHasBeenSeen) {
+  BoxWorld world;
+  world.addFrame(10, 10);
+  world.add(5.7, 5.3, 5.8, 7.0);
+  MovingPoints points;
+  for (int i = 0; i < 20; ++i) {
+    points.update(world.scan({5.0, 4.0 + 0.04 * i, 0}, 8.0), 0.0, 0.1 * i);
+    EXPECT_TRUE(points.unsettled().empty());
+  }
+}
+
 TEST(MovingPoints, TakesScansWithoutBeamsOrReturns) {
   MovingPoints points;
   EXPECT_TRUE(points.update({}, 0.01, 0.0).empty());

@@ -61,6 +61,19 @@ TEST(SafeVelocity, StopsBeforeAWallAtFullSpeed) {
   EXPECT_GT(pose.x, 2.0 - kRadius - 0.35) << "without giving the way away";
 }
 
+// Somebody who pushes against the standing robot: not even slowly may it go nearer.
+TEST(SafeVelocity, WhatTouchesTheRobotComesNoNearer) {
+  for (double bearing = 0.0; bearing <= M_PI; bearing += 0.1) {
+    const Eigen::Vector2d p(0.249 * std::cos(bearing), 0.249 * std::sin(bearing));
+    for (const double wanted : {0.7, 0.1, 0.01, 0.001}) {
+      const Velocity velocity =
+          safeVelocity({wanted, 0.0}, {0, 0}, {{p, 0.0}}, kRobot, kRadius, kPeriod);
+      if (bearing < 0.5 * M_PI) EXPECT_DOUBLE_EQ(velocity.linear, 0.0) << bearing;
+      if (bearing > 0.5 * M_PI) EXPECT_GT(velocity.linear, 0.0) << bearing;
+    }
+  }
+}
+
 TEST(SafeVelocity, TurningOnTheSpotIsSafeInContact) {
   const Velocity velocity =
       safeVelocity({0.0, 1.5}, {0, 0}, {{{0.25, 0.0}, 0.0}}, kRobot, kRadius, kPeriod);

@@ -25,6 +25,11 @@ class MovingPoints {
   /// Whether movers have been seen within the last minute: there may be more around the corner.
   bool areAround(double time) const { return time - last_seen_ < 60.0; }
 
+  /// Returns of the last scan, m, map frame, that may belong to a mover though none was found in
+  /// them: they are near, movers are around, and the scan of half a second ago saw nothing at their
+  /// place. Somebody slow, or somebody who has just come from behind something.
+  const std::vector<Eigen::Vector2d>& unsettled() const { return unsettled_; }
+
   static constexpr double kFarthest = 6.0;  ///< m
   static constexpr double kMemory = 2.0;    ///< s
 
@@ -41,7 +46,11 @@ class MovingPoints {
   static void markBody(const std::vector<Eigen::Vector2d>& points, std::size_t first,
                        std::size_t last, std::vector<bool>& moving);
 
+  void findUnsettled(const Scan& scan, const std::vector<Eigen::Vector2d>& points,
+                     const std::vector<bool>& moving, double range_sigma, double time);
+
   std::deque<Past> past_;
+  std::vector<Eigen::Vector2d> unsettled_;
   std::vector<Place> places_;  ///< where movers were
   double last_seen_ = -1e9;
 };
