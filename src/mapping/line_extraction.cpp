@@ -20,10 +20,10 @@ constexpr int kMostRounds = 6;
 
 Runs fittedClusters(const ScanPoints& points, const RunFitter& fitter, const PointNoise& noise,
                     int points_per_cluster) {
+  const auto clusters = pointClusters(points, fitter.prefix(), noise, points_per_cluster);
   Runs runs;
-  for (const PointCluster& c : pointClusters(points, fitter.prefix(), noise, points_per_cluster)) {
-    runs.push_back(fitter.fit(c.first, c.last));
-  }
+  runs.reserve(clusters.size());
+  for (const PointCluster& c : clusters) runs.push_back(fitter.fit(c.first, c.last));
   return runs;
 }
 

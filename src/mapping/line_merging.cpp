@@ -23,15 +23,21 @@ bool mayFollow(const ScanPoints& points, const FittedRun& a, const FittedRun& b)
   return (a.is_line && b.is_line) || points.breaksBetween(a.last - 1, b.first) == 0;
 }
 
-/// Similarity of a run to the next one, remembered until either changes.
-double similarityToNext(const ScanPoints& points, const RunFitter& fitter, const FittedRun& next,
-                        FittedRun* run) {
-  if (run->compared_with == next.last) return run->similarity;
+/// Similarity of a run to the next one, remembered until either changes; where it is below the cut,
+/// a bound may stand for it.
+double similarityToNext(const ScanPoints& points, const RunFitter& fitter, double cut,
+                        const FittedRun& next, FittedRun* run) {
+  const bool bound_will_do = !run->similarity_is_bound || run->similarity < cut;
+  if (run->compared_with == next.last && bound_will_do) return run->similarity;
   run->compared_with = next.last;
   run->similarity = 0.0;
+  run->similarity_is_bound = false;
   if (!mayFollow(points, *run, next)) return 0.0;
-  const FittedSegment joint = fitter.fit(fitter.prefix().run(run->first, next.last));
-  run->similarity = memberships(*run, next, joint, 0.0, 0.0).similarity();
+  const PointMoments moments = fitter.prefix().run(run->first, next.last);
+  run->similarity = mostFitMembership(*run, next, fitter.leastHalfChiSquare(moments));
+  run->similarity_is_bound = run->similarity < cut;
+  if (run->similarity_is_bound) return run->similarity;
+  run->similarity = memberships(*run, next, fitter.fit(moments), 0.0, 0.0).similarity();
   return run->similarity;
 }
 
@@ -70,9 +76,10 @@ struct Interrupted {
 };
 
 /// Rays on the way from run i on to run j that speak against a wall there: they pass it, they do
-/// not return, or they end before it on what no other line explains.
+/// not return, or they end before it on what no other line explains. Counted up to the first beyond
+/// `most`.
 double raysAgainst(const ScanPoints& points, const FittedSegment& joint, const Runs& runs, int i,
-                   int j) {
+                   int j, double most) {
   const bool over_seam = j < i;
   double against = over_seam ? points.silentAtSeam() +
                                    points.silentBetween(runs[i].last - 1, runs.back().last - 1) +
@@ -82,7 +89,7 @@ double raysAgainst(const ScanPoints& points, const FittedSegment& joint, const R
   const double distance = normal.dot(joint.line.centroid);
   const double gate = kResidualGate * std::sqrt(joint.variance);
   const int n = static_cast<int>(runs.size());
-  for (int k = (i + 1) % n; k != j; k = (k + 1) % n) {
+  for (int k = (i + 1) % n; k != j && against <= most; k = (k + 1) % n) {
     for (int p = runs[k].first; p < runs[k].last; ++p) {
       const double off = normal.dot(points.positions[p]) - distance;
       const double behind = distance < 0.0 ? -off : off;
@@ -102,9 +109,10 @@ bool interlaced(const Interrupted& a, const Interrupted& b) {
 }
 
 /// Evidence against one wall through both, in rays: those of the gap, and the hidden length against
-/// the seen. Infinite where the field of view does not hold the gap.
+/// the seen. Infinite where the field of view does not hold the gap. Beyond `most` it is at least
+/// that much.
 double gapEvidence(const ScanPoints& points, const FittedSegment& joint, const Runs& runs,
-                   const Interrupted& a, const Interrupted& b) {
+                   const Interrupted& a, const Interrupted& b, double most) {
   const auto first = [&](const Interrupted& l) {
     return points.positions[runs[l.runs.front()].first];
   };
@@ -118,8 +126,9 @@ double gapEvidence(const ScanPoints& points, const FittedSegment& joint, const R
   const double hidden = std::abs(u.dot(first(to) - last(from)));
   const double seen =
       std::abs(u.dot(last(from) - first(from))) + std::abs(u.dot(last(to) - first(to)));
-  return kSeenPerHidden * hidden / seen +
-         raysAgainst(points, joint, runs, from.runs.back(), to.runs.front());
+  const double by_length = kSeenPerHidden * hidden / seen;
+  if (by_length > most) return by_length;
+  return by_length + raysAgainst(points, joint, runs, from.runs.back(), to.runs.front(), most);
 }
 
 /// Scan order, begun after the turn away from the line: a wall may lie across the seam.
@@ -138,15 +147,18 @@ bool mergeInterrupted(const ScanPoints& points, const RunFitter& fitter, double 
                       const Runs& runs, std::vector<Interrupted>* lines) {
   const int n = static_cast<int>(lines->size());
   SimilarityMatrix s(n);
+  const double most = kGapGate * (1.0 / cut - 1.0) + 1e-9;  // with more, the third is below the cut
   for (int i = 0; i < n; ++i) {
     for (int j = i + 1; j < n; ++j) {
       const Interrupted &a = (*lines)[i], &b = (*lines)[j];
       if (interlaced(a, b)) continue;
       PointMoments moments = a.fit.moments;
       moments.add(b.fit.moments);
+      if (mostFitMembership(a.fit, b.fit, fitter.leastHalfChiSquare(moments)) < cut) continue;
       const FittedSegment joint = fitter.fit(moments);
       if (fitMembership(a.fit, b.fit, joint) < cut) continue;
-      const double against = gapEvidence(points, joint, runs, a, b);
+      const double against = gapEvidence(points, joint, runs, a, b, most);
+      if (against > most) continue;
       s.set(i, j, memberships(a.fit, b.fit, joint, against, 0.0).similarity());
     }
   }
@@ -177,13 +189,18 @@ bool mergeConsecutive(const ScanPoints& points, const RunFitter& fitter, double 
   const int n = static_cast<int>(runs->size());
   int kept = 0;
   const auto keep = [&](int first, int last) {
-    (*runs)[kept++] = last == first + 1 ? (*runs)[first]
-                                        : fitter.fit((*runs)[first].first, (*runs)[last - 1].last);
+    if (last > first + 1) {
+      (*runs)[kept] = fitter.fit((*runs)[first].first, (*runs)[last - 1].last);
+    } else if (kept < first) {
+      (*runs)[kept] = (*runs)[first];
+    }
+    ++kept;
   };
   // The matrix falls apart into rows of runs of which each is alike the next, and so does its
   // clustering.
   for (int first = 0, last = 1; first < n; first = last++) {
-    while (last < n && similarityToNext(points, fitter, (*runs)[last], &(*runs)[last - 1]) >= cut) {
+    while (last < n &&
+           similarityToNext(points, fitter, cut, (*runs)[last], &(*runs)[last - 1]) >= cut) {
       ++last;
     }
     if (last <= first + 2) {

@@ -189,7 +189,6 @@ class Neighbourhood {
 /// Rank Order Clustering of a neighbourhood. Two were brought together because they are alike:
 /// there is nothing to order.
 std::vector<int> groupsOf(const Eigen::MatrixXd& s, double cut) {
-  if (s.rows() <= 2) return std::vector<int>(static_cast<std::size_t>(s.rows()), 0);
   SimilarityMatrix sim(static_cast<int>(s.rows()));
   for (int i = 0; i < s.rows(); ++i) {
     for (int j = i + 1; j < s.cols(); ++j) sim.set(i, j, s(i, j));

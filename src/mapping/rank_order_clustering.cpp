@@ -34,6 +34,13 @@ Ones cutMatrix(const SimilarityMatrix& s, double cut) {
   return ones;
 }
 
+/// Where nothing but ones stands there is nothing to sort.
+bool allAlike(const SimilarityMatrix& s, double cut) {
+  const auto alike = std::count_if(s.entries().begin(), s.entries().end(),
+                                   [&](const auto& e) { return e.value >= cut; });
+  return 2 * alike == static_cast<std::ptrdiff_t>(s.size()) * (s.size() - 1);
+}
+
 /// One of King's sorts, largest word first; true where something moved.
 ///
 /// A word is kept as the rising places of its ones: the larger of two binary words is the one with
@@ -63,6 +70,7 @@ bool sortOnce(const Ones& ones, std::vector<int>* order, std::vector<int>* place
 }  // namespace
 
 std::vector<int> rankOrderGroups(const SimilarityMatrix& similarity, double cut) {
+  if (allAlike(similarity, cut)) return std::vector<int>(similarity.size(), 0);
   const Ones ones = cutMatrix(similarity, cut);
   std::vector<int> order(static_cast<std::size_t>(similarity.size()));
   std::iota(order.begin(), order.end(), 0);

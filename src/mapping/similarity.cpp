@@ -9,8 +9,6 @@ namespace {
 
 /// Twice a price in nats is a chi-square: where mu_1 and mu_2 stand at one half.
 constexpr double kLineGate = 2.0 * kLinePrice;
-/// One ray that speaks against a wall is as much as the wall can bear.
-constexpr double kGapGate = 1.0;
 /// 99.9 % quantile of chi-square, one degree of freedom.
 constexpr double kSideBySideGate = 10.83;
 
@@ -41,14 +39,19 @@ double Memberships::similarity() const {
   return std::min({orientation, offset, gap, fit, overlap});
 }
 
-double fitMembership(const FittedSegment& a, const FittedSegment& b, const FittedSegment& joint) {
-  double evidence = 0.5 * joint.chi_square, saved = -kLinePrice;
+double mostFitMembership(const FittedSegment& a, const FittedSegment& b,
+                         double least_half_chi_square) {
+  double evidence = least_half_chi_square, saved = -kLinePrice;
   for (const FittedSegment* part : {&a, &b}) {
     saved += part->is_line ? kLinePrice : part->price;
     if (part->is_line) evidence -= 0.5 * part->chi_square;
   }
-  if (saved <= 0.0 || joint.moments.weight < kFewestPoints) return 0.0;
-  return bell(std::max(0.0, evidence), saved);
+  return saved <= 0.0 ? 0.0 : bell(std::max(0.0, evidence), saved);
+}
+
+double fitMembership(const FittedSegment& a, const FittedSegment& b, const FittedSegment& joint) {
+  if (joint.moments.weight < kFewestPoints) return 0.0;
+  return mostFitMembership(a, b, 0.5 * joint.chi_square);
 }
 
 Memberships memberships(const FittedSegment& a, const FittedSegment& b, const FittedSegment& joint,

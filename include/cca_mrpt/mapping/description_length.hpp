@@ -55,6 +55,7 @@ struct FittedRun : FittedSegment {
   int kept_to = -1;          ///< to which this one was not shared out
   int compared_with = -1;    ///< end of the next run, to which this is the similarity:
   double similarity = 0.0;
+  bool similarity_is_bound = false;  ///< it is not known, but not above that
 
   int size() const { return last - first; }
 };
@@ -76,17 +77,20 @@ class RunFitter {
     return leastPrice(first, middle) + leastPrice(middle, last);
   }
   FittedSegment fit(const PointMoments& moments) const;
+  /// A lower bound of fit(moments).chi_square / 2, without roots.
+  double leastHalfChiSquare(const PointMoments& m) const {
+    // The smaller eigenvalue is at least determinant / trace.
+    const double xx = m.scatter(0, 0), xy = m.scatter(0, 1), yy = m.scatter(1, 1);
+    const double least = xx + yy > 0.0 ? (xx * yy - xy * xy) / (xx + yy) : 0.0;
+    return least * half_over_most_variance_;
+  }
   const PrefixMoments& prefix() const { return prefix_; }
 
  private:
   double leastPrice(int first, int last) const {
     const double points = last - first, alone = kPointPrice * points;
     if (points < kFewestPoints) return alone;
-    // The smaller eigenvalue is at least determinant / trace.
-    const PointMoments m = prefix_.run(first, last);
-    const double xx = m.scatter(0, 0), xy = m.scatter(0, 1), yy = m.scatter(1, 1);
-    const double least = xx + yy > 0.0 ? (xx * yy - xy * xy) / (xx + yy) : 0.0;
-    return std::min(alone, kLinePrice + least * half_over_most_variance_);
+    return std::min(alone, kLinePrice + leastHalfChiSquare(prefix_.run(first, last)));
   }
 
   PrefixMoments prefix_;

@@ -7,6 +7,9 @@
 
 namespace cca {
 
+/// Rays that speak against a wall, at which mu_3 is one half: one is as much as a wall can bear.
+inline constexpr double kGapGate = 1.0;
+
 /// How far two segments are of one wall: five fuzzy memberships, each in [0, 1].
 ///
 /// Each is a bell 1 / (1 + x / gate), 1 for a perfect match and 1/2 where the evidence x against
@@ -28,6 +31,11 @@ struct Memberships {
 /// mu_4 alone: the cheapest, and the first to fail.
 /// @param joint  fit of the points of both.
 double fitMembership(const FittedSegment& a, const FittedSegment& b, const FittedSegment& joint);
+/// What mu_4 cannot exceed, before the points of both are fitted.
+/// @param least_half_chi_square  that of the joint fit is not less:
+/// RunFitter::leastHalfChiSquare().
+double mostFitMembership(const FittedSegment& a, const FittedSegment& b,
+                         double least_half_chi_square);
 
 /// All five.
 /// @param joint        fit of the points of both.
