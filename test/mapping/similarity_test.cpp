@@ -3,7 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <random>
+#include <vector>
 
 namespace cca {
 namespace {
@@ -119,6 +121,26 @@ TEST(FitMembership, IsOneHalfWhereOneLineTellsAsBrieflyAsTwo) {
   }
   const PointMoments a = wall({0, 1}, {1, 1}, 20), b = wall({1.1, 1 + low}, {2, 1 + low}, 20);
   EXPECT_NEAR(between(a, b).fit, 0.5, 1e-3);
+}
+
+TEST(FitMembership, IsNeverAboveItsBound) {
+  std::mt19937 random(5);
+  std::normal_distribution<double> noise(0.0, kSigma);
+  int rejected = 0;
+  for (int trial = 0; trial < 200; ++trial) {
+    std::vector<Eigen::Vector2d> points;
+    const double bend = 0.005 * trial;
+    for (int i = 0; i < 40; ++i) {
+      points.emplace_back(0.05 * i, 2.0 + bend * std::max(0, i - 20) * 0.05 + noise(random));
+    }
+    const RunFitter fitter(points, {kSigma, 0.001});
+    const FittedRun a = fitter.fit(0, 20), b = fitter.fit(20, 40), joint = fitter.fit(0, 40);
+    const double bound =
+        mostFitMembership(a, b, fitter.leastHalfChiSquare(fitter.prefix().run(0, 40)));
+    EXPECT_LE(fitMembership(a, b, joint), bound * (1.0 + 1e-9));
+    rejected += bound < 0.5 ? 1 : 0;
+  }
+  EXPECT_GT(rejected, 50);
 }
 
 TEST(FitMembership, OfTwoStrayPointsIsZero) {
