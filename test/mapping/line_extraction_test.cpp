@@ -156,7 +156,7 @@ TEST(ExtractLines, JoinAWallBehindWhatHidesIt) {
   scan.angle_increment = 0.01;
   for (std::size_t i = 0; i < 161; ++i) {
     const double c = std::cos(scan.bearing(i));
-    scan.ranges.push_back(i > 70 && i < 90 ? 1.0 / c : 3.0 / c);  // 0.6 m hidden, 5.6 m seen
+    scan.ranges.push_back(i > 74 && i < 86 ? 1.0 / c : 3.0 / c);  // 0.36 m hidden
   }
   const auto lines = extractLines(scan);
   ASSERT_EQ(lines.size(), 2u);
@@ -164,13 +164,13 @@ TEST(ExtractLines, JoinAWallBehindWhatHidesIt) {
   EXPECT_NEAR(longest, 6.0 * std::tan(0.8), 0.01);
 }
 
-TEST(ExtractLines, LeaveApartWhatHasMoreThanAnEighthOfItHidden) {
+TEST(ExtractLines, LeaveApartWhereADoorwayMayBeHidden) {
   Scan scan;
   scan.angle_min = -0.8;
   scan.angle_increment = 0.01;
   for (std::size_t i = 0; i < 161; ++i) {
     const double c = std::cos(scan.bearing(i));
-    scan.ranges.push_back(i > 60 && i < 90 ? 1.0 / c : 3.0 / c);  // 0.9 m hidden, 5.3 m seen
+    scan.ranges.push_back(i > 70 && i < 90 ? 1.0 / c : 3.0 / c);  // 0.6 m hidden
   }
   EXPECT_EQ(extractLines(scan).size(), 3u);
 }
