@@ -51,6 +51,10 @@ std::uint32_t directionsOf(const Scan& scan) {
   return directions;
 }
 
+bool isSameTarget(Cell a, Cell b) {
+  return std::max(std::abs(a.x - b.x), std::abs(a.y - b.y)) <= kSameTarget;
+}
+
 bool isInside(const std::vector<Eigen::Vector2d>& polygon, const Eigen::Vector2d& p) {
   bool inside = false;
   for (std::size_t i = 0, j = polygon.size() - 1; i < polygon.size(); j = i++) {
@@ -161,6 +165,7 @@ void GlobalPlanner::replan(const Eigen::Vector2d& robot_map) {
                 goal_->cell);
   plan_.path = shortestPath(space_, grid_.resolution(), field_, goal_->cell);
   if (plan_.path.empty()) {
+    noteLostWay();
     decide(robot_map);
   } else if (plan_.path.size() == 1) {
     plan_.path.insert(plan_.path.begin(), robot_map);
@@ -297,6 +302,19 @@ void GlobalPlanner::setGoalAside() {
   goal_.reset();
 }
 
+// A passage about as wide as the robot may look open from afar and shut from nearby, each time that
+// the robot comes: once may be somebody in the way, twice sets the goal aside.
+void GlobalPlanner::noteLostWay() {
+  const auto before = std::find_if(lost_ways_.begin(), lost_ways_.end(), [this](Cell target) {
+    return isSameTarget(target, goal_->target);
+  });
+  if (before == lost_ways_.end()) {
+    lost_ways_.push_back(goal_->target);
+  } else {
+    setGoalAside();
+  }
+}
+
 void GlobalPlanner::noteArrival() {
   if (goal_) scanned_[FreeSpace::blockOf(goal_->cell)] = 1;
 }
@@ -318,8 +336,7 @@ bool GlobalPlanner::recallAside() {
 
 bool GlobalPlanner::isAside(Cell target) const {
   return std::any_of(aside_.begin(), aside_.end(), [&](const Aside& a) {
-    const int off = std::max(std::abs(a.target.x - target.x), std::abs(a.target.y - target.y));
-    return off <= kSameTarget && grid_.revealed() < a.revealed_then + kRetryAfter;
+    return isSameTarget(a.target, target) && grid_.revealed() < a.revealed_then + kRetryAfter;
   });
 }
 

@@ -101,6 +101,26 @@ TEST(GlobalPlanner, DoesNotGoBackAtOnceToAGoalThatWasSetAside) {
   EXPECT_GE(goals.size(), 1u);
 }
 
+TEST(GlobalPlanner, LeavesAGoalWhoseWayIsLostTwice) {
+  const Eigen::Vector2d robot(1.0, 1.0);
+  const Scan scan = kTwoRooms.scanFrom({robot.x(), robot.y(), 0.0}, 4.0);
+  GlobalPlanner planner;
+  std::vector<Eigen::Vector2d> looked_at;
+  for (int times = 0; times < 100 && !planner.update(scan, robot).finished; ++times) {
+    looked_at.push_back(planner.plan().look_at);
+    const Cell goal = planner.grid().cellOf(planner.plan().path.back());
+    std::vector<Cell> shut;
+    for (int y = -2; y <= 2; ++y) {
+      for (int x = -2; x <= 2; ++x) shut.push_back(goal + Cell{x, y});
+    }
+    planner.seed(shut, CellState::kOccupied);
+    planner.update(scan, robot);
+    planner.seed(shut, CellState::kFree);
+  }
+  EXPECT_TRUE(planner.plan().finished);
+  EXPECT_GT(looked_at.size(), 0u);
+}
+
 TEST(GlobalPlanner, KeepsItsGoalsWithinItsLimits) {
   GlobalPlanner planner;
   planner.limitTo({{0.0, 0.0}, {4.6, 0.0}, {4.6, 4.5}, {0.0, 4.5}});  // the left room

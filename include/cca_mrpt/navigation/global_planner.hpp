@@ -100,6 +100,7 @@ class GlobalPlanner {
   void findViewPoints();
   void keepPresentGoal();
   std::optional<std::size_t> choose();
+  void noteLostWay();
   bool recallAside();
   bool isAside(Cell target) const;
   bool isWithinLimits(Cell c) const;
@@ -124,6 +125,7 @@ class GlobalPlanner {
   std::vector<ViewPoint> view_points_;
   bool only_rests_ = false;  ///< whether the view points are rests
   std::vector<Aside> aside_;
+  std::vector<Cell> lost_ways_;  ///< targets that could no longer be reached, half-way there
   std::optional<ViewPoint> goal_;
   double laser_range_ = 1.0;  ///< m, the longest that a beam was seen to be free
   Eigen::Vector2d decided_at_ = Eigen::Vector2d::Zero();
