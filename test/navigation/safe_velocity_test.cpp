@@ -68,8 +68,12 @@ TEST(SafeVelocity, WhatTouchesTheRobotComesNoNearer) {
     for (const double wanted : {0.7, 0.1, 0.01, 0.001}) {
       const Velocity velocity =
           safeVelocity({wanted, 0.0}, {0, 0}, {{p, 0.0}}, kRobot, kRadius, kPeriod);
-      if (bearing < 0.5 * M_PI) EXPECT_DOUBLE_EQ(velocity.linear, 0.0) << bearing;
-      if (bearing > 0.5 * M_PI) EXPECT_GT(velocity.linear, 0.0) << bearing;
+      if (bearing < 0.5 * M_PI) {
+        EXPECT_DOUBLE_EQ(velocity.linear, 0.0) << bearing;
+      }
+      if (bearing > 0.5 * M_PI) {
+        EXPECT_GT(velocity.linear, 0.0) << bearing;
+      }
     }
   }
 }
