@@ -186,8 +186,7 @@ class Neighbourhood {
   std::vector<Slot> walls_;
 };
 
-/// Rank Order Clustering of a neighbourhood. Two were brought together because they are alike:
-/// there is nothing to order.
+/// Rank Order Clustering of a neighbourhood.
 std::vector<int> groupsOf(const Eigen::MatrixXd& s, double cut) {
   SimilarityMatrix sim(static_cast<int>(s.rows()));
   for (int i = 0; i < s.rows(); ++i) {

@@ -305,13 +305,13 @@ void GlobalPlanner::setGoalAside() {
 // A passage about as wide as the robot may look open from afar and shut from nearby, each time that
 // the robot comes: once may be somebody in the way, twice sets the goal aside.
 void GlobalPlanner::noteLostWay() {
-  const auto before = std::find_if(lost_ways_.begin(), lost_ways_.end(), [this](Cell target) {
-    return isSameTarget(target, goal_->target);
-  });
-  if (before == lost_ways_.end()) {
-    lost_ways_.push_back(goal_->target);
-  } else {
+  const Cell target = goal_->target;
+  const bool again = std::any_of(lost_ways_.begin(), lost_ways_.end(),
+                                 [&](Cell lost) { return isSameTarget(lost, target); });
+  if (again) {
     setGoalAside();
+  } else {
+    lost_ways_.push_back(target);
   }
 }
 

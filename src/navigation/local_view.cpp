@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cca_mrpt/navigation/beam.hpp"
+
 namespace cca {
 namespace {
 
@@ -72,9 +74,8 @@ int LocalView::beamTowards(const Eigen::Vector2d& p_map) const {
   if (seen.empty() || angle_increment == 0.0) return -1;
   const Eigen::Vector2d to = p_map - T_map_sensor.position();
   const double turn = 2.0 * M_PI / std::abs(angle_increment);
-  double beam = std::fmod(
-      (std::atan2(to.y(), to.x()) - T_map_sensor.theta - angle_min) / angle_increment, turn);
-  if (beam < -0.5) beam += turn;
+  const double beam =
+      beamAt(std::atan2(to.y(), to.x()) - T_map_sensor.theta, angle_min, angle_increment);
   const auto n = static_cast<int>(seen.size());
   const int index = static_cast<int>(std::lround(std::max(beam, 0.0)));
   if (index < n) return index;

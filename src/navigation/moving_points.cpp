@@ -5,6 +5,8 @@
 #include <cmath>
 #include <utility>
 
+#include "cca_mrpt/navigation/beam.hpp"
+
 namespace cca {
 namespace {
 
@@ -20,11 +22,8 @@ constexpr double kHeeded = 2.0;    // m; what is farther cannot come before the 
 
 // The beam of a scan next to the direction of a point; it may lie outside the scan.
 int beamTowards(const Scan& scan, const Eigen::Vector2d& p_sensor) {
-  const double turn = 2.0 * M_PI / std::abs(scan.angle_increment);
-  double at = std::fmod(
-      (std::atan2(p_sensor.y(), p_sensor.x()) - scan.angle_min) / scan.angle_increment, turn);
-  if (at < -0.5) at += turn;
-  return static_cast<int>(std::lround(at));
+  return static_cast<int>(std::lround(
+      beamAt(std::atan2(p_sensor.y(), p_sensor.x()), scan.angle_min, scan.angle_increment)));
 }
 
 // The shortest free distance that the scan saw around the direction of a point; 0 where unknown.

@@ -265,11 +265,8 @@ Velocity TangentBug::drive(const Velocity& velocity, double time) const {
   for (const auto& points : lately_near_map_) {
     for (const Eigen::Vector2d& p_map : points) hazards.push_back({inRobot(p_map), 0.0});
   }
-  for (const Eigen::Vector2d& p_map : view_.movers) {
-    hazards.push_back({inRobot(p_map), kWalkingSpeed});
-  }
-  for (const Eigen::Vector2d& p_map : moving_points_.unsettled()) {
-    hazards.push_back({inRobot(p_map), kWalkingSpeed});
+  for (const auto* points : {&view_.movers, &moving_points_.unsettled()}) {
+    for (const Eigen::Vector2d& p_map : *points) hazards.push_back({inRobot(p_map), kWalkingSpeed});
   }
   return safeVelocity(wanted, velocity, hazards, robot_,
                       robot_.radius + kSafe * robot_.safety_margin + noise_allowance_,

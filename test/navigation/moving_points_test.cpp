@@ -15,22 +15,42 @@ long movingBeams(const std::vector<bool>& moving) {
   return std::count(moving.begin(), moving.end(), true);
 }
 
+/// A robot that drives and turns where it has room, and whose ranges have 1 cm of noise.
+class NoisyDrive {
+ public:
+  NoisyDrive(const Query& query, unsigned seed)
+      : room_(query.world), T_map_robot_(query.start), generator_(seed) {}
+
+  Scan scan(const BoxWorld& world) {
+    Scan scan = world.scan(T_map_robot_, 8.0);
+    for (double& r : scan.ranges) r += isReturn(r) ? noise_(generator_) : 0.0;
+    return scan;
+  }
+
+  void move(double step) {
+    const Pose2 next = T_map_robot_ * Pose2{step, 0.0, 0.06};
+    if (room_.clearance(next.position()) > 0.3) T_map_robot_ = next;
+    T_map_robot_.theta = wrapAngle(T_map_robot_.theta + 0.02);
+  }
+
+ private:
+  BoxWorld room_;
+  Pose2 T_map_robot_;
+  std::mt19937 generator_;
+  std::normal_distribution<double> noise_{0.0, 0.01};
+};
+
 TEST(MovingPoints, FindsNobodyInAStillWorldWhileTheRobotDrivesAndTurns) {
   long false_alarms = 0, beams = 0;
   for (unsigned seed = 0; seed < 10; ++seed) {
     const Query query = randomQuery(seed);
     MovingPoints points;
-    Pose2 pose = query.start;
-    std::mt19937 generator(seed);
-    std::normal_distribution<double> noise(0.0, 0.01);
+    NoisyDrive robot(query, seed);
     for (int i = 0; i < 40; ++i) {
-      Scan scan = query.world.scan(pose, 8.0);
-      for (double& r : scan.ranges) r += isReturn(r) ? noise(generator) : 0.0;
+      const Scan scan = robot.scan(query.world);
       false_alarms += movingBeams(points.update(scan, 0.01, 0.1 * i));
       beams += static_cast<long>(scan.size());
-      const Pose2 next = pose * Pose2{0.05, 0.0, 0.06};
-      if (query.world.clearance(next.position()) > 0.3) pose = next;
-      pose.theta = wrapAngle(pose.theta + 0.02);
+      robot.move(0.05);
     }
   }
   EXPECT_LT(false_alarms, beams / 1000);
@@ -134,25 +154,20 @@ TEST(MovingPoints, WhatStandsIsSettledForARobotThatDrivesAndTurns) {
   for (unsigned seed = 0; seed < 10; ++seed) {
     const Query query = randomQuery(seed);
     MovingPoints points;
-    Pose2 pose = query.start;
-    std::mt19937 generator(seed);
-    std::normal_distribution<double> noise(0.0, 0.01);
+    NoisyDrive robot(query, seed);
     for (int i = 0; i < 60; ++i) {
       BoxWorld world = query.world;
       // Somebody who comes and goes on the spot, 2.5 m before the robot.
       const Eigen::Vector2d there = query.start.position() + Eigen::Vector2d(2.5, 0.0);
       if (i % 10 < 5) world.discs.push_back({there, 0.25});
-      Scan scan = world.scan(pose, 8.0);
-      for (double& r : scan.ranges) r += isReturn(r) ? noise(generator) : 0.0;
+      const Scan scan = robot.scan(world);
       points.update(scan, 0.01, 0.1 * i);
       if (points.areAround(0.1 * i)) {
         unsettled += static_cast<long>(points.unsettled().size());
         near += std::count_if(scan.ranges.begin(), scan.ranges.end(),
                               [](double r) { return isReturn(r) && r < 2.0; });
       }
-      const Pose2 next = pose * Pose2{0.04, 0.0, 0.06};
-      if (query.world.clearance(next.position()) > 0.3) pose = next;
-      pose.theta = wrapAngle(pose.theta + 0.02);
+      robot.move(0.04);
     }
   }
   EXPECT_GT(near, 1000);

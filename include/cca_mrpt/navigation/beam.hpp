@@ -9,6 +9,15 @@
 
 namespace cca {
 
+/// The number of the beam at a bearing (rad, sensor frame), as a fraction in [-0.5, turn - 0.5)
+/// with `turn` the beams of a full one; past the last beam it lies outside the scan.
+/// Precondition: angle_increment is not 0.
+inline double beamAt(double bearing, double angle_min, double angle_increment) {
+  const double turn = 2.0 * M_PI / std::abs(angle_increment);
+  const double beam = std::fmod((bearing - angle_min) / angle_increment, turn);
+  return beam < -0.5 ? beam + turn : beam;
+}
+
 /// Visits the cells that a straight line crosses, in order [Amanatides & Woo 1987].
 ///
 /// @param origin     start, in cells (metres / resolution).
