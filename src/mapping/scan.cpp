@@ -6,9 +6,6 @@
 namespace cca {
 namespace {
 
-/// Beams between two calls of sin and cos; in between the direction is turned by one spacing.
-constexpr int kBeamsPerSine = 64;
-
 /// A scan that lacks less than half a beam of a full turn joins its ends.
 bool isFullTurn(const Scan& scan) {
   const double spacing = std::abs(scan.angle_increment);
@@ -56,6 +53,18 @@ void countBreaks(ScanPoints* points) {
 
 }  // namespace
 
+void TurningBeam::turnTo(std::size_t beam) {
+  if (beam == beam_ + 1 && --turns_left_ > 0) {
+    unit_ = {unit_.x() * turn_.x() - unit_.y() * turn_.y(),
+             unit_.y() * turn_.x() + unit_.x() * turn_.y()};
+  } else {
+    const double bearing = first_bearing_ + static_cast<double>(beam) * spacing_;
+    unit_ = {std::cos(bearing), std::sin(bearing)};
+    turns_left_ = kTurnsPerSine;
+  }
+  beam_ = beam;
+}
+
 void reopen(int first, ScanPoints* points) {
   const int size = static_cast<int>(points->size());
   const auto rotate = [first](auto* v) { std::rotate(v->begin(), v->begin() + first, v->end()); };
@@ -91,24 +100,15 @@ ScanPoints scanPoints(const Scan& scan, double point_sigma) {
   points.positions.reserve(n);
   points.beams.reserve(n);
   points.silent.reserve(n);
-  const double turn_cos = std::cos(points.beam_spacing), turn_sin = std::sin(points.beam_spacing);
-  double c = 1.0, s = 0.0;
+  TurningBeam direction(first_bearing, points.beam_spacing);
   int silent = 0;
   for (std::size_t i = 0; i < n; ++i) {
     const std::size_t beam = i + cut < n ? i + cut : i + cut - n;
-    if (i % kBeamsPerSine == 0 || beam == 0) {
-      const double bearing = first_bearing + static_cast<double>(beam) * points.beam_spacing;
-      c = std::cos(bearing);
-      s = std::sin(bearing);
-    } else {
-      const double turned = c * turn_cos - s * turn_sin;
-      s = s * turn_cos + c * turn_sin;
-      c = turned;
-    }
+    direction.turnTo(beam);
     const double range = ranges[beam];
     silent += isNoReturn(range) ? 1 : 0;
     if (!isReturn(range) || range > kLongestRange) continue;
-    points.positions.emplace_back(range * c, range * s);
+    points.positions.push_back(range * direction.unit());
     points.beams.push_back(static_cast<int>(i));
     points.silent.push_back(silent);
   }

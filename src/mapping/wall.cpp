@@ -56,7 +56,6 @@ struct FrameChange {
 };
 
 constexpr double kDrift = 0.1;         // m, of the line from its frame; the index reaches 0.3 m
-constexpr int kBridgedBins = 4;        // longer gaps without hits would be phantoms
 constexpr double kSameDoor = 0.2;      // m, between the lines of a doorway before and after a join
 constexpr double kShortestLine = 0.3;  // m, six bins: what a line costs to tell
 constexpr double kFewestHits = 20.0;   // three to four scans that meet it
@@ -69,27 +68,21 @@ constexpr double kTrustInWall = 3.0;
 /// The line of a piece between t_first and t_last: that of its own bins, held to the wall's line by
 /// a few bins' worth. A wall is straight to its noise from end to end; a piece of it is nearer to
 /// its own returns, and ends where it ends at no further price.
-LateralFit fitOfPiece(const Wall& wall, const BinRange& range, double t_first, double t_last) {
-  const bool all = range.first == wall.profile.first() && range.last == wall.profile.last();
-  BinSums sums = all ? wall.profile.sums() : wall.profile.sums(range.first, range.last);
+LateralFit fitOfPiece(const Wall& wall, BinSums sums, double t_first, double t_last) {
   for (const double t : {t_first, t_last}) sums.addPoint(0.5 * kTrustInWall, t, wall.fit.at(t));
   return sums.fit();
 }
 
-LineSegment segmentOf(const Wall& wall, const BinRange& range, const MapNoise& noise) {
-  BinSums sum;  // of the hits themselves, each bin with all its weight
-  for (int i = range.first; i < range.last; ++i) {
-    const SupportBin& b = wall.profile.bin(i);
-    sum.add({b.hits, b.t, b.d, b.tt, b.td, b.dd});
-  }
+LineSegment segmentOf(const Wall& wall, const Stretch& stretch, const MapNoise& noise) {
+  const BinSums& sum = stretch.tally.returns;
   const double n = sum.w, visits = std::max(1.0, wall.visits);
   LineSegment s;
   if (n <= 0.0) return s;
   const double t = sum.t / n, d = sum.d / n;
   const double tt = sum.tt - n * t * t, td = sum.td - n * t * d, dd = sum.dd - n * d * d;
-  const double t_first = wall.profile.bin(range.first).t_min;
-  const double t_last = wall.profile.bin(range.last - 1).t_max;
-  const LateralFit fit = fitOfPiece(wall, range, t_first, t_last);
+  const double t_first = wall.profile.bin(stretch.range.first).t_min;
+  const double t_last = wall.profile.bin(stretch.range.last - 1).t_max;
+  const LateralFit fit = fitOfPiece(wall, stretch.tally.fitted, t_first, t_last);
   s.start = wall.toMap(t_first, fit.at(t_first));
   s.end = wall.toMap(t_last, fit.at(t_last));
   s.moments.weight = n;
@@ -195,14 +188,11 @@ void refit(Wall& wall) {
 
 void recut(Wall& wall, const MapNoise& noise, std::uint64_t& next_id) {
   const BinRange all{wall.profile.first(), wall.profile.last()};
-  wall.whole = segmentOf(wall, all, noise);
-  std::vector<BinRange> ranges;
-  wall.profile.supportedRanges(kBridgedBins, ranges);
+  wall.whole = segmentOf(wall, {all, wall.profile.tally()}, noise);
   std::vector<MapLine> pieces;
-  for (const BinRange& range : ranges) {
-    const bool whole = range.first == all.first && range.last == all.last;
+  for (const Stretch& stretch : wall.profile.stretches()) {
     MapLine line;
-    line.segment = whole ? wall.whole : segmentOf(wall, range, noise);
+    line.segment = segmentOf(wall, stretch, noise);
     line.support = line.segment.moments.weight;
     if (line.segment.length() < kShortestLine || line.support < kFewestHits) continue;
     if (isLoose(line.segment, noise)) continue;

@@ -26,6 +26,7 @@ constexpr double kTwoFrontsLeast = 0.06;
 constexpr double kStretch = 0.7;
 constexpr double kStretchLeast = 0.07;
 constexpr double kSideBySide = 0.97;  // cosine
+constexpr double kReach = 0.2;  // m, how far a wall's hits lie off its extent in another frame
 
 struct Extent {
   double first, last;  // m, along a wall
@@ -89,6 +90,8 @@ void shareOverlap(Slot a, Slot b, Walls& walls, const MapNoise& noise) {
   if (cosine < kSideBySide) return;
   const bool a_lesser = extentOf(walls[a]).length() < extentOf(walls[b]).length();
   const Slot lesser = a_lesser ? a : b, greater = a_lesser ? b : a;
+  const Extent mine = extentOf(walls[greater]), theirs = extentOf(walls[lesser], walls[greater]);
+  if (mine.last < theirs.first - kReach || theirs.last < mine.first - kReach) return;
   const double gate = std::max(kStretchLeast, 3.0 * noise.lateralSigma() * kStretch);
   if (!yieldOverlap(walls[lesser], walls[greater], gate)) return;
   walls.touch(lesser);
@@ -121,9 +124,10 @@ void mergeWithNeighbours(Slot slot, Walls& walls, const MapNoise& noise) {
 
 /// Cuts the wall at its strongest bend; the part behind the bend becomes a wall of its own.
 void splitWhereBent(Slot slot, Walls& walls, const MapNoise& noise) {
+  const double least_gain = 2.0 * noise.lateralSigma() * noise.lateralSigma() * kBendCost;
+  if (walls[slot].profile.sums().residual() < least_gain) return;  // no cut gains more than all
   const SupportProfile::Cut cut = walls[slot].profile.bestCut();
-  const double sigma = noise.lateralSigma();
-  if (cut.gain / (2.0 * sigma * sigma) < kBendCost) return;
+  if (cut.gain < least_gain) return;
   const Slot tail_slot = walls.create();
   Wall &wall = walls[slot], &tail = walls[tail_slot];
   tail.origin = wall.origin;

@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstddef>
+#include <random>
 
 namespace cca {
 namespace {
@@ -25,11 +27,10 @@ TEST(SupportProfile, ADoorThatRaysPassThroughPartsTheWall) {
   for (double t = 1.0; t < 1.9; t += 0.005) {
     for (int k = 0; k < 3; ++k) profile.pass(t);
   }
-  std::vector<BinRange> ranges;
-  profile.supportedRanges(5, ranges);
-  ASSERT_EQ(ranges.size(), 2u);
-  EXPECT_NEAR(ranges[0].last * SupportProfile::kBinLength, 1.0, 0.11);
-  EXPECT_NEAR(ranges[1].first * SupportProfile::kBinLength, 1.9, 0.11);
+  const std::vector<Stretch>& stretches = profile.stretches();
+  ASSERT_EQ(stretches.size(), 2u);
+  EXPECT_NEAR(stretches[0].range.last * SupportProfile::kBinLength, 1.0, 0.11);
+  EXPECT_NEAR(stretches[1].range.first * SupportProfile::kBinLength, 1.9, 0.11);
 }
 
 TEST(SupportProfile, CutsExactlyAtABend) {
@@ -55,6 +56,46 @@ TEST(SupportProfile, ForgetsWhatRaysHaveRefuted) {
   for (double t = 0.0; t < 1.0; t += 0.002) profile.pass(t);
   EXPECT_TRUE(profile.prune());
   EXPECT_TRUE(profile.empty());
+}
+
+/// The same bins without anything remembered of them.
+SupportProfile anew(SupportProfile profile) { return profile.cutFrom(profile.first()); }
+
+void expectSameStretches(const SupportProfile& a, const SupportProfile& b) {
+  ASSERT_EQ(a.stretches().size(), b.stretches().size());
+  for (std::size_t k = 0; k < a.stretches().size(); ++k) {
+    const Stretch &s = a.stretches()[k], &t = b.stretches()[k];
+    EXPECT_EQ(s.range.first, t.range.first);
+    EXPECT_EQ(s.range.last, t.range.last);
+    EXPECT_NEAR(s.tally.fitted.td, t.tally.fitted.td, 1e-9);
+    EXPECT_NEAR(s.tally.returns.tt, t.tally.returns.tt, 1e-7);
+  }
+}
+
+TEST(SupportProfile, RemembersWhatItsBinsSay) {
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> somewhere(0.0, 3.0), share(0.0, 1.0);
+  SupportProfile profile = straight(0.0, 3.0);
+  for (int k = 0; k < 20000; ++k) {
+    const double t = somewhere(random), kind = share(random);
+    // Hits everywhere, rays mostly through a door that opens and shuts.
+    const bool open = k / 2000 % 2 == 1;
+    const double at = open && kind < 0.9 ? 1.0 + 0.3 * t : t;
+    if (kind < (open ? 0.1 : 0.95)) {
+      profile.hit(at, 0.02 * share(random));
+    } else if (!profile.pass(at)) {
+      SupportProfile unchanged = anew(profile);
+      expectSameStretches(profile, unchanged);
+      EXPECT_FALSE(unchanged.prune());
+    }
+    if (k % 7 == 0) profile.prune();
+    for (int i = profile.first(); k % 7 == 0 && i < profile.last(); ++i) {
+      const SupportBin& bin = profile.bin(i);
+      EXPECT_FALSE(bin.hits > 0.0 && bin.passed > 4.0 && bin.passed > 2.0 * bin.hits);
+    }
+    if (k % 5 == 0) expectSameStretches(profile, anew(profile));
+    if (HasFailure()) FAIL() << "after " << k << " steps";
+  }
 }
 
 }  // namespace

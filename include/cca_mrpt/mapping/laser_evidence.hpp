@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <vector>
 
 #include "cca_mrpt/mapping/map_clusters.hpp"
@@ -10,6 +12,17 @@ namespace cca {
 
 /// Unit vectors of a scan's beams in the map frame.
 std::vector<Eigen::Vector2d> beamDirections(const Scan& scan);
+
+/// Half-open range of beams.
+struct BeamRange {
+  std::size_t first = 0, last = 0;
+};
+
+/// The beams that can meet a stretch (map frame), within `off` [m] of it: one range, or two where
+/// the stretch lies across the scan's seam or the last beams repeat the first; none where bearings
+/// are not finite.
+std::array<BeamRange, 2> beamsTowards(const Scan& scan, const Eigen::Vector2d& start,
+                                      const Eigen::Vector2d& end, double off);
 
 /// Enters each return of the scan as a hit of the wall that it came from: the wall of the new line
 /// that it lies on, else the nearest wall that was hit there before, else none.
@@ -25,7 +38,8 @@ void depositReturns(const Scan& scan, const std::vector<Eigen::Vector2d>& beams,
 /// than noise and pose error could feign. A ray without return counts up to
 /// scan.free_range_without_return.
 ///
-/// Cost: O(beams x cells of a ray), whatever the size of the map.
+/// Cost: O(beams + cells that the scan sweeps + beams towards each wall in them), whatever the size
+/// of the map.
 void passRays(const Scan& scan, const std::vector<Eigen::Vector2d>& beams, const MapNoise& noise,
               Walls& walls);
 

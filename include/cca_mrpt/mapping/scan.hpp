@@ -31,6 +31,26 @@ struct Scan {
 inline bool isReturn(double range) { return std::isfinite(range) && range > 0.0; }
 inline bool isNoReturn(double range) { return std::isinf(range) && range > 0.0; }
 
+/// The unit vectors of a scan's beams, beam after beam: each is the last one turned by the spacing,
+/// and taken from sine and cosine anew now and then.
+class TurningBeam {
+ public:
+  /// @param first_bearing, spacing  rad, of beam 0 and to the next; finite.
+  TurningBeam(double first_bearing, double spacing)
+      : first_bearing_(first_bearing),
+        spacing_(spacing),
+        turn_(std::cos(spacing), std::sin(spacing)) {}
+  void turnTo(std::size_t beam);
+  const Eigen::Vector2d& unit() const { return unit_; }
+
+ private:
+  static constexpr int kTurnsPerSine = 64;
+  double first_bearing_, spacing_;
+  Eigen::Vector2d turn_, unit_ = Eigen::Vector2d::UnitX();
+  std::size_t beam_ = 0;
+  int turns_left_ = 0;
+};
+
 /// The returns of a scan as points, in counter-clockwise order.
 struct ScanPoints {
   std::vector<Eigen::Vector2d> positions;  ///< m, sensor frame

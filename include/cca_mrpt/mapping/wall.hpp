@@ -35,9 +35,7 @@ struct Wall {
   double hits = 0.0;                   ///< returns ever taken in
   double hits_at_check = 0.0;          ///< the same when it was last compared with its neighbours
   int length_at_check = 0;             ///< bins
-  std::uint64_t ray = 0;               ///< the last ray that was tested against it
-  double viewpoint_t = 0.0;            ///< m, where that ray came from, along the wall
-  double viewpoint_off = 0.0;          ///< m, and off its fitted line
+  std::uint64_t visit = 0;             ///< Walls::nextVisit() when it was last collected
   bool alive = false, touched = false;
 
   Eigen::Vector2d normal() const { return {-direction.y(), direction.x()}; }

@@ -37,14 +37,14 @@ class Walls {
   /// Walls that changed since they were last seen to, in order of their first change.
   void touch(Slot slot);
   std::vector<Slot>& touched() { return touched_; }
-  /// A number that no wall has seen a ray under.
-  std::uint64_t nextRay() { return ++ray_; }
+  /// A number that no wall has been visited under.
+  std::uint64_t nextVisit() { return ++visit_; }
 
  private:
   std::vector<Wall> walls_;
   std::vector<Slot> free_, dead_, touched_;
   WallIndex index_;
-  std::uint64_t ray_ = 0;
+  std::uint64_t visit_ = 0;
 };
 
 }  // namespace cca
