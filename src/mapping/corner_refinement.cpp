@@ -81,6 +81,7 @@ bool shareOut(const ScanPoints& points, const RunFitter& fitter, Runs* runs) {
 
 bool splitLines(const RunFitter& fitter, Runs* runs) {
   Runs parted;
+  parted.reserve(runs->size() + 1);
   for (FittedRun& run : *runs) {
     const bool may_gain = !run.is_searched && (!run.is_line || 0.5 * run.chi_square > kLinePrice);
     const int middle =
@@ -131,6 +132,7 @@ void appendLinesAmong(const ScanPoints& points, const RunFitter& fitter, int fir
 
 bool tellLoosePoints(const ScanPoints& points, const RunFitter& fitter, Runs* runs) {
   Runs told;
+  told.reserve(runs->size() + 1);
   bool found = false;
   for (std::size_t k = 0; k < runs->size();) {
     if ((*runs)[k].is_line) {

@@ -165,7 +165,7 @@ std::vector<int> kMeansInOrder(const ScanPoints& points, int clusters, int sweep
       moved = moved || nearest != cluster[i];
       cluster[i] = nearest;
     }
-    if (!moved) break;
+    if (!moved || sweep + 1 == sweeps) break;
     moveToMeans(points.positions, cluster, &centroids);
   }
   return cluster;
