@@ -233,12 +233,12 @@ void GlobalPlanner::findViewPoints() {
   const Cell here = grid_.cellOf(decided_at_);
   for (const Frontier& frontier : frontier_cells_.frontiers(kFrontierExtent)) {
     if (frontier.cells.size() < parameters_.smallest_frontier) continue;
-    const Cell target = cellBehind(grid_, frontier, kBehindFrontier);
-    if (isAside(target) || !isWithinLimits(target)) continue;
+    const auto target = targetBehind(frontier);
+    if (!target) continue;
     const Cell m = frontier.middle;
     const double known_way = field_.distanceTo(m);
     const double line = std::hypot(m.x - here.x, m.y - here.y) * grid_.resolution();
-    candidates.push_back({known_way < DistanceField::kUnreached ? known_way : line, target,
+    candidates.push_back({known_way < DistanceField::kUnreached ? known_way : line, *target,
                           frontier.cells.size() < kRest});
   }
   if (candidates.size() > kMostViewPoints) {
@@ -260,6 +260,16 @@ void GlobalPlanner::findViewPoints() {
   for (const ViewPoint& rest : rests) {
     if (only_rests_ || rest.distance < kInPassing) view_points_.push_back(rest);
   }
+}
+
+// What lies two metres behind a frontier may be inside a wall, or seen from nowhere. It has been
+// set aside then, and the frontier gets another chance with a nearer target.
+std::optional<Cell> GlobalPlanner::targetBehind(const Frontier& frontier) const {
+  for (const double depth : {kBehindFrontier, 0.25 * kBehindFrontier, 0.0}) {
+    const Cell target = cellBehind(grid_, frontier, depth);
+    if (isWithinLimits(target) && !isAside(target)) return target;
+  }
+  return {};
 }
 
 // Frontiers are grouped anew at each decision, so the present goal may have got another target in

@@ -97,6 +97,7 @@ class GlobalPlanner {
   void replan(const Eigen::Vector2d& robot_map);
   bool isTimeToReconsider(const Eigen::Vector2d& robot_map) const;
   void decide(const Eigen::Vector2d& robot_map);
+  std::optional<Cell> targetBehind(const Frontier& frontier) const;
   void findViewPoints();
   void keepPresentGoal();
   std::optional<std::size_t> choose();
