@@ -13,9 +13,13 @@ namespace {
 
 constexpr int kReturn = 2, kPass = -1;    // weight of a return, of a beam that passes
 constexpr int kSurest = 8, kFreest = -4;  // bounds of the evidence: 8 scans forget an obstacle
-// Cells. A return lies in the cell behind the surface, and what lies before it is known to be free
-// only up to this distance: noise and rounding must not open the wall.
-constexpr double kBehindSurface = 0.3;
+// Cells. A return lies in the cell half a cell behind the surface: that cell's edge is the one
+// nearest to the surface, and noise must be half a cell to thicken a wall, and with it close a
+// passage.
+constexpr double kBehindSurface = 0.5;
+// Cells. What lies before a return is known to be free only up to this distance: noise and rounding
+// must not open the wall.
+constexpr double kBeforeSurface = 0.3;
 constexpr double kSteepest = 4.0;        // widest gap in one surface, in spacings of the beams
 constexpr double kWidestPresumed = 0.5;  // m: no robot fits through
 constexpr double kWidestGuess = 1.5;
@@ -54,7 +58,7 @@ void ExplorationGrid::insert(const Scan& scan) {
     const bool returned = isReturn(scan.ranges[i]);
     if (!returned && !isNoReturn(scan.ranges[i])) continue;
     const double free_range =
-        returned ? scan.ranges[i] - kBehindSurface * resolution_ : scan.free_range_without_return;
+        returned ? scan.ranges[i] - kBeforeSurface * resolution_ : scan.free_range_without_return;
     if (!(free_range > 0.0)) continue;
     passThrough(origin, directions_[i], std::min(free_range / resolution_, kLongestRangeCells));
   }
@@ -127,7 +131,7 @@ void ExplorationGrid::presumeFree(const Scan& scan) {
   }
   for (std::size_t i = 0; i + 1 < scan.size(); ++i) {
     const double range =
-        std::min({freeRange(i), freeRange(i + 1), kLongestRangeCells}) - kBehindSurface;
+        std::min({freeRange(i), freeRange(i + 1), kLongestRangeCells}) - kBeforeSurface;
     if (!(range > 0.0)) continue;
     const auto between =
         static_cast<std::size_t>(std::min(range * apart, static_cast<double>(kMostBetween)));
