@@ -23,6 +23,9 @@ constexpr double kBeforeSurface = 0.3;
 constexpr double kSteepest = 4.0;        // widest gap in one surface, in spacings of the beams
 constexpr double kWidestPresumed = 0.5;  // m: no robot fits through
 constexpr double kWidestGuess = 1.5;
+// Of the gap, from it to a third return.
+constexpr double kLeastReach = 0.2, kMostReach = 4.0;
+constexpr double kInLine = 0.03;             // m, grows with that
 constexpr std::size_t kMostBetween = 8;      // rays between two beams
 constexpr double kLongestRangeCells = 4000;  // 200 m at 5 cm
 
@@ -91,16 +94,19 @@ void ExplorationGrid::presumeWalls(const Scan& scan) {
     const double spacing = std::min(a, b) * std::abs(scan.angle_increment);
     if (gap < resolution_) continue;
     if (gap > kSteepest * spacing) {
-      // Seen at a grazing angle: one surface only where a third return lies in line.
-      const auto inLine = [&](std::size_t k) {
+      // Seen at a grazing angle: one surface only where a third return lies in line with both, and
+      // that lies about as far from them as they from each other. A return from around a corner,
+      // close by, is in line with anything: it would wall up doorways.
+      const Eigen::Vector2d along = (to - from) / gap;
+      const auto isInLine = [&](std::size_t k, const Eigen::Vector2d& end) {
         if (k >= n || !isReturn(scan.ranges[k])) return false;
         const Eigen::Vector2d p = origin + (scan.ranges[k] + behind) * directions_[k];
-        const Eigen::Vector2d along = (to - from) / gap, offset = p - from;
+        const Eigen::Vector2d offset = p - end;
         const double reach = std::abs(offset.dot(along)) / gap;
-        return reach < 4.0 &&
-               std::abs(along.x() * offset.y() - along.y() * offset.x()) < 0.03 * (1.0 + reach);
+        return reach > kLeastReach && reach < kMostReach &&
+               std::abs(along.x() * offset.y() - along.y() * offset.x()) < kInLine * (1.0 + reach);
       };
-      if (gap > kWidestGuess || !(inLine(i - 1) || inLine(i + 2))) continue;
+      if (gap > kWidestGuess || !(isInLine(i - 1, from) || isInLine(i + 2, to))) continue;
     }
     const Evidence presumption = gap > kWidestPresumed ? kWallGuessed : kWallPresumed;
     walkBeam(from / resolution_, (to - from) / gap, gap / resolution_, [&](Cell c, double) {

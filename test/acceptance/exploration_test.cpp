@@ -5,6 +5,7 @@
 
 #include "cca_mrpt/io/parameters.hpp"
 #include "cca_mrpt/simulation/coverage.hpp"
+#include "cca_mrpt/simulation/floor_plan.hpp"
 #include "cca_mrpt/simulation/simulation.hpp"
 
 namespace cca {
@@ -65,6 +66,30 @@ double longestStandstill(const std::vector<TimedPose>& trajectory) {
     longest = std::max(longest, pose.time - since);
   }
   return longest;
+}
+
+/// Two rooms, and a passage of 1.5 m length between them.
+World roomsWithAPassage(double passage) {
+  FloorPlan plan;
+  plan.name = "passage";
+  plan.width = 8.0;
+  plan.height = 5.0;
+  plan.addOuterWalls(0.1);
+  plan.addBox({3.4, 0.0}, {4.9, 2.25});
+  plan.addBox({3.4, 2.25 + passage}, {4.9, 5.0});
+  return rasterise(plan, 0.05);
+}
+
+// Five centimetres of room on each side, and one of noise. A straight way through takes ten
+// seconds; a minute is for hesitating.
+TEST(NarrowPassages, AreDrivenThroughWithoutHesitation) {
+  for (int seed = 1; seed <= 6; ++seed) {
+    const Result result =
+        explore(roomsWithAPassage(0.6), {1.0 + 0.25 * seed, 4.0, 0.0}, seed, 60.0);
+    EXPECT_TRUE(result.finished) << seed;
+    EXPECT_GE(result.coverage, 0.99) << seed;
+    EXPECT_EQ(result.collisions, 0) << seed;
+  }
 }
 
 struct Case {

@@ -3,7 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <limits>
+#include <random>
 
 namespace cca {
 namespace {
@@ -43,6 +45,31 @@ TEST(ExplorationGrid, ForgetsWhatHasMovedAway) {
   for (int i = 0; i < 8; ++i) grid.insert(oneBeam(1.975));
   EXPECT_EQ(grid.at({20, 0}), CellState::kFree);
   EXPECT_EQ(grid.at({40, 0}), CellState::kOccupied);
+}
+
+// A robot that stands beside a passage has several beams in each cell of its walls, and one of them
+// would be enough to count for the cell in front.
+TEST(ExplorationGrid, NoiseOfACentimetreThickensNoWall) {
+  std::mt19937 random(1);
+  std::normal_distribution<double> noise(0.0, 0.01);
+  ExplorationGrid grid(0.05);
+  int occupied = 0, looked_at = 0;
+  for (int scans = 0; scans < 200; ++scans) {
+    Scan scan;
+    scan.angle_min = -0.7;
+    scan.angle_increment = M_PI / 180.0;
+    scan.T_map_sensor = {0.5, 0.025, 0.0};
+    for (int k = 0; k <= 80; ++k)  // a wall with its face at x = 1, that of cell 20
+      scan.ranges.push_back(0.5 / std::cos(scan.bearing(static_cast<std::size_t>(k))) +
+                            noise(random));
+    grid.insert(scan);
+    for (int y = -6; y <= 6; ++y) {
+      ++looked_at;
+      occupied += grid.at({19, y}) == CellState::kOccupied;
+      EXPECT_EQ(grid.at({20, y}), CellState::kOccupied) << y;
+    }
+  }
+  EXPECT_LT(occupied, 0.01 * looked_at);
 }
 
 TEST(ExplorationGrid, LeavesInvalidRangesAndPosesAlone) {
