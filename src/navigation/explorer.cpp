@@ -18,6 +18,8 @@ constexpr double kSlowest = 0.2, kGrace = 30.0;  // s
 
 constexpr double kAround = 0.8;      // m, of the robot: what may stand beside it
 constexpr double kLookAround = 0.5;  // of the full turning rate
+// Cells, that a surface may lie before the cell that its returns count for.
+constexpr double kBeforeItsCell = 0.5;
 
 // Of the safety margin, kept by paths: narrow passages are worth a try, and Tangent Bug, which has
 // the last word, keeps more of it where there is room.
@@ -39,7 +41,7 @@ bool seesAllAround(const Scan& scan) {
   return static_cast<double>(scan.size()) * spacing > 2.0 * M_PI - 1.5 * spacing;
 }
 
-/// Of each occupied cell around a place, the point nearest to it; m, map frame.
+/// Of what may be in each occupied cell around a place, the point nearest to it; m, map frame.
 std::vector<Eigen::Vector2d> obstaclesAround(const ExplorationGrid& grid,
                                              const Eigen::Vector2d& p_map) {
   std::vector<Eigen::Vector2d> obstacles;
@@ -50,8 +52,9 @@ std::vector<Eigen::Vector2d> obstaclesAround(const ExplorationGrid& grid,
   for (int y = here.y - reach; y <= here.y + reach; ++y) {
     for (int x = here.x - reach; x <= here.x + reach; ++x) {
       if (grid.at({x, y}) != CellState::kOccupied) continue;
-      obstacles.emplace_back(std::clamp(p_map.x(), x * side, (x + 1) * side),
-                             std::clamp(p_map.y(), y * side, (y + 1) * side));
+      const Eigen::Vector2d centre = grid.centreOf({x, y});
+      const Eigen::Vector2d half = Eigen::Vector2d::Constant((0.5 + kBeforeItsCell) * side);
+      obstacles.push_back(p_map.cwiseMax(centre - half).cwiseMin(centre + half));
     }
   }
   return obstacles;
