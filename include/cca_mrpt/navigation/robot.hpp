@@ -12,7 +12,7 @@ struct Velocity {
 /// What the planner must know of a round differential-drive robot.
 struct RobotParameters {
   double radius = 0.25;
-  double safety_margin = 0.03;
+  double safety_margin = 0.04;
   double max_linear_velocity = 0.7;
   double max_angular_velocity = 1.5;
   double max_linear_acceleration = 1.0;
