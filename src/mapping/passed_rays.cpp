@@ -29,10 +29,7 @@ Rays raysOf(const Scan& scan, const Beams& beams, const MapNoise& noise) {
   Rays rays{scan.T_map_sensor.position(), std::max(kClear, kGates * noise.lateralSigma()), {}};
   rays.reach.reserve(scan.size());
   for (std::size_t beam = 0; beam < scan.size(); ++beam) {
-    const double range = scan.ranges[beam];
-    const double reach = isReturn(range)     ? range
-                         : isNoReturn(range) ? scan.free_range_without_return
-                                             : 0.0;
+    const double reach = scan.freeRange(beam);
     const bool tells = reach > 2.0 * rays.clear && beams[beam].allFinite();
     rays.reach.push_back(tells ? std::min(reach, kLongestRay) : 0.0);
   }

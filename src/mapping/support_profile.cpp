@@ -207,15 +207,6 @@ BinTally SupportProfile::tally(const BinRange& range) const {
   return tally;
 }
 
-BinSums SupportProfile::sums(int from, int to) const {
-  BinSums sum;
-  for (int i = from; i < to; ++i) {
-    const SupportBin& b = bin(i);
-    if (b.hits > 0.0) sum.addMeanPoint(b);
-  }
-  return sum;
-}
-
 SupportProfile::Cut SupportProfile::bestCut() const {
   BinSums left, right = sums();
   const double whole = right.residual();

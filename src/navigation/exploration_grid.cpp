@@ -13,10 +13,6 @@ namespace {
 
 constexpr int kReturn = 2, kPass = -1;    // weight of a return, of a beam that passes
 constexpr int kSurest = 8, kFreest = -4;  // bounds of the evidence: 8 scans forget an obstacle
-// Cells. A return lies in the cell half a cell behind the surface: that cell's edge is the one
-// nearest to the surface, and noise must be half a cell to thicken a wall, and with it close a
-// passage.
-constexpr double kBehindSurface = 0.5;
 // Cells. What lies before a return is known to be free only up to this distance: noise and rounding
 // must not open the wall.
 constexpr double kBeforeSurface = 0.3;
@@ -119,13 +115,7 @@ void ExplorationGrid::presumeWalls(const Scan& scan) {
 // What lies between two neighbouring beams is most likely as free as they are.
 void ExplorationGrid::presumeFree(const Scan& scan) {
   const Eigen::Vector2d origin = scan.T_map_sensor.position() / resolution_;
-  const auto freeRange = [&](std::size_t i) {
-    const double range = scan.ranges[i];
-    return (isReturn(range)     ? range
-            : isNoReturn(range) ? scan.free_range_without_return
-                                : 0.0) /
-           resolution_;
-  };
+  const auto freeRange = [&](std::size_t i) { return scan.freeRange(i) / resolution_; };
   const double apart = std::abs(scan.angle_increment);
   // By k / (between + 1) of the way from one beam to the next: few turns serve all beams.
   std::array<std::array<Eigen::Matrix2d, kMostBetween + 1>, kMostBetween + 1> turns;

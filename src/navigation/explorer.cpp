@@ -18,12 +18,6 @@ constexpr double kSlowest = 0.2, kGrace = 30.0;  // s
 
 constexpr double kAround = 0.8;      // m, of the robot: what may stand beside it
 constexpr double kLookAround = 0.5;  // of the full turning rate
-// Cells, that a surface may lie before the cell that its returns count for.
-constexpr double kBeforeItsCell = 0.5;
-
-// Of the safety margin, kept by paths: narrow passages are worth a try, and Tangent Bug, which has
-// the last word, keeps more of it where there is room.
-constexpr double kLeastMargin = 0.4;
 
 GlobalPlannerParameters plannerParameters(const RobotParameters& robot,
                                           const ExplorerParameters& parameters) {
@@ -32,7 +26,7 @@ GlobalPlannerParameters plannerParameters(const RobotParameters& robot,
   GlobalPlannerParameters planner;
   planner.strategy = parameters.strategy;
   planner.smallest_gain = parameters.smallest_gain;
-  planner.clearance = robot.radius + kLeastMargin * robot.safety_margin;
+  planner.clearance = robot.leastClearance();
   return planner;
 }
 
@@ -53,7 +47,8 @@ std::vector<Eigen::Vector2d> obstaclesAround(const ExplorationGrid& grid,
     for (int x = here.x - reach; x <= here.x + reach; ++x) {
       if (grid.at({x, y}) != CellState::kOccupied) continue;
       const Eigen::Vector2d centre = grid.centreOf({x, y});
-      const Eigen::Vector2d half = Eigen::Vector2d::Constant((0.5 + kBeforeItsCell) * side);
+      const Eigen::Vector2d half =
+          Eigen::Vector2d::Constant((0.5 + ExplorationGrid::kBehindSurface) * side);
       obstacles.push_back(p_map.cwiseMax(centre - half).cwiseMin(centre + half));
     }
   }

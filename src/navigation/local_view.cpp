@@ -105,9 +105,7 @@ LocalView makeLocalView(const Scan& scan, const std::vector<bool>& moving, const
                          scan.T_map_sensor.position() +
                              range * Eigen::Vector2d(std::cos(bearing), std::sin(bearing))});
     }
-    view.seen[i] = isReturn(range)     ? range
-                   : isNoReturn(range) ? scan.free_range_without_return
-                                       : 0.0;
+    view.seen[i] = scan.freeRange(i);
     view.horizon = std::max(view.horizon, view.seen[i]);
   }
   const std::size_t n = returns.size();

@@ -32,10 +32,7 @@ double seenAround(const Scan& scan, const Eigen::Vector2d& p_sensor) {
   if (beam < kBeamsAround || beam >= n - kBeamsAround) return 0.0;
   double least = INFINITY;
   for (int i = beam - kBeamsAround; i <= beam + kBeamsAround; ++i) {
-    const double range = scan.ranges[static_cast<std::size_t>(i)];
-    least = std::min(least, isReturn(range)     ? range
-                            : isNoReturn(range) ? scan.free_range_without_return
-                                                : 0.0);
+    least = std::min(least, scan.freeRange(static_cast<std::size_t>(i)));
   }
   return least;
 }

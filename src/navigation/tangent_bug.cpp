@@ -14,12 +14,12 @@
 namespace cca {
 namespace {
 
-constexpr double kGoalTolerance = 0.1;    // m
-constexpr double kLeave = 0.1;            // m, by which d_reach must be below d_followed
-constexpr double kUnsure = 0.03;          // of the distance: beams are sparse far away
-constexpr double kInVain = 0.4;           // m
-constexpr double kSlack = 0.6;            // of the margin, given up on the way
-constexpr double kSafe = 0.4;             // of the margin, never given up
+constexpr double kGoalTolerance = 0.1;  // m
+constexpr double kLeave = 0.1;          // m, by which d_reach must be below d_followed
+constexpr double kUnsure = 0.03;        // of the distance: beams are sparse far away
+constexpr double kInVain = 0.4;         // m
+// Of the margin, given up on the way.
+constexpr double kSlack = 1.0 - RobotParameters::kLeastMargin;
 constexpr double kTraceSlack = 0.3;       // of the margin, given up along a boundary
 constexpr double kOnTheBoundary = 0.001;  // m
 constexpr double kSameArea = 1.0;         // m
@@ -268,8 +268,7 @@ Velocity TangentBug::drive(const Velocity& velocity, double time) const {
   for (const auto* points : {&view_.movers, &moving_points_.unsettled()}) {
     for (const Eigen::Vector2d& p_map : *points) hazards.push_back({inRobot(p_map), kWalkingSpeed});
   }
-  return safeVelocity(wanted, velocity, hazards, robot_,
-                      robot_.radius + kSafe * robot_.safety_margin + noise_allowance_,
+  return safeVelocity(wanted, velocity, hazards, robot_, robot_.leastClearance() + noise_allowance_,
                       kControlPeriod);
 }
 

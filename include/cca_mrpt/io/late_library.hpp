@@ -9,9 +9,8 @@ namespace cca {
 /// every command of the program, also those that need neither, more than it takes to map a hundred
 /// scans.
 ///
-/// @param library   file name, as "libcca_icp.so"; beside this library, else where the program
-/// finds
-///                  its own.
+/// @param library   file name, as "libcca_icp.so"; looked for beside this library, then where the
+///                  program finds its own.
 /// @param function  its name, of C linkage.
 /// @throws std::runtime_error naming the library and the reason.
 void* lateFunction(const char* library, const char* function);

@@ -26,10 +26,18 @@ struct Scan {
   double bearing(std::size_t beam) const {
     return angle_min + static_cast<double>(beam) * angle_increment;
   }
+  /// m, up to which the beam saw free space: its return, or how far it would have seen one; 0 where
+  /// the range is invalid.
+  double freeRange(std::size_t beam) const;
 };
 
 inline bool isReturn(double range) { return std::isfinite(range) && range > 0.0; }
 inline bool isNoReturn(double range) { return std::isinf(range) && range > 0.0; }
+
+inline double Scan::freeRange(std::size_t beam) const {
+  const double range = ranges[beam];
+  return isReturn(range) ? range : isNoReturn(range) ? free_range_without_return : 0.0;
+}
 
 /// The unit vectors of a scan's beams, beam after beam: each is the last one turned by the spacing,
 /// and taken from sine and cosine anew now and then.

@@ -55,12 +55,7 @@ struct BinSums {
     dd += other.dd;
   }
   void remove(const BinSums& other) {
-    w -= other.w;
-    t -= other.t;
-    d -= other.d;
-    tt -= other.tt;
-    td -= other.td;
-    dd -= other.dd;
+    add({-other.w, -other.t, -other.d, -other.tt, -other.td, -other.dd});
   }
   void addPoint(double weight, double t_mean, double d_mean);
   /// The mean point of a bin that holds hits, with a weight below 1, so that one place does not

@@ -55,7 +55,6 @@ class SupportProfile {
   const BinTally& tally() const;
   BinTally tally(const BinRange& range) const;
   const BinSums& sums() const { return tally().fitted; }
-  BinSums sums(int from, int to) const;
   LateralFit fit() const { return sums().fit(); }
   /// The cut that lowers the residual sum of squares most.
   struct Cut {

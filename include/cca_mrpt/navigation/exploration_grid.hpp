@@ -25,6 +25,11 @@ enum class CellState : std::uint8_t {
 /// evidence is bounded, so what has moved away is forgotten after a few scans.
 class ExplorationGrid {
  public:
+  /// Cells. A return counts for the cell half a cell behind the surface: that cell's edge is the
+  /// one nearest to the surface, and noise must be half a cell to thicken a wall, and with it close
+  /// a passage. So a surface may lie this far before an occupied cell.
+  static constexpr double kBehindSurface = 0.5;
+
   /// @param resolution  m, side of a cell.
   explicit ExplorationGrid(double resolution = 0.05) : resolution_(resolution) {}
 

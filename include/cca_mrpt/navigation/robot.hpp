@@ -17,6 +17,12 @@ struct RobotParameters {
   double max_angular_velocity = 1.5;
   double max_linear_acceleration = 1.0;
   double max_angular_acceleration = 4.0;
+
+  /// Of the safety margin, never given up: narrow passages are worth a try. Paths ask for as much
+  /// as Tangent Bug does; where they differ, passages in between are tried in vain, for minutes.
+  static constexpr double kLeastMargin = 0.4;
+  /// m, from the robot's centre to what it must not come nearer to.
+  double leastClearance() const { return radius + kLeastMargin * safety_margin; }
 };
 
 /// See describe(CcaParameters&, ...).
