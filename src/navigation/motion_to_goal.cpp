@@ -10,7 +10,15 @@ namespace {
 // once; from then on it must promise more than any way ever did.
 constexpr double kOtherWay = 1.0;
 constexpr double kFalling = 0.3;   // m, by which the heuristic may rise: corners come into sight
-constexpr double kAtReach = 0.15;  // m
+constexpr double kAtReach = 0.03;  // m, below what leaving a boundary must gain
+
+// The way may end just before the place: it lies on the edge of what is free.
+bool leadsTo(const ConfigurationSpace& space, const Eigen::Vector2d& x_map,
+             const Eigen::Vector2d& place_map) {
+  const double length = (place_map - x_map).norm();
+  return length <= kAtReach ||
+         space.freeDistance(x_map, (place_map - x_map) / length, length) >= length - kAtReach;
+}
 
 }  // namespace
 
@@ -20,6 +28,12 @@ void MotionToGoal::startFromBoundary(const Eigen::Vector2d& reach_map, double fa
   on_the_right_ = on_the_right;
   reach_map_ = reach_map;
   farthest_ = farthest;
+}
+
+void MotionToGoal::correctPlace(const Eigen::Vector2d& x_map, const Eigen::Vector2d& goal_map,
+                                const ConfigurationSpace& space, const Eigen::Vector2d& reach_map) {
+  const bool better = (goal_map - reach_map).norm() < farthest_;
+  if (reach_map_ && better && !leadsTo(space, x_map, *reach_map_)) reach_map_ = reach_map;
 }
 
 std::optional<Eigen::Vector2d> MotionToGoal::step(const Eigen::Vector2d& x_map,
@@ -37,7 +51,7 @@ std::optional<Eigen::Vector2d> MotionToGoal::step(const Eigen::Vector2d& x_map,
   }
   if (reach_map_) {
     const bool there = (*reach_map_ - x_map).norm() < kAtReach;
-    if (!there && d_goal > farthest_ && space.isFree(x_map, *reach_map_)) {
+    if (!there && d_goal > farthest_ && leadsTo(space, x_map, *reach_map_)) {
       last_direction_ = *reach_map_ - x_map;
       return reach_map_;
     }

@@ -15,9 +15,11 @@ namespace cca {
 namespace {
 
 constexpr double kGoalTolerance = 0.1;  // m
+constexpr double kAtTheGoal = 0.07;     // m, worth leaving any boundary
 constexpr double kLeave = 0.1;          // m, by which d_reach must be below d_followed
 constexpr double kUnsure = 0.03;        // of the distance: beams are sparse far away
-constexpr double kInVain = 0.4;         // m
+constexpr double kInVain = 0.4;         // m, around a place that was promised in vain
+constexpr double kLookAgain = 0.5;      // of the distance from which that was found out
 // Of the margin, given up on the way.
 constexpr double kSlack = 1.0 - RobotParameters::kLeastMargin;
 constexpr double kTraceSlack = 0.3;       // of the margin, given up along a boundary
@@ -45,7 +47,7 @@ void TangentBug::setGoal(const Eigen::Vector2d& goal_map) {
   state_ = TangentBugState::kMotionToGoal;
   target_.reset();
   motion_to_goal_.start();
-  in_vain_map_.clear();
+  in_vain_.clear();
   shut_map_.clear();
   stuck_at_map_.reset();
   started_at_map_.reset();
@@ -149,7 +151,8 @@ void TangentBug::observe(const Scan& raw_scan, const Pose2& T_map_robot, double 
   findReach();
 }
 
-// d_reach: the least distance to the goal of all places that the robot could drive straight to.
+// d_reach: the least distance to the goal of all places in sight that the robot could drive
+// straight to.
 void TangentBug::findReach() {
   const Eigen::Vector2d x = view_.T_map_robot.position();
   reach_map_ = x;
@@ -158,7 +161,7 @@ void TangentBug::findReach() {
     const double ahead = std::clamp((goal_map_ - x).dot(direction), 0.0, free);
     const Eigen::Vector2d p = x + ahead * direction;
     const double distance = (goal_map_ - p).norm();
-    if (distance >= d_reach_ || isInVain(p)) return;
+    if (distance >= d_reach_ || !view_.inFieldOfView(p) || isInVain(p)) return;
     d_reach_ = distance;
     reach_map_ = p;
   };
@@ -177,15 +180,22 @@ void TangentBug::findReach() {
   consider(towards_goal, way_space_.freeDistance(x, towards_goal, std::min(d_goal, view_.horizon)));
 }
 
+// From half as far away the beams are twice as dense: then what they show counts again. The goal
+// itself may lie beside a place that a door post hid from afar.
 bool TangentBug::isInVain(const Eigen::Vector2d& p_map) const {
-  return std::any_of(in_vain_map_.begin(), in_vain_map_.end(),
-                     [&](const Eigen::Vector2d& p) { return (p - p_map).norm() < kInVain; });
+  const double distance = (p_map - view_.T_map_robot.position()).norm();
+  return std::any_of(in_vain_.begin(), in_vain_.end(), [&](const InVain& place) {
+    return (place.p_map - p_map).norm() < kInVain && distance > kLookAgain * place.distance;
+  });
 }
 
 std::optional<Eigen::Vector2d> TangentBug::moveToGoal() {
-  const auto target = motion_to_goal_.step(view_.T_map_robot.position(), goal_map_, way_space_,
-                                           nodes_, view_.horizon);
-  if (const auto in_vain = motion_to_goal_.reachedInVain()) in_vain_map_.push_back(*in_vain);
+  const Eigen::Vector2d x = view_.T_map_robot.position();
+  motion_to_goal_.correctPlace(x, goal_map_, way_space_, reach_map_);
+  const auto target = motion_to_goal_.step(x, goal_map_, way_space_, nodes_, view_.horizon);
+  if (const auto place = motion_to_goal_.reachedInVain()) {
+    in_vain_.push_back({*place, (*place - x).norm()});
+  }
   return target ? target : startFollowing();
 }
 
@@ -207,6 +217,7 @@ std::optional<Eigen::Vector2d> TangentBug::startFollowing() {
   if (follower_.trace().empty()) {  // out of sight: the boundary beside the robot then
     follower_.start(x, on_the_right, goal_map_, view_, trace_space_);
   }
+  progress_.startWalk(time_);
   state_ = TangentBugState::kBoundaryFollowing;
   return followBoundary();
 }
@@ -214,11 +225,10 @@ std::optional<Eigen::Vector2d> TangentBug::startFollowing() {
 std::optional<Eigen::Vector2d> TangentBug::followBoundary() {
   const auto target = follower_.step(goal_map_, view_, trace_space_, way_space_, d_reach_);
   const double unsure = kUnsure * (reach_map_ - view_.T_map_robot.position()).norm();
-  if (d_reach_ < follower_.followedDistance() - kLeave - unsure ||
-      d_reach_ < 0.9 * kGoalTolerance) {
+  if (d_reach_ < follower_.followedDistance() - kLeave - unsure || d_reach_ < kAtTheGoal) {
     state_ = TangentBugState::kMotionToGoal;
-    motion_to_goal_.startFromBoundary(reach_map_, follower_.followedDistance() - 0.5 * kLeave,
-                                      follower_.onTheRight());
+    const double farthest = std::max(follower_.followedDistance() - 0.5 * kLeave, kGoalTolerance);
+    motion_to_goal_.startFromBoundary(reach_map_, farthest, follower_.onTheRight());
     return reach_map_;
   }
   if (follower_.circled() || starts_ > kMostStarts) {

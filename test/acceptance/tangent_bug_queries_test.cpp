@@ -58,6 +58,17 @@ TEST(TangentBugQueries, TheVerdictIsThatOfABreadthFirstSearch) {
               undecided, distance);
 }
 
+// From afar the robot was promised a place 11 cm beside the goal, which a door post hid. It must
+// believe its eyes again when it comes through that door and stands before the goal.
+TEST(TangentBugQueries, AGoalBesideAPlaceThatWasPromisedInVainIsReached) {
+  const Query query = randomQuery(597);
+  RunOptions options;
+  options.range = 4.0;
+  const TangentRun end = run(query.world, query.start, query.goal, options);
+  EXPECT_EQ(end.state, TangentBugState::kReached);
+  EXPECT_LT(end.distance, 60.0);
+}
+
 // With noise of 1 to 5 cm: no collision, and every drive ends.
 TEST(TangentBugQueries, NoNoiseLeadsIntoAWall) {
   unsigned right = 0, decided = 0, ended = 0;

@@ -62,6 +62,32 @@ TEST(MotionToGoal, SaysWhereAPlaceWasNotAsNearAsItHadLooked) {
   EXPECT_EQ(*motion.reachedInVain(), kRobot);
 }
 
+// Seen from nearer, the end of the wall is at 1.05 m instead of 1.00.
+TEST(MotionToGoal, TakesAnotherPlaceThatKeepsThePromiseWhereACornerHidesTheFirst) {
+  MotionToGoal motion;
+  const Eigen::Vector2d hidden(3.0, 1.7), beside(3.0, 2.2), farther(0.0, 2.0);
+  ConfigurationSpace space = wallAhead();
+  space.obstacles.push_back({2.0, 1.05});
+  motion.startFromBoundary(hidden, 2.5, true);
+  motion.correctPlace(kRobot, kGoal, space, farther);
+  EXPECT_FALSE(motion.step(kRobot, kGoal, space, {}, 8.0));
+  EXPECT_EQ(*motion.reachedInVain(), hidden);
+  motion.startFromBoundary(hidden, 2.5, true);
+  motion.correctPlace(kRobot, kGoal, space, beside);
+  EXPECT_EQ(*motion.step(kRobot, kGoal, space, {}, 8.0), beside);
+  EXPECT_FALSE(motion.reachedInVain());
+}
+
+TEST(MotionToGoal, KeepsAPlaceOnTheEdgeOfWhatIsFree) {
+  const ConfigurationSpace space = wallAhead();
+  for (const double deeper : {0.0, 0.01, -0.01}) {
+    MotionToGoal motion;
+    const Eigen::Vector2d edge(2.0 - space.radius + deeper, 0.0);
+    motion.startFromBoundary(edge, 3.0, true);
+    EXPECT_TRUE(motion.step(kRobot, kGoal, space, {}, 8.0)) << deeper;
+  }
+}
+
 TEST(MotionToGoal, KeepsToItsSideUntilTheOtherPromisesClearlyMore) {
   const TangentNode right{{2.0, 1.4}, {2.0, 1.1}, true};
   const TangentNode left{{2.0, -1.3}, {2.0, -1.0}, false}, better{{1.0, -0.2}, {1.0, 0.1}, false};

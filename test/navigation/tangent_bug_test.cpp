@@ -224,6 +224,16 @@ TEST(TangentBug, FindsItsWayWithALaserOf180Degrees) {
   const TangentRun end = run(trap.world, trap.start, trap.goal, options);
   EXPECT_EQ(end.state, TangentBugState::kReached);
   EXPECT_GE(end.clearance, 0.25);
+  EXPECT_LT(end.duration, 30.0);  // the way out of the pocket and around it is 20 s
+}
+
+TEST(TangentBug, IsPromisedNoPlaceBehindItsBack) {
+  TangentBug bug{RobotParameters{}};
+  bug.setGoal({-5, 0});
+  bug.step(BoxWorld{}.scan({}, 8.0, 181, M_PI), {}, {}, 0.0);
+  EXPECT_EQ(bug.reachDistance(), 5.0);
+  bug.step(BoxWorld{}.scan({0, 0, M_PI}, 8.0, 181, M_PI), {0, 0, M_PI}, {}, 0.1);
+  EXPECT_EQ(bug.reachDistance(), 0.0);
 }
 
 }  // namespace

@@ -96,7 +96,12 @@ class TangentBug {
   MotionToGoal motion_to_goal_;
   BoundaryFollower follower_;
   double d_reach_ = 0.0;
-  std::vector<Eigen::Vector2d> in_vain_map_;  ///< places that d_reach promised, and were not there
+  /// A place that d_reach promised, and that was not there, found out from `distance` (m) away.
+  struct InVain {
+    Eigen::Vector2d p_map;
+    double distance;
+  };
+  std::vector<InVain> in_vain_;
   Eigen::Vector2d reach_map_ = Eigen::Vector2d::Zero();  ///< the place in sight nearest to the goal
 };
 
