@@ -18,10 +18,17 @@ struct Query {
 
 enum class Verdict { kReachable, kUnreachable, kUndecided };
 
+/// Where the truth is taken for decided. A way that is free for a disc of radius `wide` (m) to
+/// within `near` (m) of the goal must be found; one that is not free for a disc of radius `narrow`
+/// cannot be.
+struct Band {
+  double narrow, wide, near;
+};
+
 /// The truth: a breadth-first search over the true configuration space.
 class TrueConfigurationSpace {
  public:
-  static constexpr double kCell = 0.04;
+  static constexpr double kCell = 0.02;  // m
 
   explicit TrueConfigurationSpace(const Query& query)
       : query_(query),
@@ -54,11 +61,12 @@ class TrueConfigurationSpace {
     return false;
   }
 
-  /// Gaps and goals between the two radii are undecided: the planner gives up part of its margin
-  /// where it must, and cells have a size.
-  Verdict verdict(double narrow, double wide, double goal_tolerance) const {
-    if (reaches(wide, kCell)) return Verdict::kReachable;
-    return reaches(narrow, goal_tolerance + kCell) ? Verdict::kUndecided : Verdict::kUnreachable;
+  /// Between the two radii either verdict is right: cells and beams have a size.
+  /// @param goal_tolerance  m, how near to the goal counts as there.
+  Verdict verdict(const Band& band, double goal_tolerance) const {
+    if (reaches(band.wide, band.near)) return Verdict::kReachable;
+    return reaches(band.narrow, goal_tolerance + kCell) ? Verdict::kUndecided
+                                                        : Verdict::kUnreachable;
   }
 
  private:
