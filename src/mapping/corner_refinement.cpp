@@ -10,6 +10,9 @@ namespace {
 constexpr int kReach = 5;
 /// Longest line sought among loose points, and longest run that is shared out.
 constexpr int kLongestLoose = 8;
+/// nats, what it may cost that two lines meet at their boundary: half the 99 % quantile of
+/// chi-square with the one degree of freedom that this takes.
+constexpr double kMeetingPrice = 3.32;
 /// nats, below any real gain: keeps rounding from moving a boundary to and fro.
 constexpr double kNoGain = 1e-6;
 
@@ -157,6 +160,17 @@ bool tellLoosePoints(const ScanPoints& points, const RunFitter& fitter, Runs* ru
   return found;
 }
 
+/// Whether the lines of a and b intersect between the last beam of a and the first of b.
+bool meetAtBoundary(const ScanPoints& points, const FittedRun& a, const FittedRun& b) {
+  const auto cross = [](const Eigen::Vector2d& p, const Eigen::Vector2d& q) {
+    return p.x() * q.y() - p.y() * q.x();
+  };
+  const Eigen::Vector2d &before = points.positions[a.last - 1], &after = points.positions[b.first];
+  const auto corner = intersection(a.line, b.line);
+  return corner && corner->dot(before) > 0.0 && cross(before, *corner) >= 0.0 &&
+         cross(*corner, after) >= 0.0;
+}
+
 }  // namespace
 
 bool refineCorners(const ScanPoints& points, const RunFitter& fitter, Runs* runs) {
@@ -166,6 +180,26 @@ bool refineCorners(const ScanPoints& points, const RunFitter& fitter, Runs* runs
   if (tellLoosePoints(points, fitter, runs)) changed = true;
   if (shareOut(points, fitter, runs)) changed = true;
   return changed;
+}
+
+void meetAtCorners(const ScanPoints& points, const RunFitter& fitter, Runs* runs) {
+  for (std::size_t k = 0; k + 1 < runs->size(); ++k) {
+    FittedRun &a = (*runs)[k], &b = (*runs)[k + 1];
+    if (!a.is_line || !b.is_line || !areNeighbours(points, a, b)) continue;
+    if (meetAtBoundary(points, a, b)) continue;
+    const int first = a.first, last = b.last, from = std::max(first, a.last - kReach);
+    const int to = std::min(last, a.last + kReach);
+    double least = a.price + b.price + kMeetingPrice;
+    for (int middle = from; middle <= to; ++middle) {
+      if (fitter.leastPriceOfTwo(first, middle, last) >= least) continue;
+      const FittedRun left = fitter.fit(first, middle), right = fitter.fit(middle, last);
+      if (!left.is_line || !right.is_line || left.price + right.price >= least) continue;
+      if (!meetAtBoundary(points, left, right)) continue;
+      least = left.price + right.price;
+      a = left;
+      b = right;
+    }
+  }
 }
 
 }  // namespace cca

@@ -68,6 +68,7 @@ std::vector<LineSegment> extractLines(const Scan& scan, const CcaParameters& par
     reopenAtCorner(noise, &points, &fitter, &runs);
     changed = true;
   }
+  meetAtCorners(points, fitter, &runs);
   return polyLines(points, fitter, runs, groupInterrupted(points, fitter, cut, runs));
 }
 

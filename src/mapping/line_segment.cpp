@@ -43,6 +43,17 @@ FittedLine fitLine(const PointMoments& moments) {
   return line;
 }
 
+std::optional<Eigen::Vector2d> intersection(const FittedLine& a, const FittedLine& b) {
+  constexpr double kLeastSine = 0.05;
+  const auto cross = [](const Eigen::Vector2d& p, const Eigen::Vector2d& q) {
+    return p.x() * q.y() - p.y() * q.x();
+  };
+  const double sine = cross(a.direction, b.direction);
+  if (std::abs(sine) < kLeastSine) return std::nullopt;
+  const Eigen::Vector2d between = b.centroid - a.centroid;
+  return a.centroid + a.direction * (cross(between, b.direction) / sine);
+}
+
 PrefixMoments::PrefixMoments(const std::vector<Eigen::Vector2d>& points) {
   for (const Eigen::Vector2d& p : points) origin_ += p;
   if (!points.empty()) origin_ /= static_cast<double>(points.size());

@@ -2,11 +2,12 @@
 #include "cca_mrpt/mapping/poly_lines.hpp"
 
 #include <cmath>
+#include <optional>
 
 namespace cca {
 namespace {
 
-/// sin 3 deg: directions nearer than this do not fix where two lines, or line and beam, meet.
+/// sin 3 deg: directions nearer than this do not fix where line and beam meet.
 constexpr double kAlongTheLine = 0.05;
 /// 99.9 % of normal residuals lie within this many deviations.
 constexpr double kResidualGate = 3.29;
@@ -49,24 +50,20 @@ struct LineEnd {
 
 /// The corner of two lines, if the rays say that it is there: it lies between the last beam of a
 /// and the first of b, or beyond a few beams that fit the other line as well.
-bool cornerBetween(const ScanPoints& points, const LineEnd& a, const LineEnd& b,
-                   Eigen::Vector2d* corner) {
-  const FittedLine &line_a = a.fit.line, &line_b = b.fit.line;
-  const double sine = cross(line_a.direction, line_b.direction);
-  if (std::abs(sine) < kAlongTheLine) return false;
-  const Eigen::Vector2d between = line_b.centroid - line_a.centroid;
-  *corner = line_a.centroid + line_a.direction * (cross(between, line_b.direction) / sine);
+std::optional<Eigen::Vector2d> cornerBetween(const ScanPoints& points, const LineEnd& a,
+                                             const LineEnd& b) {
+  const auto corner = intersection(a.fit.line, b.fit.line);
   int p = a.run.last - 1, q = b.run.first;
-  if (corner->dot(points.positions[p]) <= 0.0) return false;
+  if (!corner || corner->dot(points.positions[p]) <= 0.0) return std::nullopt;
   for (; cross(points.positions[p], *corner) < 0.0; --p) {
-    if (p == a.run.first || p + kMostTaken < a.run.last) return false;
-    if (!liesOn(b.fit, points.positions[p])) return false;
+    if (p == a.run.first || p + kMostTaken < a.run.last) return std::nullopt;
+    if (!liesOn(b.fit, points.positions[p])) return std::nullopt;
   }
   for (; cross(*corner, points.positions[q]) < 0.0; ++q) {
-    if (q + 1 == b.run.last || q >= b.run.first + kMostTaken) return false;
-    if (!liesOn(a.fit, points.positions[q])) return false;
+    if (q + 1 == b.run.last || q >= b.run.first + kMostTaken) return std::nullopt;
+    if (!liesOn(a.fit, points.positions[q])) return std::nullopt;
   }
-  return true;
+  return corner;
 }
 
 }  // namespace
@@ -96,10 +93,8 @@ std::vector<LineSegment> polyLines(const ScanPoints& points, const RunFitter& fi
       continue;
     }
     if (next != 0 ? points.silentBetween(p, q) > 0 : points.silentAtSeam() > 0) continue;
-    Eigen::Vector2d corner;
-    if (cornerBetween(points, {fits[a], runs[k]}, {fits[b], runs[next]}, &corner)) {
-      lines[a].end = lines[b].start = corner;
-    }
+    const auto corner = cornerBetween(points, {fits[a], runs[k]}, {fits[b], runs[next]});
+    if (corner) lines[a].end = lines[b].start = *corner;
   }
   return lines;
 }

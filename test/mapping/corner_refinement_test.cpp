@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "polygon_room.hpp"
 
 namespace cca {
@@ -104,6 +106,43 @@ TEST(RefineCorners, WithMergingComesCloseToTheShortestTellingThereIs) {
     excess += price(runs) - least;
   }
   EXPECT_LT(excess / 10.0, 0.1 * kLinePrice);
+}
+
+TEST(MeetAtCorners, MovesABoundaryBackToWhereTheLinesMeet) {
+  const int truth = static_cast<int>(std::ceil((M_PI / 4.0 - 0.3) / 0.01));
+  for (unsigned seed = 0; seed < 10; ++seed) {
+    const Corner corner(seed);
+    for (const int off : {-2, -1, 0, 1, 2}) {
+      Runs runs = {corner.fitter.fit(0, truth + off), corner.fitter.fit(truth + off, 100)};
+      meetAtCorners(corner.points, corner.fitter, &runs);
+      ASSERT_EQ(runs.size(), 2u);
+      EXPECT_EQ(runs[0].last, runs[1].first);
+      const auto vertex = intersection(runs[0].line, runs[1].line);
+      ASSERT_TRUE(vertex);
+      const double bearing = std::atan2(vertex->y(), vertex->x());
+      EXPECT_GE(bearing, 0.3 + 0.01 * (runs[0].last - 1)) << seed << " " << off;
+      EXPECT_LE(bearing, 0.3 + 0.01 * runs[1].first) << seed << " " << off;
+    }
+  }
+}
+
+TEST(MeetAtCorners, LeavesLinesThatDoNotMeet) {
+  // Two parallel walls with a step between them, and a wall told in two halves.
+  std::mt19937 random(5);
+  const PolygonRoom step{
+      {{-5.0, -5.0}, {2.0, -5.0}, {2.0, 0.0}, {4.0, 0.0}, {4.0, 5.0}, {-5.0, 5.0}}};
+  const ScanPoints points = scanPoints(scanOf(step, -0.5, 0.01, 100, 0.01, &random));
+  const RunFitter fitter(points.positions, PointNoise{0.01, 0.001, 0.0});
+  for (const int boundary : {25, 50}) {
+    Runs runs = {fitter.fit(0, boundary), fitter.fit(boundary, 50), fitter.fit(50, 100)};
+    if (boundary == 50) runs.erase(runs.begin() + 1);
+    const Runs before = runs;
+    meetAtCorners(points, fitter, &runs);
+    for (std::size_t k = 0; k < runs.size(); ++k) {
+      EXPECT_EQ(runs[k].first, before[k].first);
+      EXPECT_EQ(runs[k].last, before[k].last);
+    }
+  }
 }
 
 }  // namespace

@@ -81,5 +81,22 @@ TEST(FitLine, OfCoincidentPointsHasADirectionAllTheSame) {
   EXPECT_EQ(fitLine(PointMoments()).residual_sum_sq, 0.0);
 }
 
+TEST(Intersection, LiesOnBothLines) {
+  const FittedLine a{{1.0, 2.0}, {1.0, 0.0}}, b{{4.0, -3.0}, {0.6, 0.8}};
+  const auto p = intersection(a, b);
+  ASSERT_TRUE(p);
+  EXPECT_NEAR(p->y(), 2.0, 1e-12);
+  EXPECT_NEAR(p->x(), 4.0 + 5.0 * 0.75, 1e-12);
+  const auto q = intersection(b, a);
+  ASSERT_TRUE(q);
+  EXPECT_NEAR((*p - *q).norm(), 0.0, 1e-12);
+}
+
+TEST(Intersection, IsNowhereForParallelLines) {
+  const FittedLine a{{1.0, 2.0}, {1.0, 0.0}}, b{{1.0, 3.0}, {-1.0, 0.0}};
+  EXPECT_FALSE(intersection(a, b));
+  EXPECT_FALSE(intersection(a, a));
+}
+
 }  // namespace
 }  // namespace cca

@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <vector>
 
 namespace cca {
@@ -68,6 +69,10 @@ inline PrincipalAxis principalAxis(const PointMoments& moments) {
 /// Total least squares in closed form.
 /// @param moments  any; where the scatter has no preferred axis the direction is (1, 0).
 FittedLine fitLine(const PointMoments& moments);
+
+/// Where two lines meet [m]; nothing where their directions are within 3 degrees, for then noise
+/// decides where.
+std::optional<Eigen::Vector2d> intersection(const FittedLine& a, const FittedLine& b);
 
 /// Moments of any run of a sequence of points in O(1), by running sums about the common mean.
 class PrefixMoments {
