@@ -202,4 +202,15 @@ void meetAtCorners(const ScanPoints& points, const RunFitter& fitter, Runs* runs
   }
 }
 
+void tellEdgesOfTwoPoints(const ScanPoints& points, const RunFitter& fitter, Runs* runs) {
+  for (std::size_t k = 1; k + 1 < runs->size(); ++k) {
+    const FittedRun &before = (*runs)[k - 1], &after = (*runs)[k + 1];
+    FittedRun& edge = (*runs)[k];
+    if (edge.is_line || edge.size() != 2 || !before.is_line || !after.is_line) continue;
+    edge.is_line = points.breaksBetween(before.last - 1, after.first) == 0 &&
+                   fitter.hasDirection(edge) && meetAtBoundary(points, before, edge) &&
+                   meetAtBoundary(points, edge, after);
+  }
+}
+
 }  // namespace cca

@@ -145,5 +145,37 @@ TEST(MeetAtCorners, LeavesLinesThatDoNotMeet) {
   }
 }
 
+/// Beams 0 to 11 see a wall at x = 4, the last twelve one at x = far, and two the edge that joins
+/// the first to one at x = 6.
+Runs steepEdge(double far, ScanPoints* points, RunFitter* fitter) {
+  const PolygonRoom room{
+      {{4.0, -2.0}, {4.0, 0.12}, {6.0, 0.42}, {6.0, 3.0}, {-2.0, 3.0}, {-2.0, -2.0}}};
+  Scan scan = scanOf(room, -0.2, 0.02, 26, 0.0, nullptr);
+  for (std::size_t i = 14; i < 26; ++i) scan.ranges[i] = far / std::cos(scan.bearing(i));
+  *points = scanPoints(scan);
+  const PointNoise noise{0.01, 0.001, 0.0};
+  *fitter = RunFitter(points->positions, noise);
+  return {fitter->fit(0, 12), fitter->fit(12, 14), fitter->fit(14, 26)};
+}
+
+TEST(TellEdgesOfTwoPoints, FindsASteepEdgeBetweenTwoWalls) {
+  ScanPoints points;
+  RunFitter fitter({}, {});
+  Runs runs = steepEdge(6.0, &points, &fitter);
+  ASSERT_FALSE(runs[1].is_line);
+  tellEdgesOfTwoPoints(points, fitter, &runs);
+  EXPECT_TRUE(runs[1].is_line);
+}
+
+TEST(TellEdgesOfTwoPoints, LeavesTwoPointsWhoseLineMissesAWall) {
+  ScanPoints points;
+  RunFitter fitter({}, {});
+  for (const double far : {5.0, 7.5}) {
+    Runs runs = steepEdge(far, &points, &fitter);
+    tellEdgesOfTwoPoints(points, fitter, &runs);
+    EXPECT_FALSE(runs[1].is_line) << far;
+  }
+}
+
 }  // namespace
 }  // namespace cca

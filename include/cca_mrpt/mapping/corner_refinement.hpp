@@ -24,4 +24,11 @@ bool refineCorners(const ScanPoints& points, const RunFitter& fitter, Runs* runs
 /// Cost: O(1) for each two neighbours.
 void meetAtCorners(const ScanPoints& points, const RunFitter& fitter, Runs* runs);
 
+/// Makes a line of two loose points between two lines, where it meets both in the gaps beside them.
+///
+/// Two points always fit a line; here the neighbours are the third that could have spoken against
+/// it. So a steep edge that two beams enter is found, as any closed outline of many corners has.
+/// Cost: O(1) for each run.
+void tellEdgesOfTwoPoints(const ScanPoints& points, const RunFitter& fitter, Runs* runs);
+
 }  // namespace cca

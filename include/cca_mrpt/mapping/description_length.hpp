@@ -77,6 +77,11 @@ class RunFitter {
     return leastPrice(first, middle) + leastPrice(middle, last);
   }
   FittedSegment fit(const PointMoments& moments) const;
+  /// Whether the points are spread over more than their noise, however many there are.
+  bool hasDirection(const FittedSegment& s) const {
+    return isDrawnOut(s.moments.weight, s.line.spread_sum_sq,
+                      noise_.onLine(s.line.centroid, s.line.direction));
+  }
   /// A lower bound of fit(moments).chi_square / 2, without roots.
   double leastHalfChiSquare(const PointMoments& m) const {
     // The smaller eigenvalue is at least determinant / trace.
