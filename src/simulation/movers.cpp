@@ -58,6 +58,20 @@ void Movers::passWayPoint(Walk& walk, const Eigen::Vector2d& p_map) const {
   walk.next += walk.forwards ? 1 : -1;
 }
 
+bool Movers::comesIntoAnother(std::size_t i, const Eigen::Vector2d& p_map) const {
+  const Eigen::Vector2d x = bodies_[i].T_map_body.position();
+  for (std::size_t k = 0; k < bodies_.size(); ++k) {
+    if (k == i) continue;
+    const Eigen::Vector2d other = bodies_[k].T_map_body.position();
+    const double apart = (p_map - other).norm();
+    // Two that began in one place may part.
+    if (apart < bodies_[i].radius() + bodies_[k].radius() && apart < (x - other).norm()) {
+      return true;
+    }
+  }
+  return false;
+}
+
 int Movers::advance(const World& world, const Eigen::Vector2d& p_robot, double robot_radius,
                     double dt) {
   int contacts = 0;
@@ -72,7 +86,7 @@ int Movers::advance(const World& world, const Eigen::Vector2d& p_robot, double r
         body.T_map_body.position() + walk.mover.speed * dt * next.T_map_body.heading();
     next.T_map_body.x = p.x();
     next.T_map_body.y = p.y();
-    if (world.clearance(p, body.radius()) < body.radius()) {
+    if (world.clearance(p, body.radius()) < body.radius() || comesIntoAnother(i, p)) {
       turnAway(walk);
       continue;
     }

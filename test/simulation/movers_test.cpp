@@ -67,6 +67,54 @@ TEST(Movers, WanderWithoutEverTouchingAWall) {
   EXPECT_GT(widest, 1.5);
 }
 
+// Whoever of a crowd, blind to the robot or not, moves, stays outside of all others.
+TEST(Movers, WanderWithoutEverComingIntoOneAnother) {
+  std::vector<Mover> crowd(8);
+  for (std::size_t i = 0; i < crowd.size(); ++i) {
+    crowd[i].body.T_map_body = {1.0 + static_cast<double>(i % 4), i < 4 ? 1.0 : 2.5, 0.0};
+    crowd[i].gap = i % 2 ? 0.4 : 0.0;
+  }
+  crowd[0].body.shape = Body::Shape::kBox;
+  crowd[0].body.half_size = {0.3, 0.2};
+  const World world = room();
+  Movers movers(crowd, 9);
+  double nearest = 1.0;
+  for (int step = 0; step < 10000; ++step) {
+    movers.advance(world, kFarAway, 0.25, 0.01);
+    for (std::size_t i = 0; i < crowd.size(); ++i) {
+      for (std::size_t k = 0; k < i; ++k) {
+        const Body &a = movers.bodies()[i], &b = movers.bodies()[k];
+        const double apart = (a.T_map_body.position() - b.T_map_body.position()).norm();
+        nearest = std::min(nearest, apart - a.radius() - b.radius());
+      }
+    }
+  }
+  EXPECT_GE(nearest, 0.0);
+  EXPECT_LT(nearest, 0.02);  // they do meet
+}
+
+TEST(Movers, ThatMeetFaceToFaceTurnRound) {
+  Movers movers({walker({{1.0, 1.0}, {5.0, 1.0}}, 0.4), walker({{5.0, 1.0}, {1.0, 1.0}}, 0.4)}, 1);
+  // (4 - 0.5) / 1.6 = 2.19 s until they meet, then 0.81 s back at 0.8 m/s.
+  for (int i = 0; i < 300; ++i) movers.advance(room(), kFarAway, 0.25, 0.01);
+  EXPECT_NEAR(movers.bodies()[0].T_map_body.x, 2.75 - 0.65, 0.03);
+  EXPECT_NEAR(movers.bodies()[1].T_map_body.x, 3.25 + 0.65, 0.03);
+}
+
+TEST(Movers, ThatBeginInOnePlacePart) {
+  std::vector<Mover> crowd(2);
+  for (Mover& mover : crowd) mover.body.T_map_body = {3.0, 2.0, 0.0};
+  Movers movers(crowd, 9);
+  double farthest = 0.0;
+  for (int i = 0; i < 1000; ++i) {
+    movers.advance(room(), kFarAway, 0.25, 0.01);
+    const auto& bodies = movers.bodies();
+    farthest = std::max(farthest,
+                        (bodies[0].T_map_body.position() - bodies[1].T_map_body.position()).norm());
+  }
+  EXPECT_GT(farthest, 0.5);
+}
+
 TEST(Movers, StopBeforeARobotThatStandsInTheirWay) {
   Simulation simulation(room(), {3.0, 1.0, 0.0}, {}, {walker({{1.0, 1.0}, {5.0, 1.0}}, 0.4)});
   simulation.drive({}, 10.0);

@@ -12,8 +12,9 @@
 
 namespace cca {
 
-/// Something that moves about: a person, a trolley. Movers pass through one another, never through
-/// walls: the smallest circle around one keeps out of every obstacle cell.
+/// Something that moves about: a person, a trolley. The smallest circle around one keeps out of
+/// every obstacle cell and of the circles of all other movers; where it would come into one, it
+/// turns (a random walk anywhere, others round). Those whose circles overlap at the start may part.
 struct Mover {
   Body body;                                ///< where and how it begins
   double speed = 0.8;                       ///< m/s
@@ -35,6 +36,8 @@ class Movers {
 
   /// @param p_robot   m; @param robot_radius  m, of the disc that they stop at.
   /// @return          how many movers have newly driven into the robot.
+  /// They go one after the other, in their order: each sees where those before it have got to.
+  /// Cost: O(movers^2).
   int advance(const World& world, const Eigen::Vector2d& p_robot, double robot_radius, double dt);
 
   const std::vector<Body>& bodies() const { return bodies_; }
@@ -50,6 +53,7 @@ class Movers {
     bool touching = false;
   };
   double headingOf(const Walk& walk, const Body& body) const;
+  bool comesIntoAnother(std::size_t i, const Eigen::Vector2d& p_map) const;
   void turnAway(Walk& walk) const;
   void passWayPoint(Walk& walk, const Eigen::Vector2d& p_map) const;
 
