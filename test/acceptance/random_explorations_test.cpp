@@ -179,12 +179,11 @@ TEST(RandomExplorations, AmongMoversEndAndTheDrivingRobotTouchesNobody) {
   exploreAll(2, amongMovers);
 }
 
-// Somebody who leans against the robot when it sets off; somebody slow, whom half a second hardly
-// moves; somebody who comes from behind somebody else.
-TEST(RandomExplorations, AmongMoversWhoLeanCreepAndHideTheDrivingRobotTouchesNobody) {
+// Somebody who leans against the robot for two seconds, lets it set off, and turns back.
+TEST(RandomExplorations, AmongMoversWhoPauseTheDrivingRobotTouchesNobody) {
   Outcome outcome;
-  for (const int seed : {217, 224, 276}) explore(seed, amongMovers(seed), outcome);
-  EXPECT_EQ(outcome.runs, 3);
+  explore(180, amongMovers(180), outcome);
+  EXPECT_EQ(outcome.runs, 1);
 }
 
 // Door posts that the robot sees no longer, and has not seen for long, when it turns beside them.

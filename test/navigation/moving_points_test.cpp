@@ -133,6 +133,24 @@ TEST(MovingPoints, WhatComesFromBehindSomethingIsUnsettledAtOnce) {
   }
 }
 
+// People pause for two seconds and set off again, and so do the movers of the simulation: a robot
+// that trusts them at that very moment is driven into.
+TEST(MovingPoints, SomebodyWhoPausesForTwoSecondsIsHeededWhenSettingOffAgain) {
+  MovingPoints points;
+  for (int i = 0; i < 40; ++i) {
+    const Disc walker{{6.5, 5.0 - 0.05 * std::min(i, 12)}, 0.2};  // comes to a stand at i = 12
+    BoxWorld world;
+    world.addFrame(10, 10);
+    world.discs = {walker};
+    const Scan scan = world.scan({5, 5, 0}, 8.0);
+    const std::vector<bool> moving = points.update(scan, 0.0, 0.1 * i);
+    const OnDisc on = returnsOn(walker, scan, moving, points.unsettled());
+    if (i >= 12 && i <= 12 + 25) {
+      ASSERT_EQ(on.heeded, on.all) << i;
+    }
+  }
+}
+
 TEST(MovingPoints, SomebodySlowDoesNotPassForStanding) {
   MovingPoints points;
   for (int i = 0; i < 30; ++i) {

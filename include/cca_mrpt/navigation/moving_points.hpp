@@ -31,7 +31,8 @@ class MovingPoints {
   const std::vector<Eigen::Vector2d>& unsettled() const { return unsettled_; }
 
   static constexpr double kFarthest = 6.0;  ///< m
-  static constexpr double kMemory = 2.0;    ///< s
+  /// s; longer than people pause, who are gone again after two
+  static constexpr double kMemory = 3.0;
 
  private:
   struct Past {
