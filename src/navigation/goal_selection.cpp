@@ -16,7 +16,7 @@ double score(Strategy strategy, const ViewPoint& view_point) {
     case Strategy::kGreedy:
       return view_point.gain;
     case Strategy::kGainDistance:
-      return view_point.gain * std::exp(-kPerMetre * view_point.distance);
+      return discountedGain(view_point);
     case Strategy::kInformation:
       return view_point.gain / std::max(view_point.distance, kShortestWay);
     case Strategy::kNearestFrontier:
@@ -27,6 +27,10 @@ double score(Strategy strategy, const ViewPoint& view_point) {
 }
 
 }  // namespace
+
+double discountedGain(const ViewPoint& view_point) {
+  return view_point.gain * std::exp(-kPerMetre * view_point.distance);
+}
 
 Strategy strategyNamed(const std::string& name) {
   if (name == "greedy") return Strategy::kGreedy;

@@ -83,9 +83,8 @@ bool isInView(const ExplorationGrid& grid, Cell from, Cell to) {
 }
 
 std::optional<ViewPoint> nearestViewPoint(const ExplorationGrid& grid, const FreeSpace& space,
-                                          const DistanceField& field,
-                                          const TiledGrid<char>& scanned, Cell target,
-                                          double range) {
+                                          const DistanceField& field, const ScannedPlaces& scanned,
+                                          Cell target, double range) {
   static const std::vector<Eigen::Vector2d> kDirections = directions(kViewRays);
   std::optional<ViewPoint> best;
   ExplorationGrid::Reader states(grid);
@@ -95,7 +94,7 @@ std::optional<ViewPoint> nearestViewPoint(const ExplorationGrid& grid, const Fre
   const auto enter = [&](Cell next) {
     block = next;
     const bool is_too_far = best && field.leastDistanceTo(block) >= best->distance;
-    eligible = is_too_far || scanned.at(block) ? 0 : space.traversableCells(block);
+    eligible = is_too_far || scanned.containsBlock(block) ? 0 : space.traversableCells(block);
   };
   enter(FreeSpace::blockOf(target));
   for (const Eigen::Vector2d& direction : kDirections) {

@@ -73,6 +73,16 @@ TEST(GlobalPlanner, FinishesAtOnceWhereAllIsInSight) {
   EXPECT_LT(drive(planner, room, {1.3, 1.2}).distance, 0.5);
 }
 
+// To see two metres behind the end of its view, the robot would have to drive 2.4 m.
+TEST(GlobalPlanner, DrivesIntoALargeUnknownPlaceInsteadOfPeeking) {
+  const KnownWorld hall{std::vector<std::string>(40, std::string(40, '.')), 10};
+  GlobalPlanner planner;
+  const Eigen::Vector2d robot(10.0, 10.0);
+  const Plan& plan = planner.update(hall.scanFrom({robot.x(), robot.y(), 0.0}, 4.0), robot);
+  ASSERT_EQ(plan.path.size(), 2u);
+  EXPECT_NEAR((plan.path.back() - robot).norm(), 4.0, 0.5);
+}
+
 TEST(GlobalPlanner, SaysSoWhereTheRobotIsShutIn) {
   const KnownWorld cell{{"###", "#.#", "###"}, 8};  // 0.4 m wide
   GlobalPlanner planner;
@@ -115,7 +125,10 @@ TEST(GlobalPlanner, LeavesAGoalWhoseWayIsLostTwice) {
     const Cell goal = planner.grid().cellOf(goal_map);
     std::vector<Cell> shut;
     for (int y = -2; y <= 2; ++y) {
-      for (int x = -2; x <= 2; ++x) shut.push_back(goal + Cell{x, y});
+      for (int x = -2; x <= 2; ++x) {
+        const Cell c = goal + Cell{x, y};
+        if (planner.grid().at(c) == CellState::kFree) shut.push_back(c);
+      }
     }
     planner.seed(shut, CellState::kOccupied);
     planner.update(scan, robot);

@@ -11,6 +11,7 @@
 #include "cca_mrpt/navigation/frontier.hpp"
 #include "cca_mrpt/navigation/goal_selection.hpp"
 #include "cca_mrpt/navigation/grid_paths.hpp"
+#include "cca_mrpt/navigation/scanned_places.hpp"
 #include "cca_mrpt/navigation/view_tour.hpp"
 
 namespace cca {
@@ -42,10 +43,11 @@ struct Plan {
 /// the other until no reachable frontier of useful size is left.
 ///
 /// A goal is a place to look from: the one of the shortest way that sees a point up to two metres
-/// behind a frontier. It is given up as soon as that point has been seen, or the way to it is
-/// blocked. Small frontiers wait until no other is left, or one comes by. Places from which all
-/// directions have been looked into are never goals again; a goal that showed nothing new is set
-/// aside until the map has changed.
+/// behind a frontier. By `view_tour`, it is the middle of the frontier itself, to drive in there,
+/// where that promises much. A goal is given up as soon as that point has been seen, or the way to
+/// it is blocked. Small frontiers wait until no other is left, or one comes by. Places from which
+/// all directions have been looked into are never goals again; a goal that showed nothing new is
+/// set aside until the map has changed.
 class GlobalPlanner {
  public:
   /// @throws std::runtime_error for an unknown strategy.
@@ -99,8 +101,9 @@ class GlobalPlanner {
   void decide(const Eigen::Vector2d& robot_map);
   std::optional<Cell> targetBehind(const Frontier& frontier) const;
   void findViewPoints();
+  std::optional<Cell> entryAt(Cell middle) const;
   void keepPresentGoal();
-  std::optional<std::size_t> choose();
+  std::optional<ViewPoint> choose();
   void noteLostWay();
   bool recallAside();
   bool isAside(Cell target) const;
@@ -119,12 +122,12 @@ class GlobalPlanner {
   FreeSpace space_;
   FrontierCells frontier_cells_;
   DistanceField field_;
-  TiledGrid<char> scanned_{0};          ///< blocks from which all directions were looked into
-  TiledGrid<std::uint32_t> looked_{0};  ///< the directions, a bit each, while some are missing
+  ScannedPlaces scanned_;
   std::optional<Eigen::Vector2d> last_place_;  ///< m, of the robot at the last scan
   ViewTour view_tour_;
   std::vector<ViewPoint> view_points_;
-  bool only_rests_ = false;  ///< whether the view points are rests
+  std::vector<ViewPoint> entries_;  ///< places at the frontiers themselves, rests left out
+  bool only_rests_ = false;         ///< whether the view points are rests
   std::vector<Aside> aside_;
   std::vector<Cell> lost_ways_;  ///< targets that could no longer be reached, half-way there
   std::optional<ViewPoint> goal_;

@@ -22,6 +22,9 @@ enum class Strategy {
   kViewTour,  ///< the first stop of a tour, see ViewTour
 };
 
+/// m^2, gain exp(-0.2 way) [Gonzalez-Banos & Latombe 2002].
+double discountedGain(const ViewPoint& view_point);
+
 /// @throws std::runtime_error for a name that is none.
 Strategy strategyNamed(const std::string& name);
 

@@ -7,6 +7,7 @@
 #include "cca_mrpt/navigation/exploration_grid.hpp"
 #include "cca_mrpt/navigation/frontier.hpp"
 #include "cca_mrpt/navigation/grid_paths.hpp"
+#include "cca_mrpt/navigation/scanned_places.hpp"
 
 namespace cca {
 
@@ -35,9 +36,8 @@ bool isInView(const ExplorationGrid& grid, Cell from, Cell to);
 /// @return       empty where no reached place sees the cell.
 /// Cost: O(range / resolution).
 std::optional<ViewPoint> nearestViewPoint(const ExplorationGrid& grid, const FreeSpace& space,
-                                          const DistanceField& field,
-                                          const TiledGrid<char>& scanned, Cell target,
-                                          double range);
+                                          const DistanceField& field, const ScannedPlaces& scanned,
+                                          Cell target, double range);
 
 /// The unknown area in view from a cell if all unknown cells were free [Gonzalez-Banos & Latombe
 /// 2002]: 72 rays end at occupied cells and presumed walls.
