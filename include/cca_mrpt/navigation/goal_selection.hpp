@@ -19,7 +19,7 @@ enum class Strategy {
   /// Deviation: the information is the unknown area in view alone; theirs adds the re-sensing of
   /// known boundaries, which is nothing to a robot whose pose is known.
   kInformation,
-  kViewTour,  ///< the first stop of a tour, see ViewTour
+  kViewTour,  ///< a frontier that promises much, else the first stop of a tour, see ViewTour
 };
 
 /// m^2, gain exp(-0.2 way) [Gonzalez-Banos & Latombe 2002].

@@ -22,7 +22,8 @@ struct ViewTourParameters {
   double horizon = 40.0;        ///< m, beyond which ways between stops are only estimated
 };
 
-/// Our own way to choose the next goal: the first stop of a tour that sees everything soon.
+/// Our own way to choose the next goal, where no frontier promises so much that it is driven into:
+/// the first stop of a tour that sees everything soon.
 ///
 /// 1. Of all view points, few that see all frontiers between them are kept (greedy set cover, as in
 ///    art-gallery and next-best-view planning).
