@@ -88,11 +88,13 @@ LogScore scoreAgainstWorld(const std::vector<Segment2>& all_truth,
     const double w = map_samples.length[k];
     const Match twin = match(map_samples.xy[k], own, map_samples.segment[k], map, map_index, p);
     const Match hit = match(map_samples.xy[k], own, SegmentIndex::npos, truth, truth_index, p);
+    // As many parallel lines may lie here as there are true ones: both faces of a thin wall.
+    const double share = static_cast<double>(hit.number) / (1.0 + static_cast<double>(twin.number));
     map_length += w;
-    redundant += twin.number > 0 ? w : 0.0;
+    redundant += twin.number > 0 && share < 1.0 ? w : 0.0;
     if (hit.index == SegmentIndex::npos) continue;
     right += w;
-    once += w / (1.0 + static_cast<double>(twin.number));
+    once += w * std::min(1.0, share);
     squares += w * hit.distance * hit.distance;
     angles += w * angleBetween(own, truth[hit.index]);
     laterals.push_back(hit.distance);

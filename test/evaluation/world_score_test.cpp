@@ -48,6 +48,16 @@ TEST(WorldScore, DuplicateCountsOnce) {
   EXPECT_DOUBLE_EQ(score.at("redundant"), 1.0);
 }
 
+TEST(WorldScore, BothFacesOfAThinWallAreNoDuplicates) {
+  const std::vector<Segment2> thin{{{0.0, 0.0}, {4.0, 0.0}}, {{4.0, 0.08}, {0.0, 0.08}}};
+  ScoreGroup score = scoreAgainstWorld(thin, thin).at("world");
+  EXPECT_DOUBLE_EQ(score.at("precision"), 1.0);
+  EXPECT_DOUBLE_EQ(score.at("redundant"), 0.0);
+  score = scoreAgainstWorld(thin, {thin[0], thin[1], thin[1]}).at("world");
+  EXPECT_NEAR(score.at("precision"), 2.0 / 3.0, 1e-9);
+  EXPECT_DOUBLE_EQ(score.at("redundant"), 1.0);
+}
+
 TEST(WorldScore, EmptyMapHasNoRecall) {
   const ScoreGroup score = scoreAgainstWorld(kTruth, {}).at("world");
   EXPECT_DOUBLE_EQ(score.at("recall"), 0.0);

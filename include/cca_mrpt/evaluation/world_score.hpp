@@ -27,8 +27,9 @@ void describe(WorldScoreParameters& p, Field&& field) {
 /// Judges a map against the true segments of a world.
 ///
 /// A sample of the map is right where a true segment lies within both tolerances; a sample of the
-/// truth is found where a segment of the map does. Length that lies beside other map counts as
-/// 1/(1 + parallel neighbours).
+/// truth is found where a segment of the map does (so one face of a thin wall finds both). Where
+/// more parallel lines of the map lie beside each other than true ones, their length counts as
+/// (true ones) / (lines), and is redundant.
 /// One group "world": truth_length_m, map_length_m, segments, precision, recall, f1 (all of
 /// length), lateral_rms_m, lateral_median_m (right samples to their true line), angle_mean_deg
 /// (weighted by length), end_error_median_m and end_error_p90_m (an end of the map to the nearest
