@@ -3,6 +3,8 @@
 #include <cmath>
 #include <set>
 
+#include "cca_mrpt/mapping/cross.hpp"
+
 #include "log_score_parts.hpp"
 
 namespace cca::log_score {
@@ -10,10 +12,6 @@ namespace {
 
 constexpr double kLeast = 0.05, kWindow = 0.10, kHitDistance = 0.10;  // m
 constexpr double kRaysAScan = 180.0;
-
-double crossProduct(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
-  return a.x() * b.y() - a.y() * b.x();
-}
 
 /// Evenly spaced scan numbers, first and last included, halves rounded to even.
 std::set<std::size_t> pickScans(std::size_t n, std::size_t most) {
@@ -57,9 +55,9 @@ void testScan(const Scan& scan, const std::vector<Segment2>& map, const MapSampl
     bool crossed = false, crossed_robustly = false;
     for (const std::size_t s : near) {
       const Eigen::Vector2d start = map[s].start - origin, along = map[s].end - map[s].start;
-      const double den = crossProduct(u, along);
+      const double den = cross(u, along);
       if (std::abs(den) <= 1e-12) continue;
-      const double t = crossProduct(start, along) / den, f = crossProduct(start, u) / den;
+      const double t = cross(start, along) / den, f = cross(start, u) / den;
       if (t <= kLeast || f < 0.0 || f > 1.0 || t >= range - p.free_space_margin) continue;
       crossed = true;
       if ((range - t) * std::abs(den) / along.norm() <= p.free_space_depth) continue;

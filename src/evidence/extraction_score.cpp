@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "cca_mrpt/mapping/cross.hpp"
+
 namespace cca::evidence {
 namespace {
 
@@ -15,10 +17,6 @@ constexpr double kMatchOverlap = 0.5;               // of both lengths
 constexpr int kResolvableRays = 5;
 constexpr double kBesideEnd = 1e-3;  // rad, a ray may pass beside an end
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
-double cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
-  return a.x() * b.y() - a.y() * b.x();
-}
 
 double rangeTo(double bearing, const Segment2& segment) {
   const double from = std::atan2(segment.start.y(), segment.start.x());

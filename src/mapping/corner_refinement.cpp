@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "cca_mrpt/mapping/cross.hpp"
+
 namespace cca {
 namespace {
 
@@ -162,9 +164,6 @@ bool tellLoosePoints(const ScanPoints& points, const RunFitter& fitter, Runs* ru
 
 /// Whether the lines of a and b intersect between the last beam of a and the first of b.
 bool meetAtBoundary(const ScanPoints& points, const FittedRun& a, const FittedRun& b) {
-  const auto cross = [](const Eigen::Vector2d& p, const Eigen::Vector2d& q) {
-    return p.x() * q.y() - p.y() * q.x();
-  };
   const Eigen::Vector2d &before = points.positions[a.last - 1], &after = points.positions[b.first];
   const auto corner = intersection(a.line, b.line);
   return corner && corner->dot(before) > 0.0 && cross(before, *corner) >= 0.0 &&

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "cca_mrpt/mapping/cross.hpp"
 #include "cca_mrpt/mapping/rank_order_clustering.hpp"
 #include "cca_mrpt/mapping/similarity.hpp"
 
@@ -59,10 +60,6 @@ SimilarityMatrix similarityOfRow(const ScanPoints& points, const RunFitter& fitt
     }
   }
   return s;
-}
-
-double cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
-  return a.x() * b.y() - a.y() * b.x();
 }
 
 /// m. What hides more than this of a wall may hide a doorway as well: it is as likely two walls as

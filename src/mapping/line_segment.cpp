@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cca_mrpt/mapping/cross.hpp"
+
 namespace cca {
 
 void PointMoments::add(const Eigen::Vector2d& point, double point_weight) {
@@ -45,9 +47,6 @@ FittedLine fitLine(const PointMoments& moments) {
 
 std::optional<Eigen::Vector2d> intersection(const FittedLine& a, const FittedLine& b) {
   constexpr double kLeastSine = 0.05;
-  const auto cross = [](const Eigen::Vector2d& p, const Eigen::Vector2d& q) {
-    return p.x() * q.y() - p.y() * q.x();
-  };
   const double sine = cross(a.direction, b.direction);
   if (std::abs(sine) < kLeastSine) return std::nullopt;
   const Eigen::Vector2d between = b.centroid - a.centroid;

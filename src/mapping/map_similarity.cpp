@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "cca_mrpt/mapping/cross.hpp"
+
 namespace cca {
 namespace {
 
@@ -10,10 +12,6 @@ constexpr double kOneFreedom = 10.83;  // 99.9 % quantiles of chi-square
 constexpr double kTwoFreedoms = 13.82;
 
 double bell(double evidence, double gate) { return gate / (gate + evidence); }
-
-double cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
-  return a.x() * b.y() - a.y() * b.x();
-}
 
 /// Squared distance of b's centroid from a's line, which is extended that far, over its variance.
 double offsetEvidence(const LineSegment& a, const Eigen::Vector2d& u, const LineSegment& b) {

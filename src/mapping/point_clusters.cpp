@@ -6,6 +6,8 @@
 #include <limits>
 #include <numeric>
 
+#include "cca_mrpt/mapping/cross.hpp"
+
 namespace cca {
 namespace {
 
@@ -13,10 +15,6 @@ namespace {
 constexpr int kLloydSweeps = 2;
 /// Two-sided 99.9 % quantile of the normal distribution: gate of a single residual.
 constexpr double kResidualGate = 3.29;
-
-double cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
-  return a.x() * b.y() - a.y() * b.x();
-}
 
 /// Centroids in cyclic order of bearing.
 class CentroidRing {

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <optional>
 
+#include "cca_mrpt/mapping/cross.hpp"
+
 namespace cca {
 namespace {
 
@@ -13,10 +15,6 @@ constexpr double kAlongTheLine = 0.05;
 constexpr double kResidualGate = 3.29;
 /// A corner takes this many beams at most from the line that they were fitted with.
 constexpr int kMostTaken = 5;
-
-double cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
-  return a.x() * b.y() - a.y() * b.x();
-}
 
 /// Where the beam through p meets the line; the foot of p where the two are all but parallel.
 Eigen::Vector2d onBeam(const FittedLine& line, const Eigen::Vector2d& p) {

@@ -104,8 +104,8 @@ void GlobalPlanner::seed(const std::vector<Cell>& cells, CellState state) {
 }
 
 void GlobalPlanner::learnRange(const Scan& scan) {
-  for (const double range : scan.ranges) {
-    const double seen = isNoReturn(range) ? scan.free_range_without_return : range;
+  for (std::size_t beam = 0; beam < scan.size(); ++beam) {
+    const double seen = scan.freeRange(beam);
     if (isReturn(seen)) laser_range_ = std::max(laser_range_, seen);
   }
 }
@@ -242,8 +242,11 @@ void GlobalPlanner::findViewPoints() {
     auto view_point = nearestViewPoint(grid_, space_, field_, scanned_, candidate.target, reach());
     if (!view_point || !isWithinLimits(view_point->cell)) continue;
     view_point->gain = gain;
-    (candidate.is_rest ? rests : view_points_).push_back(*view_point);
-    if (candidate.is_rest) continue;
+    if (candidate.is_rest) {
+      rests.push_back(*view_point);
+      continue;
+    }
+    view_points_.push_back(*view_point);
     if (const auto entry = entryAt(candidate.middle)) {
       entries_.push_back({*entry, candidate.target, field_.distanceTo(*entry), gain});
     }

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cca_mrpt/mapping/cross.hpp"
 #include "cca_mrpt/simulation/floor_plan.hpp"
 #include "polygon.hpp"
 
@@ -11,10 +12,6 @@ namespace {
 
 constexpr double kJust = 1e-5;      // m, 'just in front of' a face
 constexpr double kShortest = 1e-4;  // m, below this a piece is rounding
-
-double cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
-  return a.x() * b.y() - a.y() * b.x();
-}
 
 /// Cells that a point can get to from the plan's start.
 std::vector<char> floodFromStart(const World& world) {
