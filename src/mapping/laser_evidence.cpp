@@ -45,11 +45,12 @@ std::vector<Slot> wallsOfReturns(const Scan& scan, const std::vector<Eigen::Vect
 }  // namespace
 
 std::vector<Eigen::Vector2d> beamDirections(const Scan& scan) {
-  std::vector<Eigen::Vector2d> beams(scan.size());
+  std::vector<Eigen::Vector2d> beams;
+  beams.reserve(scan.size());
   TurningBeam direction(scan.T_map_sensor.theta + scan.angle_min, scan.angle_increment);
   for (std::size_t beam = 0; beam < scan.size(); ++beam) {
     direction.turnTo(beam);
-    beams[beam] = direction.unit();
+    beams.push_back(direction.unit());
   }
   return beams;
 }

@@ -91,21 +91,23 @@ class Neighbourhoods {
   std::vector<int> parent_;
 };
 
-double unexplainedLength(const NewLine& line, const MapNoise& noise, const Walls& walls) {
+/// Whether walls explain the line, but for less than kNewLength.
+bool isExplained(const NewLine& line, const MapNoise& noise, const Walls& walls) {
   const double length = line.segment.length();
   const int steps = 1 + static_cast<int>(length / SupportProfile::kBinLength);
   int open = 0;
   for (int i = 0; i < steps; ++i) {
     const double share = (i + 0.5) / steps;
     const Eigen::Vector2d p = line.segment.start + share * (line.segment.end - line.segment.start);
-    if (walls.hitBy(p, line.viewpoint, kGates * noise.lateralSigma()) < 0) ++open;
+    if (walls.hitBy(p, line.viewpoint, kGates * noise.lateralSigma()) >= 0) continue;
+    if (length * ++open / steps >= kNewLength) return false;
   }
-  return length * open / steps;
+  return true;
 }
 
 void found(NewLine& line, const MapNoise& noise, Walls& walls) {
   if (std::sqrt(line.own_angle_variance) > kSteepest) return;
-  if (unexplainedLength(line, noise, walls) < kNewLength) return;
+  if (isExplained(line, noise, walls)) return;
   line.wall = walls.create();
   Wall& wall = walls[line.wall];
   wall.origin = line.segment.moments.mean;
@@ -210,6 +212,21 @@ std::vector<Resemblance> resemblances(const std::vector<NewLine>& lines, double 
   return all;
 }
 
+/// A line that resembles no other and one wall at most needs no clustering; false where it does.
+bool assignAlone(NewLine& line, int index, const std::vector<Resemblance>& alike,
+                 const MapNoise& noise, Walls& walls) {
+  const auto before = [](const Resemblance& r, int i) { return r.line < i; };
+  const auto own = std::lower_bound(alike.begin(), alike.end(), index, before);
+  const auto end = std::lower_bound(own, alike.end(), index + 1, before);
+  if (end - own > 1) return false;
+  if (own == end) {
+    found(line, noise, walls);
+  } else {
+    line.wall = own->wall;
+  }
+  return true;
+}
+
 }  // namespace
 
 void clusterIntoMap(std::vector<NewLine>& lines, double cut, const MapNoise& noise, Walls& walls) {
@@ -232,6 +249,9 @@ void clusterIntoMap(std::vector<NewLine>& lines, double cut, const MapNoise& noi
   for (int i = 0; i < n; ++i) members[static_cast<std::size_t>(sets.root(i))].push_back(i);
   for (std::vector<int>& m : members) {
     if (m.empty()) continue;
+    if (m.size() == 1 &&
+        assignAlone(lines[static_cast<std::size_t>(m[0])], m[0], alike, noise, walls))
+      continue;
     const Neighbourhood neighbourhood(std::move(m), alike);
     const Eigen::MatrixXd s = neighbourhood.matrix(lines, alike, walls);
     const std::vector<int> group_of = groupsOf(s, cut);

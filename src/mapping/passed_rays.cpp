@@ -18,6 +18,8 @@ constexpr double kClear = 0.1;        // m, two bins: the least that counts as "
 constexpr double kBlind = 0.05;       // m, before the sensor
 constexpr double kFarApart = 1.0;     // rad, beams between which nothing is taken for swept
 
+constexpr std::size_t kFewWalls = 64;  // room for those of most scans
+
 /// What the rays of a scan can say about places where they did not end.
 struct Rays {
   Eigen::Vector2d origin;
@@ -40,6 +42,7 @@ Rays raysOf(const Scan& scan, const Beams& beams, const MapNoise& noise) {
 std::vector<Slot> wallsNear(const Scan& scan, const Rays& rays, const Beams& beams, Walls& walls) {
   std::vector<Slot> found;
   if (scan.size() == 0) return found;
+  found.reserve(kFewWalls);
   SweptCells cells(rays.origin, *std::max_element(rays.reach.begin(), rays.reach.end()));
   const bool far_apart = std::abs(scan.angle_increment) > kFarApart;
   for (std::size_t beam = 0; beam < scan.size(); ++beam) {
@@ -103,6 +106,7 @@ bool passThrough(const Scan& scan, const Rays& rays, const Beams& beams, Wall& w
 void passRays(const Scan& scan, const Beams& beams, const MapNoise& noise, Walls& walls) {
   const Rays rays = raysOf(scan, beams, noise);
   std::vector<FirstPass> passes;
+  passes.reserve(kFewWalls);
   for (const Slot slot : wallsNear(scan, rays, beams, walls)) {
     FirstPass first;
     if (!passThrough(scan, rays, beams, walls[slot], &first)) continue;

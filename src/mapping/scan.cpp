@@ -53,16 +53,10 @@ void countBreaks(ScanPoints* points) {
 
 }  // namespace
 
-void TurningBeam::turnTo(std::size_t beam) {
-  if (beam == beam_ + 1 && --turns_left_ > 0) {
-    unit_ = {unit_.x() * turn_.x() - unit_.y() * turn_.y(),
-             unit_.y() * turn_.x() + unit_.x() * turn_.y()};
-  } else {
-    const double bearing = first_bearing_ + static_cast<double>(beam) * spacing_;
-    unit_ = {std::cos(bearing), std::sin(bearing)};
-    turns_left_ = kTurnsPerSine;
-  }
-  beam_ = beam;
+void TurningBeam::aimAt(std::size_t beam) {
+  const double bearing = first_bearing_ + static_cast<double>(beam) * spacing_;
+  unit_ = {std::cos(bearing), std::sin(bearing)};
+  turns_left_ = kTurnsPerSine;
 }
 
 void reopen(int first, ScanPoints* points) {

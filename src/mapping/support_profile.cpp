@@ -28,29 +28,36 @@ void SupportProfile::grow(int i) {
 
 void SupportProfile::hit(double t, double d) {
   const int i = binOf(t);
-  grow(i);
-  const SupportBin before = at(i);
-  at(i).hit(t, d);
-  refuted_ = refuted_ || at(i).isRefuted();  // where rays had gone before
-  if (before.hits + 1.0 > SupportBin::kMostHits && before.passed > 0.0)
-    parted_ = false;  // both were scaled
-  if (tallied_) update(i, before);
+  if (!open_ || i != open_bin_) {
+    settle();
+    grow(i);
+    if (tallied_) {
+      open_ = true;
+      open_bin_ = i;
+      before_ = at(i);
+    }
+  }
+  SupportBin& bin = at(i);
+  if (bin.hits + 1.0 > SupportBin::kMostHits && bin.passed > 0.0) parted_ = false;  // both scaled
+  bin.hit(t, d);
+  refuted_ = refuted_ || bin.isRefuted();  // where rays had gone before
 }
 
-void SupportProfile::update(int i, const SupportBin& before) {
+void SupportProfile::settle() const {
+  if (!std::exchange(open_, false)) return;
   if (++updates_ > kMostUpdates) return forget();
   BinTally change, old;
-  change.add(at(i));
-  old.add(before);
+  change.add(bin(open_bin_));
+  old.add(before_);
   change.remove(old);
   tally_.add(change);
   if (!parted_) return;
-  Stretch* const stretch = stretchAt(i);
-  parted_ = stretch != nullptr && !movesPlace(i, change.returns.w, 0.0);
+  Stretch* const stretch = stretchAt(open_bin_);
+  parted_ = stretch != nullptr && !movesPlace(open_bin_, change.returns.w, 0.0);
   if (parted_) stretch->tally.add(change);
 }
 
-Stretch* SupportProfile::stretchAt(int i) {
+Stretch* SupportProfile::stretchAt(int i) const {
   for (Stretch& stretch : stretches_) {
     if (i >= stretch.range.first && i < stretch.range.last) return &stretch;
   }
@@ -60,6 +67,7 @@ Stretch* SupportProfile::stretchAt(int i) {
 bool SupportProfile::pass(double t, double rays) {
   const int i = binOf(t);
   if (!contains(i) || at(i).passed >= SupportBin::kMostHits) return false;
+  settle();
   const double before = at(i).passed;
   at(i).passed = std::min(before + rays, SupportBin::kMostHits);
   const bool refutes_bin = at(i).isRefuted();
@@ -162,6 +170,7 @@ bool SupportProfile::prune() {
 bool SupportProfile::occupied(int i) const { return bin(i).hits > 0.0 && countsAround(i).stand(); }
 
 const std::vector<Stretch>& SupportProfile::stretches() const {
+  settle();
   if (parted_) return stretches_;
   tally();
   parted_ = true;
@@ -193,6 +202,7 @@ const std::vector<Stretch>& SupportProfile::stretches() const {
 }
 
 const BinTally& SupportProfile::tally() const {
+  settle();
   if (!tallied_) {
     tally_ = tally({first(), last()});
     tallied_ = true;

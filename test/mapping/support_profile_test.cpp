@@ -82,7 +82,8 @@ TEST(SupportProfile, RemembersWhatItsBinsSay) {
     const bool open = k / 2000 % 2 == 1;
     const double at = open && kind < 0.9 ? 1.0 + 0.3 * t : t;
     if (kind < (open ? 0.1 : 0.95)) {
-      profile.hit(at, 0.02 * share(random));
+      // As neighbouring beams do, several in one place.
+      for (int n = 0; n <= k % 4; ++n) profile.hit(at, 0.02 * share(random));
     } else if (!profile.pass(at)) {
       SupportProfile unchanged = anew(profile);
       expectSameStretches(profile, unchanged);

@@ -48,11 +48,20 @@ class TurningBeam {
       : first_bearing_(first_bearing),
         spacing_(spacing),
         turn_(std::cos(spacing), std::sin(spacing)) {}
-  void turnTo(std::size_t beam);
+  void turnTo(std::size_t beam) {
+    if (beam == beam_ + 1 && --turns_left_ > 0) {
+      unit_ = {unit_.x() * turn_.x() - unit_.y() * turn_.y(),
+               unit_.y() * turn_.x() + unit_.x() * turn_.y()};
+    } else {
+      aimAt(beam);
+    }
+    beam_ = beam;
+  }
   const Eigen::Vector2d& unit() const { return unit_; }
 
  private:
   static constexpr int kTurnsPerSine = 64;
+  void aimAt(std::size_t beam);
   double first_bearing_, spacing_;
   Eigen::Vector2d turn_, unit_ = Eigen::Vector2d::UnitX();
   std::size_t beam_ = 0;

@@ -65,10 +65,10 @@ class SupportProfile {
 
  private:
   void grow(int i);
-  void forget() { tallied_ = parted_ = false; }
-  /// A bin held `before`; enters the difference.
-  void update(int i, const SupportBin& before);
-  Stretch* stretchAt(int i);
+  void forget() const { tallied_ = parted_ = open_ = false; }
+  /// Enters into what is remembered what the open bin has received.
+  void settle() const;
+  Stretch* stretchAt(int i) const;
   /// What decides whether a place is occupied.
   struct Counts {
     double hits = 0.0, passed = 0.0;
@@ -83,6 +83,10 @@ class SupportProfile {
   std::vector<SupportBin> bins_;
   bool refuted_ = false;                           ///< a bin may have been since the last prune()
   mutable bool tallied_ = false, parted_ = false;  ///< tally_ holds; stretches_ does
+  /// Neighbouring beams mostly hit one bin, whose hits are entered together: it held before_.
+  mutable bool open_ = false;
+  int open_bin_ = 0;
+  SupportBin before_;
   mutable int updates_ = 0;
   mutable BinTally tally_;
   mutable std::vector<Stretch> stretches_;

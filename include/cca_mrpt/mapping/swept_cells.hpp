@@ -38,11 +38,13 @@ class SweptCells {
   struct Span {
     double first, last;  // m, x
   };
-  void edge(const Eigen::Vector2d& from, const Eigen::Vector2d& to);
-  Span& at(int row) { return spans_[static_cast<std::size_t>(row - first_row_)]; }
+  void sweepTo(const Eigen::Vector2d& end, int row);
+  void widen(int row, double x);
+  /// Widens the rows by where the way from the last end to this one enters and leaves them.
+  void crossRows(const Eigen::Vector2d& end, int end_row);
 
   Eigen::Vector2d origin_, end_;
-  int first_row_;
+  int first_row_, origin_row_, end_row_;
   std::vector<Span> spans_;
 };
 
