@@ -69,7 +69,7 @@ std::vector<LineSegment> extractLines(const Scan& scan, const CcaParameters& par
     changed = true;
   }
   meetAtCorners(points, fitter, &runs);
-  tellEdgesOfTwoPoints(points, fitter, &runs);
+  tellEdgesBetween(points, fitter, &runs);
   return polyLines(points, fitter, runs, groupInterrupted(points, fitter, cut, runs));
 }
 

@@ -24,11 +24,13 @@ bool refineCorners(const ScanPoints& points, const RunFitter& fitter, Runs* runs
 /// Cost: O(1) for each two neighbours.
 void meetAtCorners(const ScanPoints& points, const RunFitter& fitter, Runs* runs);
 
-/// Makes a line of two loose points between two lines, where it meets both in the gaps beside them.
+/// Finds the short edges between two lines that both have taken over, or that hide among the loose
+/// points between them.
 ///
-/// Two points always fit a line; here the neighbours are the third that could have spoken against
-/// it. So a steep edge that two beams enter is found, as any closed outline of many corners has.
-/// Cost: O(1) for each run.
-void tellEdgesOfTwoPoints(const ScanPoints& points, const RunFitter& fitter, Runs* runs);
+/// An edge that meets its neighbours in the gaps beside it is no free line: it takes the price of
+/// one vertex. Two points will do, for the neighbours are the third that could have spoken against
+/// it. So the steep edges are found that few beams enter, as any closed outline of many corners
+/// has. Cost: O(1) for each two neighbours, most of which are dismissed by a bound.
+void tellEdgesBetween(const ScanPoints& points, const RunFitter& fitter, Runs* runs);
 
 }  // namespace cca
