@@ -188,9 +188,10 @@ bool findEdgeBetween(const ScanPoints& points, const RunFitter& fitter, double l
     return fitter.leastHalfChiSquare(fitter.prefix().run(i, j));
   };
   // Fewer points have smaller residuals: where none at all would not pay, nothing does.
-  if (leastOf(first, from) + leastOf(to, last) >= least) return false;
+  const double least_after = leastOf(to, last);
+  if (leastOf(first, from) + least_after >= least) return false;
   bool found = false;
-  for (int i = from; i <= low; ++i) {
+  for (int i = from; i <= low && leastOf(first, i) + least_after < least; ++i) {
     const FittedRun left = fitter.fit(first, i);
     if (!left.is_line) continue;
     for (int j = std::max(high, i + 2); j <= std::min(to, i + kLongestLoose); ++j) {

@@ -48,15 +48,19 @@ SimilarityMatrix similarityOfRow(const ScanPoints& points, const RunFitter& fitt
   SimilarityMatrix s(last - first);
   for (int i = first; i + 1 < last; ++i) {
     double similarity = runs[i].similarity;
+    FittedSegment row;
     for (int j = i + 1; similarity >= cut; ++j) {
       s.set(i - first, j - first, similarity);
       const int next = j + 1;
       if (next >= last || next > i + kNeighbours) break;
       const FittedRun &before = runs[j], &far = runs[next];
       if (!mayFollow(points, before, far)) break;
-      const FittedSegment row = fitter.fit(runs[i].first, before.last);
-      const FittedSegment joint = fitter.fit(runs[i].first, far.last);
+      if (j == i + 1) row = fitter.fit(fitter.prefix().run(runs[i].first, before.last));
+      const PointMoments moments = fitter.prefix().run(runs[i].first, far.last);
+      if (mostFitMembership(row, far, fitter.leastHalfChiSquare(moments)) < cut) break;
+      const FittedSegment joint = fitter.fit(moments);
       similarity = memberships(row, far, joint, 0.0, 0.0).similarity();
+      row = joint;
     }
   }
   return s;

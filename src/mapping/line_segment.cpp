@@ -35,13 +35,10 @@ FittedLine fitLine(const PointMoments& moments) {
   line.residual_sum_sq = axis.residual_sum_sq;
   line.spread_sum_sq = axis.spread_sum_sq;
   // The half angle without trigonometry, by whichever of sine and cosine is the larger.
-  if (axis.cos_2 >= 0.0) {
-    const double c = std::sqrt(0.5 * (1.0 + axis.cos_2));
-    line.direction = {c, 0.5 * axis.sin_2 / c};
-  } else {
-    const double s = std::sqrt(0.5 * (1.0 - axis.cos_2));
-    line.direction = {0.5 * std::abs(axis.sin_2) / s, axis.sin_2 < 0.0 ? -s : s};
-  }
+  const double larger = std::sqrt(0.5 * (1.0 + std::abs(axis.cos_2)));
+  const double smaller = 0.5 * std::abs(axis.sin_2) / larger;
+  const bool level = axis.cos_2 >= 0.0;
+  line.direction = {level ? larger : smaller, std::copysign(level ? smaller : larger, axis.sin_2)};
   return line;
 }
 

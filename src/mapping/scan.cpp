@@ -45,8 +45,14 @@ void countBreaks(ScanPoints* points) {
   for (std::size_t i = 1; i < points->size(); ++i) {
     const Eigen::Vector2d &p = points->positions[i - 1], &q = points->positions[i];
     const double beams = points->beams[i] - points->beams[i - 1];
-    const double reach = beams * widest * std::sqrt(std::min(p.squaredNorm(), q.squaredNorm()));
-    if ((q - p).squaredNorm() > (reach + noise) * (reach + noise)) ++steps;
+    const double reach_sq =
+        beams * beams * widest * widest * std::min(p.squaredNorm(), q.squaredNorm());
+    // Most neighbours are nearer than noise or reach alone, which takes no root to see.
+    const double apart_sq = (q - p).squaredNorm();
+    if (apart_sq > std::max(noise * noise, reach_sq)) {
+      const double most = noise + std::sqrt(reach_sq);
+      if (apart_sq > most * most) ++steps;
+    }
     points->breaks[i] += steps;
   }
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstddef>
 #include <vector>
 
 #include "cca_mrpt/mapping/description_length.hpp"
@@ -53,7 +54,9 @@ class SimilarityMatrix {
     double value = 0.0;
   };
 
-  explicit SimilarityMatrix(int size) : size_(size) {}
+  explicit SimilarityMatrix(int size) : size_(size) {
+    entries_.reserve(2 * static_cast<std::size_t>(size));
+  }
   /// @param i, j  different, in 0..size-1, each pair set once at most.
   void set(int i, int j, double value) {
     if (value > 0.0) entries_.push_back({i < j ? i : j, i < j ? j : i, value});
