@@ -17,7 +17,7 @@ constexpr double kBehindFrontier = 2.0;
 // A frontier of fewer cells than this is a rest: it waits until nothing larger is left, unless it
 // can be looked at in passing.
 constexpr std::size_t kRest = 25;
-constexpr double kInPassing = 2.5;  // m
+constexpr double kInPassing = 1.5;  // m; 2.5 takes 3 % more to 90 % coverage and 1 % more to 99 %
 // m^2, of gain exp(-0.2 way): a frontier that promises this is driven into. With 3 there is less
 // way to 90 % coverage and more to 99 %, with 8 the reverse.
 constexpr double kWorthEntering = 6.5;
@@ -110,7 +110,7 @@ void GlobalPlanner::learnRange(const Scan& scan) {
   }
 }
 
-double GlobalPlanner::reach() const { return kViewShare * laser_range_; }
+double GlobalPlanner::reach() const { return (is_last_look_ ? 1.0 : kViewShare) * laser_range_; }
 
 bool GlobalPlanner::goalStands() const {
   if (!goal_ || grid_.at(goal_->target) != CellState::kUnknown) return false;
@@ -166,9 +166,15 @@ void GlobalPlanner::decide(const Eigen::Vector2d& robot_map) {
   revealed_then_ = grid_.revealed();
   plan_ = {};
   field_.search(space_, grid_.resolution(), grid_.cellOf(robot_map));
-  findViewPoints();
-  keepPresentGoal();
-  if (view_points_.empty() && recallAside()) findViewPoints();
+  const auto present = goal_;
+  for (const bool is_last_look : {false, true}) {
+    is_last_look_ = is_last_look;
+    goal_ = present;
+    findViewPoints();
+    keepPresentGoal();
+    if (view_points_.empty() && recallAside()) findViewPoints();
+    if (!view_points_.empty()) break;
+  }
   while (const auto chosen = choose()) {
     plan_.path = shortestPath(space_, grid_.resolution(), field_, chosen->cell);
     if (!goal_ || goal_->target != chosen->target) ++goals_;
@@ -212,21 +218,16 @@ std::optional<ViewPoint> GlobalPlanner::choose() {
 void GlobalPlanner::findViewPoints() {
   struct Candidate {
     double distance;
-    Cell target;
-    Cell middle;
-    bool is_rest;
+    Frontier frontier;
   };
   std::vector<Candidate> candidates;
   const Cell here = grid_.cellOf(decided_at_);
   for (const Frontier& frontier : frontier_cells_.frontiers(kFrontierExtent)) {
     if (frontier.cells.size() < parameters_.smallest_frontier) continue;
-    const auto target = targetBehind(frontier);
-    if (!target) continue;
     const Cell m = frontier.middle;
     const double known_way = field_.distanceTo(m);
     const double line = std::hypot(m.x - here.x, m.y - here.y) * grid_.resolution();
-    candidates.push_back({known_way < DistanceField::kUnreached ? known_way : line, *target, m,
-                          frontier.cells.size() < kRest});
+    candidates.push_back({known_way < DistanceField::kUnreached ? known_way : line, frontier});
   }
   if (candidates.size() > kMostViewPoints) {
     std::stable_sort(candidates.begin(), candidates.end(),
@@ -237,18 +238,15 @@ void GlobalPlanner::findViewPoints() {
   std::vector<ViewPoint> rests;
   for (const Candidate& candidate : candidates) {
     if (view_points_.size() + rests.size() >= kMostViewPoints) break;
-    const double gain = unknownAreaInView(grid_, candidate.target, kGainRange);
-    if (gain < parameters_.smallest_gain) continue;
-    auto view_point = nearestViewPoint(grid_, space_, field_, scanned_, candidate.target, reach());
-    if (!view_point || !isWithinLimits(view_point->cell)) continue;
-    view_point->gain = gain;
-    if (candidate.is_rest) {
+    const auto view_point = viewOf(candidate.frontier);
+    if (!view_point) continue;
+    if (candidate.frontier.cells.size() < kRest) {
       rests.push_back(*view_point);
       continue;
     }
     view_points_.push_back(*view_point);
-    if (const auto entry = entryAt(candidate.middle)) {
-      entries_.push_back({*entry, candidate.target, field_.distanceTo(*entry), gain});
+    if (const auto entry = entryAt(candidate.frontier.middle)) {
+      entries_.push_back({*entry, view_point->target, field_.distanceTo(*entry), view_point->gain});
     }
   }
   only_rests_ = view_points_.empty();
@@ -257,12 +255,22 @@ void GlobalPlanner::findViewPoints() {
   }
 }
 
-// What lies two metres behind a frontier may be inside a wall, or seen from nowhere. It has been
-// set aside then, and the frontier gets another chance with a nearer target.
-std::optional<Cell> GlobalPlanner::targetBehind(const Frontier& frontier) const {
+// What lies two metres behind a frontier may be inside a wall, or seen from nowhere. Once that has
+// been set aside, or nothing else is left to see, the frontier gets another chance with a nearer
+// target.
+std::optional<ViewPoint> GlobalPlanner::viewOf(const Frontier& frontier) const {
   for (const double depth : {kBehindFrontier, 0.25 * kBehindFrontier, 0.0}) {
     const Cell target = cellBehind(grid_, frontier, depth);
-    if (isWithinLimits(target) && !isAside(target)) return target;
+    if (!isWithinLimits(target) || isAside(target)) continue;
+    const double gain = unknownAreaInView(grid_, target, kGainRange);
+    if (gain >= parameters_.smallest_gain) {
+      auto view_point = nearestViewPoint(grid_, space_, field_, scanned_, target, reach());
+      if (view_point && isWithinLimits(view_point->cell)) {
+        view_point->gain = gain;
+        return view_point;
+      }
+    }
+    if (!is_last_look_) break;
   }
   return {};
 }

@@ -83,6 +83,17 @@ TEST(GlobalPlanner, DrivesIntoALargeUnknownPlaceInsteadOfPeeking) {
   EXPECT_NEAR((plan.path.back() - robot).norm(), 4.0, 0.5);
 }
 
+// The corridor is too narrow to enter. From before its mouth one sees to x = 5.7 m, from the start
+// to 4.8 m.
+TEST(GlobalPlanner, LooksAtLastAsFarAsItCanWhereItCannotGo) {
+  const KnownWorld window{{"####################", "#....###############", "#..................#",
+                           "#....###############", "####################"},
+                          10};
+  GlobalPlanner planner;
+  EXPECT_TRUE(drive(planner, window, {0.8, 1.25}).last.finished);
+  EXPECT_EQ(planner.grid().at(planner.grid().cellOf({5.6, 1.26})), CellState::kFree);
+}
+
 TEST(GlobalPlanner, SaysSoWhereTheRobotIsShutIn) {
   const KnownWorld cell{{"###", "#.#", "###"}, 8};  // 0.4 m wide
   GlobalPlanner planner;

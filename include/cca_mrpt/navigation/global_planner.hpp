@@ -99,7 +99,7 @@ class GlobalPlanner {
   void replan(const Eigen::Vector2d& robot_map);
   bool isTimeToReconsider(const Eigen::Vector2d& robot_map) const;
   void decide(const Eigen::Vector2d& robot_map);
-  std::optional<Cell> targetBehind(const Frontier& frontier) const;
+  std::optional<ViewPoint> viewOf(const Frontier& frontier) const;
   void findViewPoints();
   std::optional<Cell> entryAt(Cell middle) const;
   void keepPresentGoal();
@@ -131,7 +131,8 @@ class GlobalPlanner {
   std::vector<Aside> aside_;
   std::vector<Cell> lost_ways_;  ///< targets that could no longer be reached, half-way there
   std::optional<ViewPoint> goal_;
-  double laser_range_ = 1.0;  ///< m, the longest that a beam was seen to be free
+  double laser_range_ = 1.0;   ///< m, the longest that a beam was seen to be free
+  bool is_last_look_ = false;  ///< nothing is left but what is hard to see
   Eigen::Vector2d decided_at_ = Eigen::Vector2d::Zero();
   std::size_t revealed_then_ = 0;  ///< at the last decision
   int goals_ = 0;
