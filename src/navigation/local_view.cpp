@@ -111,6 +111,7 @@ LocalView makeLocalView(const Scan& scan, const std::vector<bool>& moving, const
   const std::size_t n = returns.size();
   for (std::size_t k = 0; k < n; ++k) {
     const Return& a = returns[k];
+    if (!a.moving) view.returns.push_back(a.p_map);
     if (a.moving || view.obstacles.empty() ||
         (view.obstacles.back() - a.p_map).norm() >= 0.5 * kSpacing) {
       add(a.p_map, a.moving, view);

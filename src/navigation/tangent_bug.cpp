@@ -38,6 +38,9 @@ constexpr double kNear = 0.15;           // m, beyond the radius
 constexpr double kPreciseSigma = 0.006;  // m
 constexpr double kUsualSigma = 0.01;     // m
 constexpr int kBearings = 360;
+// m, beside the robot. Ways are planned around obstacle points that are thinned; from a corner that
+// this leaves out, the robot keeps no more than what may hide between two beams.
+constexpr double kBetweenBeams = 0.004;
 constexpr double kControlPeriod = 0.1;  // s
 
 }  // namespace
@@ -270,16 +273,20 @@ Velocity TangentBug::drive(const Velocity& velocity, double time) const {
     return {T_robot_map.x + c * p.x() - s * p.y(), T_robot_map.y + s * p.x() + c * p.y()};
   };
   std::vector<Hazard> hazards;
-  hazards.reserve(view_.obstacles.size() + view_.movers.size());
-  for (const Eigen::Vector2d& p_map : view_.obstacles) hazards.push_back({inRobot(p_map), 0.0});
+  hazards.reserve(view_.obstacles.size() + view_.returns.size() + view_.movers.size());
+  const double clearance = robot_.leastClearance() + noise_allowance_;
+  const double allowance = clearance - robot_.radius - kBetweenBeams;
+  for (const Eigen::Vector2d& p_map : view_.obstacles) hazards.push_back({inRobot(p_map)});
+  for (const Eigen::Vector2d& p_map : view_.returns) {
+    hazards.push_back({inRobot(p_map), 0.0, allowance});
+  }
   for (const auto& points : lately_near_map_) {
-    for (const Eigen::Vector2d& p_map : points) hazards.push_back({inRobot(p_map), 0.0});
+    for (const Eigen::Vector2d& p_map : points) hazards.push_back({inRobot(p_map)});
   }
   for (const auto* points : {&view_.movers, &moving_points_.unsettled()}) {
     for (const Eigen::Vector2d& p_map : *points) hazards.push_back({inRobot(p_map), kWalkingSpeed});
   }
-  return safeVelocity(wanted, velocity, hazards, robot_, robot_.leastClearance() + noise_allowance_,
-                      kControlPeriod);
+  return safeVelocity(wanted, velocity, hazards, robot_, clearance, kControlPeriod);
 }
 
 }  // namespace cca

@@ -73,6 +73,14 @@ TEST(TangentBugQueries, AGoalBesideAPlaceThatWasPromisedInVainIsReached) {
   EXPECT_LT(end.distance, 60.0);
 }
 
+// A corner that the thinned obstacle points leave out used to be touched.
+TEST(TangentBugQueries, ACornerBetweenObstaclePointsIsNotTouched) {
+  const Query query = randomQuery(2736);
+  RunOptions options;
+  options.range = 4.0;
+  EXPECT_GE(run(query.world, query.start, query.goal, options).clearance, options.robot.radius);
+}
+
 // With noise of 1 to 5 cm: no collision, and every drive ends.
 TEST(TangentBugQueries, NoNoiseLeadsIntoAWall) {
   unsigned right = 0, decided = 0, ended = 0;

@@ -44,6 +44,16 @@ TEST(LocalView, ADoorEndsTheSurfacesBesideIt) {
   EXPECT_EQ(surfaceEnds(view), 2u);  // at the door, and behind the robot
 }
 
+TEST(LocalView, ReturnsAreAllThereEvenWhereObstaclesAreThinned) {
+  BoxWorld world;
+  world.add(-0.1, 0.3, 0.1, 0.4);  // beams meet it 5 mm apart
+  const Scan scan = world.scan({0, 0, 0}, 8);
+  const LocalView view = makeLocalView(scan, {}, {}, kGap);
+  EXPECT_EQ(view.returns.size(), static_cast<std::size_t>(std::count_if(
+                                     scan.ranges.begin(), scan.ranges.end(), isReturn)));
+  EXPECT_LT(2 * view.obstacles.size(), view.returns.size());
+}
+
 TEST(LocalView, OneInvalidBeamDoesNotTearAWall) {
   Scan scan = longWall().scan({0, 0, 0}, 2.5);
   scan.ranges[270] = std::numeric_limits<double>::quiet_NaN();

@@ -92,6 +92,16 @@ TEST(SafeVelocity, LeavesAContactButDoesNotDeepenIt) {
   EXPECT_GT(safeVelocity({0.5, 0}, {0, 0}, behind, kRobot, kRadius, kPeriod).linear, 0.0);
 }
 
+TEST(SafeVelocity, AHazardWithAnAllowanceMayComeNearerByIt) {
+  const std::vector<Hazard> strict{{{kRadius + 0.001, 0.0}}};
+  const std::vector<Hazard> lenient{{{kRadius + 0.001, 0.0}, 0.0, 0.1}};
+  const auto speed = [&](const std::vector<Hazard>& hazards) {
+    return safeVelocity({0.1, 0.0}, {0, 0}, hazards, kRobot, kRadius, kPeriod).linear;
+  };
+  EXPECT_LT(speed(strict), 0.02);
+  EXPECT_GT(speed(lenient), 0.02);
+}
+
 TEST(SafeVelocity, BrakesForSomebodyWhoComesNearerAndNotForAWallAsFarAway) {
   const Velocity present{0.7, 0.0};
   const std::vector<Hazard> wall{{{1.2, 0.0}, 0.0}}, walker{{{1.2, 0.0}, 1.0}};

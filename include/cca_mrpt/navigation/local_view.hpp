@@ -14,6 +14,9 @@ struct LocalView {
   Pose2 T_map_sensor;
   std::vector<Eigen::Vector2d> obstacles;  ///< m, map frame, counter-clockwise around the sensor;
                                            ///< walls are sampled without holes
+  std::vector<Eigen::Vector2d> returns;    ///< m, map frame: all that stands still. The obstacles
+                                           ///< leave out what lies within 2.5 cm of the one before,
+                                           ///< which may be a corner.
   std::vector<bool> ends_here;  ///< by obstacle: the surface ends between it and the next one
   std::vector<Eigen::Vector2d> movers;  ///< m, map frame, points of what moves
   std::vector<double> seen;  ///< m, beam by beam: seen free up to here; 0 for an invalid beam

@@ -12,6 +12,7 @@ namespace cca {
 struct Hazard {
   Eigen::Vector2d p_robot;     ///< m, robot frame
   double closing_speed = 0.0;  ///< m/s, how fast it may come nearer (0: it stands)
+  double allowance = 0.0;      ///< m, by which it may be inside the radius
 };
 
 /// The last word on what the robot does: the velocity nearest to the wanted one from which it can
@@ -19,9 +20,9 @@ struct Hazard {
 ///
 /// A command is safe where the motion that it starts, one control period at that command, then
 /// braking both velocities with the robot's accelerations, keeps every hazard outside the disc of
-/// `radius`; a hazard that is inside already must not come nearer. Braking at once is what the
-/// safety of the last command rests on, so it is the answer where nothing else is safe. Turning on
-/// the spot is always safe for a disc.
+/// `radius` less its allowance; a hazard that is inside already must not come nearer. Braking at
+/// once is what the safety of the last command rests on, so it is the answer where nothing else is
+/// safe. Turning on the spot is always safe for a disc.
 ///
 /// @param wanted   any; clamped to what the accelerations allow in one period.
 /// @param present  the velocity now.
