@@ -27,16 +27,9 @@ constexpr double kGainRange = 3.0;           // m, around what is to be seen
 constexpr std::size_t kMostViewPoints = 60;  // of a decision; the nearest frontiers
 constexpr double kReconsiderAfter = 0.3;     // m driven
 constexpr std::size_t kWorthReconsidering = 20;  // cells newly seen
-constexpr std::size_t kWorthAnotherTry = 200;    // cells newly seen: half a square metre
-constexpr std::size_t kRetryAfter = 4000;        // cells newly seen: 10 m^2
 constexpr double kLongestStep = 0.5;             // m, between scans; a farther one is a jump
 constexpr double kPassed = 0.1;                  // m, of a corner
 constexpr double kMuchShorter = 0.5;             // m
-constexpr int kSameTarget = 3;                   // cells
-
-bool isSameTarget(Cell a, Cell b) {
-  return std::max(std::abs(a.x - b.x), std::abs(a.y - b.y)) <= kSameTarget;
-}
 
 bool isInside(const std::vector<Eigen::Vector2d>& polygon, const Eigen::Vector2d& p) {
   bool inside = false;
@@ -144,7 +137,7 @@ void GlobalPlanner::replan(const Eigen::Vector2d& robot_map) {
                 goal_->cell);
   plan_.path = shortestPath(space_, grid_.resolution(), field_, goal_->cell);
   if (plan_.path.empty()) {
-    noteLostWay();
+    if (aside_.isLostAgain(goal_->target)) setGoalAside();
     decide(robot_map);
   } else if (plan_.path.size() == 1) {
     plan_.path.insert(plan_.path.begin(), robot_map);
@@ -166,13 +159,14 @@ void GlobalPlanner::decide(const Eigen::Vector2d& robot_map) {
   revealed_then_ = grid_.revealed();
   plan_ = {};
   field_.search(space_, grid_.resolution(), grid_.cellOf(robot_map));
+  // Before it ends, what was set aside gets another chance, and then what is hard to see.
   const auto present = goal_;
   for (const bool is_last_look : {false, true}) {
     is_last_look_ = is_last_look;
     goal_ = present;
     findViewPoints();
     keepPresentGoal();
-    if (view_points_.empty() && recallAside()) findViewPoints();
+    if (view_points_.empty() && aside_.recall(grid_.revealed())) findViewPoints();
     if (!view_points_.empty()) break;
   }
   while (const auto chosen = choose()) {
@@ -245,6 +239,7 @@ void GlobalPlanner::findViewPoints() {
       continue;
     }
     view_points_.push_back(*view_point);
+    if (strategy_ != Strategy::kViewTour) continue;
     if (const auto entry = entryAt(candidate.frontier.middle)) {
       entries_.push_back({*entry, view_point->target, field_.distanceTo(*entry), view_point->gain});
     }
@@ -261,7 +256,7 @@ void GlobalPlanner::findViewPoints() {
 std::optional<ViewPoint> GlobalPlanner::viewOf(const Frontier& frontier) const {
   for (const double depth : {kBehindFrontier, 0.25 * kBehindFrontier, 0.0}) {
     const Cell target = cellBehind(grid_, frontier, depth);
-    if (!isWithinLimits(target) || isAside(target)) continue;
+    if (!isWithinLimits(target) || aside_.contains(target, grid_.revealed())) continue;
     const double gain = unknownAreaInView(grid_, target, kGainRange);
     if (gain >= parameters_.smallest_gain) {
       auto view_point = nearestViewPoint(grid_, space_, field_, scanned_, target, reach());
@@ -320,21 +315,8 @@ void GlobalPlanner::keepPresentGoal() {
 }
 
 void GlobalPlanner::setGoalAside() {
-  if (goal_) aside_.push_back({goal_->target, grid_.revealed()});
+  if (goal_) aside_.add(goal_->target, grid_.revealed());
   goal_.reset();
-}
-
-// A passage about as wide as the robot may look open from afar and shut from nearby, each time that
-// the robot comes: once may be somebody in the way, twice sets the goal aside.
-void GlobalPlanner::noteLostWay() {
-  const Cell target = goal_->target;
-  const bool again = std::any_of(lost_ways_.begin(), lost_ways_.end(),
-                                 [&](Cell lost) { return isSameTarget(lost, target); });
-  if (again) {
-    setGoalAside();
-  } else {
-    lost_ways_.push_back(target);
-  }
 }
 
 void GlobalPlanner::noteArrival() {
@@ -343,23 +325,6 @@ void GlobalPlanner::noteArrival() {
 
 void GlobalPlanner::noteLookAround(const Eigen::Vector2d& robot_map) {
   if (isOnGrid(robot_map)) scanned_.addAll(grid_.cellOf(robot_map));
-}
-
-// Before it ends, what was set aside gets another chance if enough has been seen since then.
-bool GlobalPlanner::recallAside() {
-  const auto stale = [this](const Aside& a) {
-    return grid_.revealed() > a.revealed_then + kWorthAnotherTry;
-  };
-  const auto kept = std::remove_if(aside_.begin(), aside_.end(), stale);
-  const bool any = kept != aside_.end();
-  aside_.erase(kept, aside_.end());
-  return any;
-}
-
-bool GlobalPlanner::isAside(Cell target) const {
-  return std::any_of(aside_.begin(), aside_.end(), [&](const Aside& a) {
-    return isSameTarget(a.target, target) && grid_.revealed() < a.revealed_then + kRetryAfter;
-  });
 }
 
 bool GlobalPlanner::isWithinLimits(Cell c) const {

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "cca_mrpt/navigation/aside_goals.hpp"
 #include "cca_mrpt/navigation/exploration_grid.hpp"
 #include "cca_mrpt/navigation/free_space.hpp"
 #include "cca_mrpt/navigation/frontier.hpp"
@@ -104,17 +105,9 @@ class GlobalPlanner {
   std::optional<Cell> entryAt(Cell middle) const;
   void keepPresentGoal();
   std::optional<ViewPoint> choose();
-  void noteLostWay();
-  bool recallAside();
-  bool isAside(Cell target) const;
   bool isWithinLimits(Cell c) const;
   double reach() const;
   bool isOnGrid(const Eigen::Vector2d& p_map) const;
-
-  struct Aside {
-    Cell target;
-    std::size_t revealed_then;
-  };
 
   GlobalPlannerParameters parameters_;
   Strategy strategy_;
@@ -128,8 +121,7 @@ class GlobalPlanner {
   std::vector<ViewPoint> view_points_;
   std::vector<ViewPoint> entries_;  ///< places at the frontiers themselves, rests left out
   bool only_rests_ = false;         ///< whether the view points are rests
-  std::vector<Aside> aside_;
-  std::vector<Cell> lost_ways_;  ///< targets that could no longer be reached, half-way there
+  AsideGoals aside_;
   std::optional<ViewPoint> goal_;
   double laser_range_ = 1.0;   ///< m, the longest that a beam was seen to be free
   bool is_last_look_ = false;  ///< nothing is left but what is hard to see

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "cca_mrpt/navigation/aside_goals.hpp"
+
+#include <algorithm>
+#include <cstdlib>
+
+namespace cca {
+namespace {
+
+constexpr std::size_t kWorthAnotherTry = 200;  // cells newly seen: half a square metre
+constexpr std::size_t kRetryAfter = 4000;      // cells newly seen: 10 m^2
+constexpr int kSameTarget = 3;                 // cells
+
+bool isSameTarget(Cell a, Cell b) {
+  return std::max(std::abs(a.x - b.x), std::abs(a.y - b.y)) <= kSameTarget;
+}
+
+}  // namespace
+
+void AsideGoals::add(Cell target, std::size_t revealed) { aside_.push_back({target, revealed}); }
+
+bool AsideGoals::isLostAgain(Cell target) {
+  const bool again = std::any_of(lost_ways_.begin(), lost_ways_.end(),
+                                 [&](Cell lost) { return isSameTarget(lost, target); });
+  if (!again) lost_ways_.push_back(target);
+  return again;
+}
+
+bool AsideGoals::contains(Cell target, std::size_t revealed) const {
+  return std::any_of(aside_.begin(), aside_.end(), [&](const Aside& a) {
+    return isSameTarget(a.target, target) && revealed < a.revealed_then + kRetryAfter;
+  });
+}
+
+bool AsideGoals::recall(std::size_t revealed) {
+  const auto kept = std::remove_if(aside_.begin(), aside_.end(), [&](const Aside& a) {
+    return revealed > a.revealed_then + kWorthAnotherTry;
+  });
+  const bool any = kept != aside_.end();
+  aside_.erase(kept, aside_.end());
+  return any;
+}
+
+}  // namespace cca
