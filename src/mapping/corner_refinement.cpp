@@ -32,8 +32,11 @@ int bestParting(const RunFitter& fitter, int first, int low, int high, int last,
   int best = -1;
   double least = price - kNoGain;
   for (int middle = low; middle <= high; ++middle) {
-    if (fitter.leastPriceOfTwo(first, middle, last) >= least) continue;
-    const double parted = fitter.priceOfTwo(first, middle, last);
+    const double least_after = fitter.leastPrice(middle, last);
+    if (fitter.leastPrice(first, middle) + least_after >= least) continue;
+    const double before = fitter.price(first, middle);
+    if (before + least_after >= least) continue;
+    const double parted = before + fitter.price(middle, last);
     if (parted < least) {
       least = parted;
       best = middle;
@@ -184,9 +187,7 @@ bool findEdgeBetween(const ScanPoints& points, const RunFitter& fitter, double l
   const int to = std::min(last - kFewestPoints, high + kReach);
   if (from > low || to < high) return false;
   double least = 0.5 * (a->chi_square + b->chi_square) + loose_price - kEdgePrice;
-  const auto leastOf = [&](int i, int j) {
-    return fitter.leastHalfChiSquare(fitter.prefix().run(i, j));
-  };
+  const auto leastOf = [&](int i, int j) { return i < j ? fitter.leastHalfChiSquare(i, j) : 0.0; };
   // Fewer points have smaller residuals: where none at all would not pay, nothing does.
   const double least_after = leastOf(to, last);
   if (leastOf(first, from) + least_after >= least) return false;
@@ -231,9 +232,12 @@ void meetAtCorners(const ScanPoints& points, const RunFitter& fitter, Runs* runs
     const int to = std::min(last, a.last + kReach);
     double least = a.price + b.price + kMeetingPrice;
     for (int middle = from; middle <= to; ++middle) {
-      if (fitter.leastPriceOfTwo(first, middle, last) >= least) continue;
-      const FittedRun left = fitter.fit(first, middle), right = fitter.fit(middle, last);
-      if (!left.is_line || !right.is_line || left.price + right.price >= least) continue;
+      const double least_right = fitter.leastPrice(middle, last);
+      if (fitter.leastPrice(first, middle) + least_right >= least) continue;
+      const FittedRun left = fitter.fit(first, middle);
+      if (!left.is_line || left.price + least_right >= least) continue;
+      const FittedRun right = fitter.fit(middle, last);
+      if (!right.is_line || left.price + right.price >= least) continue;
       if (!meetAtBoundary(points, left, right)) continue;
       least = left.price + right.price;
       a = left;

@@ -24,19 +24,6 @@ RunFitter::RunFitter(const std::vector<Eigen::Vector2d>& points, const PointNois
   half_over_most_variance_ = 0.5 / noise.mostAcross(farthest_sq);
 }
 
-FittedSegment RunFitter::fit(const PointMoments& moments) const {
-  const FittedLine line = fitLine(moments);
-  return {moments, line, noise_.onLine(line.centroid, line.direction)};
-}
-
-FittedRun RunFitter::fit(int first, int last) const {
-  FittedRun run;
-  static_cast<FittedSegment&>(run) = fit(prefix_.run(first, last));
-  run.first = first;
-  run.last = last;
-  return run;
-}
-
 double RunFitter::price(int first, int last) const {
   const double alone = kPointPrice * std::max(0, last - first);
   if (last - first < kFewestPoints) return alone;

@@ -34,11 +34,11 @@ double similarityToNext(const ScanPoints& points, const RunFitter& fitter, doubl
   run->similarity = 0.0;
   run->similarity_is_bound = false;
   if (!mayFollow(points, *run, next)) return 0.0;
-  const PointMoments moments = fitter.prefix().run(run->first, next.last);
-  run->similarity = mostFitMembership(*run, next, fitter.leastHalfChiSquare(moments));
+  run->similarity = mostFitMembership(*run, next, fitter.leastHalfChiSquare(run->first, next.last));
   run->similarity_is_bound = run->similarity < cut;
   if (run->similarity_is_bound) return run->similarity;
-  run->similarity = memberships(*run, next, fitter.fit(moments), 0.0, 0.0).similarity();
+  const JointFit joint = fitter.fitJointly(fitter.prefix().run(run->first, next.last));
+  run->similarity = memberships(*run, next, joint, 0.0, 0.0).similarity();
   return run->similarity;
 }
 
@@ -48,19 +48,16 @@ SimilarityMatrix similarityOfRow(const ScanPoints& points, const RunFitter& fitt
   SimilarityMatrix s(last - first);
   for (int i = first; i + 1 < last; ++i) {
     double similarity = runs[i].similarity;
-    FittedSegment row;
     for (int j = i + 1; similarity >= cut; ++j) {
       s.set(i - first, j - first, similarity);
       const int next = j + 1;
       if (next >= last || next > i + kNeighbours) break;
       const FittedRun &before = runs[j], &far = runs[next];
       if (!mayFollow(points, before, far)) break;
-      if (j == i + 1) row = fitter.fit(fitter.prefix().run(runs[i].first, before.last));
-      const PointMoments moments = fitter.prefix().run(runs[i].first, far.last);
-      if (mostFitMembership(row, far, fitter.leastHalfChiSquare(moments)) < cut) break;
-      const FittedSegment joint = fitter.fit(moments);
+      const FittedRun row = fitter.fit(runs[i].first, before.last);
+      if (mostFitMembership(row, far, fitter.leastHalfChiSquare(row.first, far.last)) < cut) break;
+      const JointFit joint = fitter.fitJointly(fitter.prefix().run(row.first, far.last));
       similarity = memberships(row, far, joint, 0.0, 0.0).similarity();
-      row = joint;
     }
   }
   return s;
@@ -153,8 +150,8 @@ bool mergeInterrupted(const ScanPoints& points, const RunFitter& fitter, double 
       PointMoments moments = a.fit.moments;
       moments.add(b.fit.moments);
       if (mostFitMembership(a.fit, b.fit, fitter.leastHalfChiSquare(moments)) < cut) continue;
+      if (fitMembership(a.fit, b.fit, fitter.fitJointly(moments)) < cut) continue;
       const FittedSegment joint = fitter.fit(moments);
-      if (fitMembership(a.fit, b.fit, joint) < cut) continue;
       const double against = gapEvidence(points, joint, runs, a, b, most);
       if (against > most) continue;
       s.set(i, j, memberships(a.fit, b.fit, joint, against, 0.0).similarity());

@@ -53,17 +53,16 @@ std::optional<Eigen::Vector2d> intersection(const FittedLine& a, const FittedLin
 PrefixMoments::PrefixMoments(const std::vector<Eigen::Vector2d>& points) {
   for (const Eigen::Vector2d& p : points) origin_ += p;
   if (!points.empty()) origin_ /= static_cast<double>(points.size());
-  sums_.reserve(points.size() + 1);
+  sums_.resize(points.size() + 1);
   Sums sums;
-  sums_.push_back(sums);
-  for (const Eigen::Vector2d& p : points) {
-    const double x = p.x() - origin_.x(), y = p.y() - origin_.y();
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const double x = points[i].x() - origin_.x(), y = points[i].y() - origin_.y();
     sums.x += x;
     sums.y += y;
     sums.xx += x * x;
     sums.xy += x * y;
     sums.yy += y * y;
-    sums_.push_back(sums);
+    sums_[i + 1] = sums;
   }
 }
 

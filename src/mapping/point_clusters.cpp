@@ -25,8 +25,12 @@ class CentroidRing {
     for (std::size_t k = 0; k < order.size(); ++k) {
       const Eigen::Vector2d& c = centroids[order[k]];
       const double norm = c.norm();
-      ring_[k] = {c, norm > 0.0 ? Eigen::Vector2d(c / norm) : Eigen::Vector2d::Zero(), order[k]};
+      ring_[k] = {c, norm > 0.0 ? Eigen::Vector2d(c / norm) : Eigen::Vector2d::Zero(), order[k],
+                  0.0};
       place_[order[k]] = static_cast<int>(k);
+    }
+    for (std::size_t k = 0; k < ring_.size(); ++k) {
+      ring_[k].unrivalled_sq = kQuarter * sqToNearestOther(static_cast<int>(k));
     }
   }
 
@@ -35,6 +39,7 @@ class CentroidRing {
     const int n = static_cast<int>(ring_.size()), start = place_[guess];
     int best = guess;
     double best_sq = (p - ring_[start].centroid).squaredNorm();
+    if (best_sq < ring_[start].unrivalled_sq) return guess;
     for (const int step : {1, n - 1}) {
       int place = start;
       for (int walked = 1; walked < n; ++walked) {
@@ -56,7 +61,26 @@ class CentroidRing {
   struct Member {
     Eigen::Vector2d centroid, ray;
     int index;
+    /// m^2; points nearer than half the way to the next centroid have no other nearest.
+    double unrivalled_sq = 0.0;
   };
+  static constexpr double kQuarter = 0.25 * (1.0 - 1e-9);  // the square of half, less rounding
+
+  double sqToNearestOther(int own) const {
+    const Eigen::Vector2d& c = ring_[own].centroid;
+    const int n = static_cast<int>(ring_.size());
+    double least_sq = std::numeric_limits<double>::infinity();
+    for (const int step : {1, n - 1}) {
+      int place = own;
+      for (int walked = 1; walked < n; ++walked) {
+        place += step;
+        if (place >= n) place -= n;
+        if (lowerBoundSq(c, ring_[place].ray) > least_sq) break;
+        least_sq = std::min(least_sq, (c - ring_[place].centroid).squaredNorm());
+      }
+    }
+    return least_sq;
+  }
 
   /// Centroids of a scan mostly follow one another already: bearings are asked for only if not.
   static std::vector<int> byBearing(const std::vector<Eigen::Vector2d>& centroids) {
@@ -103,11 +127,13 @@ void moveToMeans(const std::vector<Eigen::Vector2d>& positions, const std::vecto
 bool isLinear(const ScanPoints& points, const PrefixMoments& prefix, const PointNoise& noise,
               const PointCluster& run) {
   if (run.size() <= 2) return true;
-  const FittedLine line = fitLine(prefix.run(run.first, run.last));
-  const Eigen::Vector2d normal(-line.direction.y(), line.direction.x());
-  const double variance = noise.onLine(line.centroid, line.direction).across;
+  const PointMoments moments = prefix.run(run.first, run.last);
+  const PrincipalAxis axis = principalAxis(moments);
+  const double variance = noise.onLine(moments.mean, axis).across;
   const double gate_sq = kResidualGate * kResidualGate * variance;
-  if (line.residual_sum_sq <= gate_sq) return true;
+  if (axis.residual_sum_sq <= gate_sq) return true;
+  const FittedLine line = fitLine(moments);
+  const Eigen::Vector2d normal(-line.direction.y(), line.direction.x());
   for (int i = run.first; i < run.last; ++i) {
     const double distance = normal.dot(points.positions[i] - line.centroid);
     if (distance * distance > gate_sq) return false;

@@ -16,14 +16,17 @@ constexpr double kUniformToSigma = 0.28867513459481287;  // 1 / sqrt 12
 /// sector.
 constexpr double kBearingShare = 0.25 * kUniformToSigma;
 
-/// The smallest step between neighbouring ranges: the quantum, where ranges are rounded.
-double rangeQuantum(const std::vector<double>& ranges) {
+/// The smallest step between neighbouring ranges: the quantum, where ranges are rounded. Not sought
+/// below `least`.
+double rangeQuantum(const std::vector<double>& ranges, double least) {
   constexpr double kRounding = 1e-9;
   double quantum = 0.0;
   for (std::size_t i = 1; i < ranges.size(); ++i) {
     if (!isReturn(ranges[i - 1]) || !isReturn(ranges[i])) continue;
     const double step = std::abs(ranges[i] - ranges[i - 1]);
-    if (step > kRounding && (quantum == 0.0 || step < quantum)) quantum = step;
+    if (step <= kRounding || (quantum > 0.0 && step >= quantum)) continue;
+    quantum = step;
+    if (quantum <= least) break;
   }
   return quantum;
 }
@@ -53,11 +56,17 @@ std::vector<Deviation> deviations(const Scan& scan) {
   return found;
 }
 
-template <class Less>
-void lowerHalf(std::vector<Deviation>* all, Less less) {
+/// Of the half with the smaller slopes.
+double medianDeviation(std::vector<Deviation>* all) {
   const auto middle = all->begin() + static_cast<std::ptrdiff_t>(all->size() / 2);
-  std::nth_element(all->begin(), middle, all->end(), less);
-  all->erase(middle + 1, all->end());
+  std::nth_element(all->begin(), middle, all->end(),
+                   [](const Deviation& a, const Deviation& b) { return a.slope < b.slope; });
+  std::vector<double> values;
+  values.reserve(all->size() / 2 + 1);
+  for (auto d = all->begin(); d <= middle; ++d) values.push_back(d->value);
+  const auto median = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), median, values.end());
+  return *median;
 }
 
 }  // namespace
@@ -68,10 +77,10 @@ PointNoise rangeNoise(const Scan& scan) {
   noise.bearing_sigma = kBearingShare * std::abs(scan.angle_increment);
   std::vector<Deviation> all = deviations(scan);
   if (all.empty()) return noise;
-  lowerHalf(&all, [](const Deviation& a, const Deviation& b) { return a.slope < b.slope; });
-  lowerHalf(&all, [](const Deviation& a, const Deviation& b) { return a.value < b.value; });
-  noise.range_sigma = std::max({kFinestSigma, kMedianToSigma * all.back().value / kSecondDifference,
-                                kUniformToSigma * rangeQuantum(scan.ranges)});
+  const double sigma =
+      std::max(kFinestSigma, kMedianToSigma * medianDeviation(&all) / kSecondDifference);
+  const double quantum = rangeQuantum(scan.ranges, sigma / kUniformToSigma);
+  noise.range_sigma = std::max(sigma, kUniformToSigma * quantum);
   return noise;
 }
 

@@ -49,12 +49,12 @@ double mostFitMembership(const FittedSegment& a, const FittedSegment& b,
   return saved <= 0.0 ? 0.0 : bell(std::max(0.0, evidence), saved);
 }
 
-double fitMembership(const FittedSegment& a, const FittedSegment& b, const FittedSegment& joint) {
-  if (joint.moments.weight < kFewestPoints) return 0.0;
+double fitMembership(const FittedSegment& a, const FittedSegment& b, const JointFit& joint) {
+  if (joint.points < kFewestPoints) return 0.0;
   return mostFitMembership(a, b, 0.5 * joint.chi_square);
 }
 
-Memberships memberships(const FittedSegment& a, const FittedSegment& b, const FittedSegment& joint,
+Memberships memberships(const FittedSegment& a, const FittedSegment& b, const JointFit& joint,
                         double gap_evidence, double overlap) {
   Memberships mu;
   mu.fit = fitMembership(a, b, joint);

@@ -44,6 +44,21 @@ struct FittedSegment {
   FittedSegment(const PointMoments& points, const FittedLine& fitted, const LineNoise& noise);
 };
 
+/// What one line through the points of two segments leaves over: all that their similarity asks of
+/// it.
+struct JointFit {
+  double points;      ///< their number
+  double variance;    ///< m^2, > 0, of one point's distance from the line
+  double chi_square;  ///< sum of the squared residuals over their variance
+
+  JointFit(const FittedSegment& s)
+      : points(s.moments.weight), variance(s.variance), chi_square(s.chi_square) {}
+  JointFit(const PointMoments& moments, const PrincipalAxis& axis, const PointNoise& noise)
+      : points(moments.weight),
+        variance(noise.onLine(moments.mean, axis).across),
+        chi_square(axis.residual_sum_sq / variance) {}
+};
+
 /// A run of neighbouring points of a scan, first <= i < last.
 struct FittedRun : FittedSegment {
   int first = 0;
@@ -57,6 +72,10 @@ struct FittedRun : FittedSegment {
   double similarity = 0.0;
   bool similarity_is_bound = false;  ///< it is not known, but not above that
 
+  FittedRun() = default;
+  FittedRun(const PointMoments& points, const FittedLine& fitted, const LineNoise& noise, int from,
+            int to)
+      : FittedSegment(points, fitted, noise), first(from), last(to) {}
   int size() const { return last - first; }
 };
 
@@ -65,18 +84,27 @@ class RunFitter {
  public:
   RunFitter(const std::vector<Eigen::Vector2d>& points, const PointNoise& noise);
 
-  FittedRun fit(int first, int last) const;
-  /// The price alone, of two runs that share first <= i < last at `middle`.
-  double priceOfTwo(int first, int middle, int last) const {
-    return price(first, middle) + price(middle, last);
+  FittedRun fit(int first, int last) const {
+    const PointMoments moments = prefix_.run(first, last);
+    const FittedLine line = fitLine(moments);
+    return {moments, line, noise_.onLine(line.centroid, line.direction), first, last};
   }
   /// The price of a run alone: the same as fit(first, last).price, cheaper; 0 of an empty run.
   double price(int first, int last) const;
-  /// A lower bound of priceOfTwo(), without roots: most partings are not worth more.
-  double leastPriceOfTwo(int first, int middle, int last) const {
-    return leastPrice(first, middle) + leastPrice(middle, last);
+  /// A lower bound of price(), without roots: most partings are not worth more.
+  double leastPrice(int first, int last) const {
+    const double points = last - first, alone = kPointPrice * points;
+    if (points < kFewestPoints) return alone;
+    return std::min(alone, kLinePrice + leastHalfChiSquare(first, last));
   }
-  FittedSegment fit(const PointMoments& moments) const;
+  FittedSegment fit(const PointMoments& moments) const {
+    const FittedLine line = fitLine(moments);
+    return {moments, line, noise_.onLine(line.centroid, line.direction)};
+  }
+  /// The same without the line's direction, cheaper.
+  JointFit fitJointly(const PointMoments& moments) const {
+    return {moments, principalAxis(moments), noise_};
+  }
   /// Whether the points are spread over more than their noise, however many there are.
   bool hasDirection(const FittedSegment& s) const {
     return isDrawnOut(s.moments.weight, s.line.spread_sum_sq,
@@ -89,15 +117,13 @@ class RunFitter {
     const double least = xx + yy > 0.0 ? (xx * yy - xy * xy) / (xx + yy) : 0.0;
     return least * half_over_most_variance_;
   }
+  /// The same of points first <= i < last, at least one.
+  double leastHalfChiSquare(int first, int last) const {
+    return prefix_.leastResidual(first, last) * half_over_most_variance_;
+  }
   const PrefixMoments& prefix() const { return prefix_; }
 
  private:
-  double leastPrice(int first, int last) const {
-    const double points = last - first, alone = kPointPrice * points;
-    if (points < kFewestPoints) return alone;
-    return std::min(alone, kLinePrice + leastHalfChiSquare(prefix_.run(first, last)));
-  }
-
   PrefixMoments prefix_;
   PointNoise noise_;
   double half_over_most_variance_;  ///< 1/m^2, of any line through these points

@@ -92,6 +92,16 @@ class PrefixMoments {
     moments.scatter << b.xx - a.xx - n * x * x, xy, xy, b.yy - a.yy - n * y * y;
     return moments;
   }
+  /// m^2, a lower bound of the residual_sum_sq of points first <= i < last, at least one.
+  double leastResidual(int first, int last) const {
+    const Sums &a = sums_[static_cast<std::size_t>(first)],
+               &b = sums_[static_cast<std::size_t>(last)];
+    const double n = last - first, x = b.x - a.x, y = b.y - a.y;
+    // The smaller eigenvalue is at least determinant / trace; here of n times the scatter.
+    const double xx = n * (b.xx - a.xx) - x * x, yy = n * (b.yy - a.yy) - y * y;
+    const double xy = n * (b.xy - a.xy) - x * y, trace = xx + yy;
+    return trace > 0.0 ? (xx * yy - xy * xy) / (n * trace) : 0.0;
+  }
 
  private:
   struct Sums {

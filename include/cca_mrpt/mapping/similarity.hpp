@@ -31,7 +31,7 @@ struct Memberships {
 
 /// mu_4 alone: the cheapest, and the first to fail.
 /// @param joint  fit of the points of both.
-double fitMembership(const FittedSegment& a, const FittedSegment& b, const FittedSegment& joint);
+double fitMembership(const FittedSegment& a, const FittedSegment& b, const JointFit& joint);
 /// What mu_4 cannot exceed, before the points of both are fitted.
 /// @param least_half_chi_square  that of the joint fit is not less:
 /// RunFitter::leastHalfChiSquare().
@@ -42,7 +42,7 @@ double mostFitMembership(const FittedSegment& a, const FittedSegment& b,
 /// @param joint        fit of the points of both.
 /// @param gap_evidence rays, >= 0: that pass where the joint line is, or end before it unexplained.
 /// @param overlap      [0, 1], share of the shorter one that lies beside the other.
-Memberships memberships(const FittedSegment& a, const FittedSegment& b, const FittedSegment& joint,
+Memberships memberships(const FittedSegment& a, const FittedSegment& b, const JointFit& joint,
                         double gap_evidence, double overlap);
 
 /// The Similarity Index Matrix: symmetric, in [0, 1], unit diagonal, 0 where nothing is set.
