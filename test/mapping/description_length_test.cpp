@@ -20,6 +20,22 @@ TEST(RunFitter, PricesARunAsItsFitDoes) {
   EXPECT_EQ(fitter.price(5, 5), 0.0);
 }
 
+TEST(RunFitter, BoundsPricesResidualsAndJointFitsFromBelow) {
+  std::mt19937 random(4);
+  const ScanPoints points = scanPoints(turnIn(rectangle(-2.0, -1.0, 3.0, 2.0), 0.03, &random));
+  const RunFitter fitter(points.positions, {0.035, 0.001, 0.0});
+  for (int first = 0; first < 360; first += 11) {
+    for (int last = first + 1; last <= 360; last += 13) {
+      const FittedRun run = fitter.fit(first, last);
+      EXPECT_LE(fitter.leastPrice(first, last), run.price + 1e-6);
+      const double bound = fitter.leastHalfChiSquare(first, last);
+      EXPECT_LE(bound, 0.5 * run.chi_square + 1e-6);
+      EXPECT_NEAR(bound, fitter.leastHalfChiSquare(run.moments), 1e-6);
+      EXPECT_NEAR(fitter.fitJointly(run.moments).chi_square, run.chi_square, 1e-6);
+    }
+  }
+}
+
 TEST(RunFitter, TakesNoTwoPointsAndNoHeapForALine) {
   const std::vector<Eigen::Vector2d> points = {{1, 0}, {1, 1}, {2, 2}, {2, 2}, {2, 2}, {2, 2}};
   const RunFitter fitter(points, {0.01, 0.001, 0.0});

@@ -105,6 +105,29 @@ TEST(ScanPoints, ReopenedKeepTheirPointsAndTheirSilence) {
   }
 }
 
+TEST(ScanPoints, ReopenedKeepTheirStepsInDepth) {
+  Scan scan;
+  scan.angle_min = -M_PI;
+  scan.angle_increment = 2.0 * M_PI / 100.0;
+  for (int i = 0; i < 100; ++i) scan.ranges.push_back(i % 25 == 7 ? kInf : i < 50 ? 2.0 : 4.0);
+  const ScanPoints before = scanPoints(scan);
+  const int n = static_cast<int>(before.size());
+  EXPECT_EQ(before.breaksBetween(0, n - 1), 3 + 2);
+  for (int first = 1; first < n; ++first) {
+    ScanPoints points = before;
+    reopen(first, &points);
+    for (int i = 1; i < n - first; ++i) {
+      EXPECT_EQ(points.breaksBetween(i - 1, i), before.breaksBetween(i + first - 1, i + first));
+    }
+    reopen(n - first, &points);
+    EXPECT_EQ(points.beams, before.beams);
+    for (int i = 0; i < n; ++i) {
+      EXPECT_EQ(points.breaksBetween(0, i), before.breaksBetween(0, i));
+      EXPECT_EQ(points.silentBetween(0, i), before.silentBetween(0, i));
+    }
+  }
+}
+
 TEST(ScanPoints, AreEmptyForScansThatCannotBeRead) {
   Scan scan;
   EXPECT_EQ(scanPoints(scan).size(), 0u);
