@@ -77,6 +77,12 @@ bool GlobalPlanner::isOnGrid(const Eigen::Vector2d& p_map) const {
 const Plan& GlobalPlanner::update(const Scan& scan, const Eigen::Vector2d& robot_map) {
   observe(scan, robot_map);
   if (!isOnGrid(robot_map) || grid_.revealed() == 0) return plan_;
+  // What stands beside a laser of less than 360 degrees is not known before it has turned once.
+  if (!has_looked_around_) has_looked_around_ = scanned_.contains(grid_.cellOf(robot_map));
+  if (!has_looked_around_) {
+    lookAround();
+    return plan_;
+  }
   if (!goalStands() || isTimeToReconsider(robot_map)) {
     decide(robot_map);
   } else {
@@ -187,14 +193,19 @@ void GlobalPlanner::decide(const Eigen::Vector2d& robot_map) {
   }
   goal_.reset();
   if (!scanned_.contains(grid_.cellOf(robot_map))) {
-    plan_.look_around = true;
-    plan_.reason = "to look around";
+    lookAround();
     return;
   }
   plan_.finished = true;
   plan_.reason = field_.isStarted()
                      ? "no reachable frontier of useful size is left"
                      : "the robot stands where nothing around it is known to be free";
+}
+
+void GlobalPlanner::lookAround() {
+  plan_ = {};
+  plan_.look_around = true;
+  plan_.reason = "to look around";
 }
 
 std::optional<ViewPoint> GlobalPlanner::choose() {

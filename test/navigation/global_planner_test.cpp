@@ -93,6 +93,22 @@ TEST(GlobalPlanner, LooksAtLastAsFarAsItCanWhereItCannotGo) {
   EXPECT_EQ(planner.grid().at(planner.grid().cellOf({6.3, 1.376})), CellState::kFree);
 }
 
+// What stands beside the robot at the start is in nobody's memory.
+TEST(GlobalPlanner, ANarrowLaserLooksAroundBeforeItFirstDrives) {
+  GlobalPlanner planner;
+  Scan scan = kTwoRooms.scanFrom({1.0, 1.0, 0.0}, 4.0);
+  scan.ranges.resize(scan.ranges.size() / 4);
+  const std::size_t looks = 5;  // an eighth of a turn each
+  for (std::size_t k = 0; k < looks; ++k) {
+    EXPECT_TRUE(planner.update(scan, {1.0, 1.0}).look_around) << k;
+    scan = kTwoRooms.scanFrom({1.0, 1.0, 0.25 * M_PI * static_cast<double>(k + 1)}, 4.0);
+    scan.ranges.resize(scan.ranges.size() / 4);
+  }
+  planner.update(kTwoRooms.scanFrom({1.0, 1.0, M_PI}, 4.0), {1.0, 1.0});
+  EXPECT_FALSE(planner.plan().look_around);
+  EXPECT_FALSE(planner.plan().path.empty());
+}
+
 TEST(GlobalPlanner, SaysSoWhereTheRobotIsShutIn) {
   const KnownWorld cell{{"###", "#.#", "###"}, 8};  // 0.4 m wide
   GlobalPlanner planner;

@@ -34,8 +34,8 @@ struct Plan {
   /// and before the first scan that shows something.
   std::vector<Eigen::Vector2d> path;
   Eigen::Vector2d look_at = Eigen::Vector2d::Zero();  ///< m, map frame: what the goal is to show
-  /// No goal is known, but not all directions have been looked into from here (a laser of less than
-  /// 360 degrees): the robot shall turn on the spot.
+  /// At the start, and where no goal is known, not all directions have been looked into from here
+  /// (a laser of less than 360 degrees): the robot shall turn on the spot.
   bool look_around = false;
   std::string reason;
 };
@@ -100,6 +100,7 @@ class GlobalPlanner {
   void replan(const Eigen::Vector2d& robot_map);
   bool isTimeToReconsider(const Eigen::Vector2d& robot_map) const;
   void decide(const Eigen::Vector2d& robot_map);
+  void lookAround();
   std::optional<ViewPoint> viewOf(const Frontier& frontier) const;
   void findViewPoints();
   std::optional<Cell> entryAt(Cell middle) const;
@@ -118,6 +119,7 @@ class GlobalPlanner {
   ScannedPlaces scanned_;
   std::optional<Eigen::Vector2d> last_place_;  ///< m, of the robot at the last scan
   ViewTour view_tour_;
+  bool has_looked_around_ = false;  ///< from the start
   std::vector<ViewPoint> view_points_;
   std::vector<ViewPoint> entries_;  ///< places at the frontiers themselves, rests left out
   bool only_rests_ = false;         ///< whether the view points are rests
