@@ -59,7 +59,8 @@ bool isSafe(const std::vector<Predicted>& path, const std::vector<Hazard>& hazar
             double robot_radius) {
   for (const Hazard& hazard : hazards) {
     const double start = hazard.p_robot.norm();
-    const double keep = std::min(radius - hazard.allowance, start) - (start < robot_radius ? kRounding : kDeeper);
+    const double keep =
+        std::min(radius - hazard.allowance, start) - (start < robot_radius ? kRounding : kDeeper);
     for (const Predicted& at : path) {
       const double distance = (hazard.p_robot - at.p_robot).norm();
       if (distance - hazard.closing_speed * at.time < keep) return false;
