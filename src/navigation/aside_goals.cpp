@@ -19,7 +19,7 @@ bool isSameTarget(Cell a, Cell b) {
 
 void AsideGoals::add(Cell target, std::size_t revealed) { aside_.push_back({target, revealed}); }
 
-bool AsideGoals::isLostAgain(Cell target) {
+bool AsideGoals::noteLostWay(Cell target) {
   const bool again = std::any_of(lost_ways_.begin(), lost_ways_.end(),
                                  [&](Cell lost) { return isSameTarget(lost, target); });
   if (!again) lost_ways_.push_back(target);

@@ -143,7 +143,7 @@ void GlobalPlanner::replan(const Eigen::Vector2d& robot_map) {
                 goal_->cell);
   plan_.path = shortestPath(space_, grid_.resolution(), field_, goal_->cell);
   if (plan_.path.empty()) {
-    if (aside_.isLostAgain(goal_->target)) setGoalAside();
+    if (aside_.noteLostWay(goal_->target)) setGoalAside();
     decide(robot_map);
   } else if (plan_.path.size() == 1) {
     plan_.path.insert(plan_.path.begin(), robot_map);
@@ -223,16 +223,17 @@ std::optional<ViewPoint> GlobalPlanner::choose() {
 void GlobalPlanner::findViewPoints() {
   struct Candidate {
     double distance;
-    Frontier frontier;
+    const Frontier* frontier;
   };
   std::vector<Candidate> candidates;
   const Cell here = grid_.cellOf(decided_at_);
-  for (const Frontier& frontier : frontier_cells_.frontiers(kFrontierExtent)) {
+  const std::vector<Frontier> frontiers = frontier_cells_.frontiers(kFrontierExtent);
+  for (const Frontier& frontier : frontiers) {
     if (frontier.cells.size() < (is_last_look_ ? kRest : parameters_.smallest_frontier)) continue;
     const Cell m = frontier.middle;
     const double known_way = field_.distanceTo(m);
     const double line = std::hypot(m.x - here.x, m.y - here.y) * grid_.resolution();
-    candidates.push_back({known_way < DistanceField::kUnreached ? known_way : line, frontier});
+    candidates.push_back({known_way < DistanceField::kUnreached ? known_way : line, &frontier});
   }
   if (candidates.size() > kMostViewPoints) {
     std::stable_sort(candidates.begin(), candidates.end(),
@@ -243,15 +244,15 @@ void GlobalPlanner::findViewPoints() {
   std::vector<ViewPoint> rests;
   for (const Candidate& candidate : candidates) {
     if (view_points_.size() + rests.size() >= kMostViewPoints) break;
-    const auto view_point = viewOf(candidate.frontier);
+    const auto view_point = viewOf(*candidate.frontier);
     if (!view_point) continue;
-    if (candidate.frontier.cells.size() < kRest) {
+    if (candidate.frontier->cells.size() < kRest) {
       rests.push_back(*view_point);
       continue;
     }
     view_points_.push_back(*view_point);
     if (strategy_ != Strategy::kViewTour) continue;
-    if (const auto entry = entryAt(candidate.frontier.middle)) {
+    if (const auto entry = entryAt(candidate.frontier->middle)) {
       entries_.push_back({*entry, view_point->target, field_.distanceTo(*entry), view_point->gain});
     }
   }

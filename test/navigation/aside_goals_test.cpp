@@ -34,9 +34,9 @@ TEST(AsideGoals, AreRecalledOnlyAfterSomethingNewWasSeen) {
 
 TEST(AsideGoals, AWayIsLostAgainTheSecondTime) {
   AsideGoals goals;
-  EXPECT_FALSE(goals.isLostAgain({10, 10}));
-  EXPECT_FALSE(goals.isLostAgain({20, 20}));
-  EXPECT_TRUE(goals.isLostAgain({12, 9}));
+  EXPECT_FALSE(goals.noteLostWay({10, 10}));
+  EXPECT_FALSE(goals.noteLostWay({20, 20}));
+  EXPECT_TRUE(goals.noteLostWay({12, 9}));
   EXPECT_FALSE(goals.contains({10, 10}, 0)) << "lost is not yet aside";
 }
 

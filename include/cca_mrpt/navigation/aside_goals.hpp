@@ -20,7 +20,7 @@ class AsideGoals {
   /// may look open from afar and shut from nearby, each time that the robot comes: once may be
   /// somebody in the way.
   /// @return whether it was lost before.
-  bool isLostAgain(Cell target);
+  bool noteLostWay(Cell target);
 
   /// Whether it was set aside, and less than 10 m^2 have been seen since then.
   bool contains(Cell target, std::size_t revealed) const;
