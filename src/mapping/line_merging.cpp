@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "cca_mrpt/mapping/cross.hpp"
 #include "cca_mrpt/mapping/rank_order_clustering.hpp"
@@ -146,10 +147,10 @@ bool mergeInterrupted(const ScanPoints& points, const RunFitter& fitter, double 
   for (int i = 0; i < n; ++i) {
     for (int j = i + 1; j < n; ++j) {
       const Interrupted &a = (*lines)[i], &b = (*lines)[j];
-      if (interlaced(a, b)) continue;
       PointMoments moments = a.fit.moments;
       moments.add(b.fit.moments);
       if (mostFitMembership(a.fit, b.fit, fitter.leastHalfChiSquare(moments)) < cut) continue;
+      if (interlaced(a, b)) continue;
       if (fitMembership(a.fit, b.fit, fitter.fitJointly(moments)) < cut) continue;
       const FittedSegment joint = fitter.fit(moments);
       const double against = gapEvidence(points, joint, runs, a, b, most);
@@ -216,13 +217,15 @@ bool mergeConsecutive(const ScanPoints& points, const RunFitter& fitter, double 
 std::vector<std::vector<int>> groupInterrupted(const ScanPoints& points, const RunFitter& fitter,
                                                double cut, const Runs& runs) {
   std::vector<Interrupted> lines;
+  lines.reserve(runs.size());
   for (std::size_t k = 0; k < runs.size(); ++k) {
     if (runs[k].is_line) lines.push_back({{static_cast<int>(k)}, runs[k]});
   }
   while (mergeInterrupted(points, fitter, cut, runs, &lines)) {
   }
   std::vector<std::vector<int>> groups;
-  for (const Interrupted& line : lines) groups.push_back(line.runs);
+  groups.reserve(lines.size());
+  for (Interrupted& line : lines) groups.push_back(std::move(line.runs));
   return groups;
 }
 

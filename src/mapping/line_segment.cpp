@@ -8,19 +8,6 @@
 
 namespace cca {
 
-void PointMoments::add(const Eigen::Vector2d& point, double point_weight) {
-  add(PointMoments{point_weight, point, Eigen::Matrix2d::Zero()});
-}
-
-void PointMoments::add(const PointMoments& other) {
-  const double sum = weight + other.weight;
-  if (sum <= 0.0) return;
-  const Eigen::Vector2d offset = other.mean - mean;
-  scatter += other.scatter + (weight * other.weight / sum) * offset * offset.transpose();
-  mean += (other.weight / sum) * offset;
-  weight = sum;
-}
-
 Eigen::Vector2d LineSegment::direction() const {
   const Eigen::Vector2d along = end - start;
   const double norm = along.norm();

@@ -71,6 +71,8 @@ std::vector<LineSegment> polyLines(const ScanPoints& points, const RunFitter& fi
   std::vector<int> line_of(runs.size(), -1);
   std::vector<FittedSegment> fits;
   std::vector<LineSegment> lines;
+  fits.reserve(groups.size());
+  lines.reserve(groups.size());
   for (const auto& group : groups) {
     PointMoments moments;
     for (const int k : group) {

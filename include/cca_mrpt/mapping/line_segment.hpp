@@ -15,8 +15,17 @@ struct PointMoments {
   Eigen::Vector2d mean = Eigen::Vector2d::Zero();     ///< m
   Eigen::Matrix2d scatter = Eigen::Matrix2d::Zero();  ///< m^2, sum of w (p - mean)(p - mean)^T
 
-  void add(const Eigen::Vector2d& point, double point_weight = 1.0);
-  void add(const PointMoments& other);
+  void add(const Eigen::Vector2d& point, double point_weight = 1.0) {
+    add(PointMoments{point_weight, point, Eigen::Matrix2d::Zero()});
+  }
+  void add(const PointMoments& other) {
+    const double sum = weight + other.weight;
+    if (sum <= 0.0) return;
+    const Eigen::Vector2d offset = other.mean - mean;
+    scatter += other.scatter + (weight * other.weight / sum) * offset * offset.transpose();
+    mean += (other.weight / sum) * offset;
+    weight = sum;
+  }
 };
 
 /// A straight piece of wall with the statistics of the points that it stands on.
