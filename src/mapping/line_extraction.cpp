@@ -18,15 +18,6 @@ constexpr double kOdds[] = {0.1, 0.4};
 /// Merging and refining both shorten the description and so must end; mostly after three rounds.
 constexpr int kMostRounds = 6;
 
-Runs fittedClusters(const ScanPoints& points, const RunFitter& fitter, const PointNoise& noise,
-                    int points_per_cluster) {
-  const auto clusters = pointClusters(points, fitter.prefix(), noise, points_per_cluster);
-  Runs runs;
-  runs.reserve(clusters.size());
-  for (const PointCluster& c : clusters) runs.push_back(fitter.fit(c.first, c.last));
-  return runs;
-}
-
 /// The circle was cut before its walls were known: opens it at a corner on the far side of the
 /// scan, so that the old seam is refined like any other place.
 void reopenAtCorner(const PointNoise& noise, ScanPoints* points, RunFitter* fitter, Runs* runs) {
@@ -51,7 +42,7 @@ std::vector<LineSegment> extractLines(const Scan& scan, const CcaParameters& par
   const PointNoise noise = rangeNoise(scan);
   ScanPoints points = scanPoints(scan, std::max(noise.range_sigma, noise.straightness));
   RunFitter fitter(points.positions, noise);
-  Runs runs = fittedClusters(points, fitter, noise, parameters.points_per_cluster);
+  Runs runs = pointClusters(points, fitter, parameters.points_per_cluster);
 
   const double cut = parameters.similarity_cut;
   for (const double share : kOdds) {

@@ -124,30 +124,25 @@ void moveToMeans(const std::vector<Eigen::Vector2d>& positions, const std::vecto
   }
 }
 
-bool isLinear(const ScanPoints& points, const PrefixMoments& prefix, const PointNoise& noise,
-              const PointCluster& run) {
+bool isLinear(const ScanPoints& points, const FittedRun& run) {
   if (run.size() <= 2) return true;
-  const PointMoments moments = prefix.run(run.first, run.last);
-  const PrincipalAxis axis = principalAxis(moments);
-  const double variance = noise.onLine(moments.mean, axis).across;
-  const double gate_sq = kResidualGate * kResidualGate * variance;
-  if (axis.residual_sum_sq <= gate_sq) return true;
-  const FittedLine line = fitLine(moments);
-  const Eigen::Vector2d normal(-line.direction.y(), line.direction.x());
+  const double gate_sq = kResidualGate * kResidualGate * run.variance;
+  if (run.line.residual_sum_sq <= gate_sq) return true;
+  const Eigen::Vector2d normal(-run.line.direction.y(), run.line.direction.x());
   for (int i = run.first; i < run.last; ++i) {
-    const double distance = normal.dot(points.positions[i] - line.centroid);
+    const double distance = normal.dot(points.positions[i] - run.line.centroid);
     if (distance * distance > gate_sq) return false;
   }
   return true;
 }
 
 /// The best two means of a run, exactly: where the sum of squares about two centroids is least.
-int splitByTwoMeans(const PrefixMoments& prefix, const PointCluster& run) {
-  int split = run.first + 1;
+int splitByTwoMeans(const PrefixMoments& prefix, int first, int last) {
+  int split = first + 1;
   double least = std::numeric_limits<double>::infinity();
-  for (int i = run.first + 1; i < run.last; ++i) {
+  for (int i = first + 1; i < last; ++i) {
     const double within =
-        prefix.run(run.first, i).scatter.trace() + prefix.run(i, run.last).scatter.trace();
+        prefix.run(first, i).scatter.trace() + prefix.run(i, last).scatter.trace();
     if (within < least) {
       least = within;
       split = i;
@@ -156,15 +151,16 @@ int splitByTwoMeans(const PrefixMoments& prefix, const PointCluster& run) {
   return split;
 }
 
-void prune(const ScanPoints& points, const PrefixMoments& prefix, const PointNoise& noise,
-           const PointCluster& run, std::vector<PointCluster>* kept) {
-  if (isLinear(points, prefix, noise, run)) {
+void prune(const ScanPoints& points, const RunFitter& fitter, int first, int last,
+           std::vector<FittedRun>* kept) {
+  const FittedRun run = fitter.fit(first, last);
+  if (isLinear(points, run)) {
     kept->push_back(run);
     return;
   }
-  const int split = splitByTwoMeans(prefix, run);
-  prune(points, prefix, noise, {run.first, split}, kept);
-  prune(points, prefix, noise, {split, run.last}, kept);
+  const int split = splitByTwoMeans(fitter.prefix(), first, last);
+  prune(points, fitter, first, split, kept);
+  prune(points, fitter, split, last, kept);
 }
 
 }  // namespace
@@ -195,17 +191,18 @@ std::vector<int> kMeansInOrder(const ScanPoints& points, int clusters, int sweep
   return cluster;
 }
 
-std::vector<PointCluster> pointClusters(const ScanPoints& points, const PrefixMoments& prefix,
-                                        const PointNoise& noise, int points_per_cluster) {
+std::vector<FittedRun> pointClusters(const ScanPoints& points, const RunFitter& fitter,
+                                     int points_per_cluster) {
   const int n = static_cast<int>(points.size());
   const int clusters = std::max(1, (n + points_per_cluster / 2) / points_per_cluster);
   const std::vector<int> cluster = kMeansInOrder(points, clusters, kLloydSweeps);
-  std::vector<PointCluster> runs;
+  std::vector<FittedRun> runs;
+  runs.reserve(2 * static_cast<std::size_t>(clusters));
   for (int first = 0; first < n;) {
     int last = first + 1;
     while (last < n && cluster[last] == cluster[first] && points.breaksBetween(last - 1, last) == 0)
       ++last;
-    prune(points, prefix, noise, {first, last}, &runs);
+    prune(points, fitter, first, last, &runs);
     first = last;
   }
   return runs;

@@ -45,11 +45,9 @@ struct Stage {
   explicit Stage(int beams)
       : points(scanPoints(scanWith(beams, kWalls), kSigma)),
         noise(rangeNoise(scanWith(beams, kWalls))),
-        fitter(points.positions, noise) {
-    for (const PointCluster& c : pointClusters(points, fitter.prefix(), noise, kPointsPerCluster)) {
-      clusters.push_back(fitter.fit(c.first, c.last));
-    }
-    merged = clusters;
+        fitter(points.positions, noise),
+        clusters(pointClusters(points, fitter, kPointsPerCluster)),
+        merged(clusters) {
     while (mergeConsecutive(points, fitter, 0.5, &merged)) {
     }
     refined = merged;
@@ -83,8 +81,7 @@ void KMeansInOrder(benchmark::State& state) {
 void PointClusters(benchmark::State& state) {
   const Stage s(beamsOf(state));
   for (auto _ : state) {
-    benchmark::DoNotOptimize(
-        pointClusters(s.points, s.fitter.prefix(), s.noise, kPointsPerCluster));
+    benchmark::DoNotOptimize(pointClusters(s.points, s.fitter, kPointsPerCluster));
   }
   state.SetComplexityN(state.range(0));
 }

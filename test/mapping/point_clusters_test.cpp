@@ -8,8 +8,8 @@
 namespace cca {
 namespace {
 
-std::vector<PointCluster> clustersOf(const ScanPoints& points, const PointNoise& noise, int size) {
-  return pointClusters(points, PrefixMoments(points.positions), noise, size);
+std::vector<FittedRun> clustersOf(const ScanPoints& points, const PointNoise& noise, int size) {
+  return pointClusters(points, RunFitter(points.positions, noise), size);
 }
 
 TEST(PointClusters, CoverAllPointsOnceInOrder) {
@@ -17,7 +17,7 @@ TEST(PointClusters, CoverAllPointsOnceInOrder) {
   const ScanPoints points = scanPoints(turnIn(rectangle(-2.0, -1.0, 3.0, 2.0), 0.1, &random), 0.1);
   for (const int size : {2, 5, 20}) {
     int next = 0;
-    for (const PointCluster& c : clustersOf(points, {0.1, 0.001, 0.0}, size)) {
+    for (const FittedRun& c : clustersOf(points, {0.1, 0.001, 0.0}, size)) {
       EXPECT_EQ(c.first, next);
       EXPECT_GT(c.size(), 0);
       next = c.last;
@@ -30,7 +30,7 @@ TEST(PointClusters, LieOnOneLineWithinTheNoise) {
   std::mt19937 random(4);
   const ScanPoints points = scanPoints(turnIn(rectangle(-2.0, -1.0, 3.0, 2.0), 0.02, &random));
   const PrefixMoments prefix(points.positions);
-  for (const PointCluster& c : clustersOf(points, {0.02, 0.0, 0.0}, 20)) {
+  for (const FittedRun& c : clustersOf(points, {0.02, 0.0, 0.0}, 20)) {
     const FittedLine line = fitLine(prefix.run(c.first, c.last));
     for (int i = c.first; i < c.last; ++i) {
       const Eigen::Vector2d off = points.positions[i] - line.centroid;
@@ -48,7 +48,7 @@ TEST(PointClusters, FallApartAtStepsAndMissingReturns) {
   scan.ranges[10] = std::numeric_limits<double>::infinity();
   const ScanPoints points = scanPoints(scan);
   bool at_silence = false, at_step = false;
-  for (const PointCluster& c : clustersOf(points, {0.035, 0.001, 0.0}, 20)) {
+  for (const FittedRun& c : clustersOf(points, {0.035, 0.001, 0.0}, 20)) {
     at_silence = at_silence || c.first == 10;
     at_step = at_step || c.first == 19;
   }

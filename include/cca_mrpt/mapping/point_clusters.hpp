@@ -3,19 +3,10 @@
 
 #include <vector>
 
-#include "cca_mrpt/mapping/line_segment.hpp"
-#include "cca_mrpt/mapping/range_noise.hpp"
+#include "cca_mrpt/mapping/description_length.hpp"
 #include "cca_mrpt/mapping/scan.hpp"
 
 namespace cca {
-
-/// Neighbouring points of a scan, first <= i < last in the order of ScanPoints.
-struct PointCluster {
-  int first = 0;
-  int last = 0;
-
-  int size() const { return last - first; }
-};
 
 /// K-means [Lloyd 1982] of points that are seen in order of bearing.
 ///
@@ -36,9 +27,9 @@ std::vector<int> kMeansInOrder(const ScanPoints& points, int clusters, int sweep
 /// points do not lie on one line within the noise is split by 2-means until all do.
 /// An inner gap is a beam without return or a step in depth (ScanPoints::breaks): without that test
 /// three points across a step always make a line.
-/// @return  runs in scan order that cover all points.
+/// @return  runs in scan order that cover all points, each with the line that pruning fitted to it.
 /// Cost: O(N) for K-means; O(k^2) to prune a cluster of k points, k being bounded by the parameter.
-std::vector<PointCluster> pointClusters(const ScanPoints& points, const PrefixMoments& prefix,
-                                        const PointNoise& noise, int points_per_cluster);
+std::vector<FittedRun> pointClusters(const ScanPoints& points, const RunFitter& fitter,
+                                     int points_per_cluster);
 
 }  // namespace cca
