@@ -30,7 +30,7 @@ class CentroidRing {
       place_[order[k]] = static_cast<int>(k);
     }
     for (std::size_t k = 0; k < ring_.size(); ++k) {
-      ring_[k].unrivalled_sq = kQuarter * sqToNearestOther(static_cast<int>(k));
+      ring_[k].unrivalled_sq = kQuarter * leastSqToOthers(static_cast<int>(k));
     }
   }
 
@@ -66,18 +66,16 @@ class CentroidRing {
   };
   static constexpr double kQuarter = 0.25 * (1.0 - 1e-9);  // the square of half, less rounding
 
-  double sqToNearestOther(int own) const {
+  /// No other centroid is nearer: those beside it in the ring are asked, and the rays of the next
+  /// ones, for what follows lies farther off.
+  double leastSqToOthers(int own) const {
     const Eigen::Vector2d& c = ring_[own].centroid;
     const int n = static_cast<int>(ring_.size());
     double least_sq = std::numeric_limits<double>::infinity();
     for (const int step : {1, n - 1}) {
-      int place = own;
-      for (int walked = 1; walked < n; ++walked) {
-        place += step;
-        if (place >= n) place -= n;
-        if (lowerBoundSq(c, ring_[place].ray) > least_sq) break;
-        least_sq = std::min(least_sq, (c - ring_[place].centroid).squaredNorm());
-      }
+      const Member &beside = ring_[(own + step) % n], &beyond = ring_[(own + 2 * step) % n];
+      least_sq =
+          std::min({least_sq, (c - beside.centroid).squaredNorm(), lowerBoundSq(c, beyond.ray)});
     }
     return least_sq;
   }
