@@ -13,11 +13,11 @@ namespace {
 constexpr double kSameWayPoint = 0.1;      // m
 constexpr double kHome = 0.3;              // m
 constexpr double kReachedWayPoint = 0.15;  // m, a little more than Tangent Bug stops at
-// A goal's time: that of its path at a fifth of full speed, and some for turning and giving way.
-constexpr double kSlowest = 0.2, kGrace = 30.0;  // s
+constexpr int kHomeNumber = -2;            // among the numbers of goals
 
-constexpr double kAround = 0.8;      // m, of the robot: what may stand beside it
-constexpr double kLookAround = 0.5;  // of the full turning rate
+constexpr double kAround = 0.8;        // m, of the robot: what may stand beside it
+constexpr double kLookAround = 0.5;    // of the full turning rate
+constexpr double kLookingTime = 30.0;  // s
 
 GlobalPlannerParameters plannerParameters(const RobotParameters& robot,
                                           const ExplorerParameters& parameters) {
@@ -82,7 +82,8 @@ Explorer::Explorer(const CcaParameters& mapping, const RobotParameters& robot,
       robot_(robot),
       line_map_(mapping),
       planner_(plannerParameters(robot, parameters)),
-      tangent_bug_(robot) {}
+      tangent_bug_(robot),
+      progress_(robot) {}
 
 Action Explorer::step(const Observation& observation) {
   map(observation.scan);
@@ -94,7 +95,7 @@ Action Explorer::navigate(const Observation& observation) {
   if (!start_map_ && robot.allFinite()) start_map_ = robot;
   if (is_paused_) {
     planner_.observe(observation.scan, robot);
-    deadline_ = observation.time + kGrace;  // standing still by order is no failure
+    progress_.excuse(observation.time);
     return {{}, {}, ExplorationStatus::kPaused, "paused"};
   }
   return is_returning_ ? goHome(observation) : explore(observation);
@@ -120,8 +121,9 @@ Action Explorer::explore(const Observation& observation) {
   const bool is_last = next + 1 == plan.path.size();
   action.velocity = driveTo(plan.path[next], observation);
   const TangentBugState state = tangent_bug_.state();
-  if (state == TangentBugState::kUnreachable || isOverdue(plan.path, observation)) {
-    planner_.setGoalAside();
+  progress_.note(planner_.goals(), plan.path, observation.time);
+  if (state == TangentBugState::kUnreachable || isStuck(observation.time)) {
+    planner_.noteStuck(progress_.shortest());
     way_point_.reset();
   } else if (state == TangentBugState::kReached && is_last) {
     if (looksTowards(observation.scan, plan.look_at)) {
@@ -138,7 +140,7 @@ Action Explorer::explore(const Observation& observation) {
 Action Explorer::lookAround(const Observation& observation) {
   const Eigen::Vector2d robot = observation.T_map_robot.position();
   if (!looks_around_since_) looks_around_since_ = observation.time;
-  if (observation.time - *looks_around_since_ > kGrace) planner_.noteLookAround(robot);
+  if (observation.time - *looks_around_since_ > kLookingTime) planner_.noteLookAround(robot);
   Action action{{}, robot, ExplorationStatus::kExploring, planner_.plan().reason};
   action.velocity = driveTo(robot, observation);
   action.velocity.angular = kLookAround * robot_.max_angular_velocity;
@@ -152,16 +154,13 @@ Action Explorer::goHome(const Observation& observation) {
   if ((robot - *start_map_).norm() < kHome)
     return {{}, {}, ExplorationStatus::kFinished, why + "; back at the start"};
   const auto path = planner_.pathTo(robot, *start_map_);
-  if (goal_number_ != -2) {
-    goal_number_ = -2;
-    deadline_ =
-        observation.time + kGrace + pathLength(path) / (kSlowest * robot_.max_linear_velocity);
-  }
-  if (path.empty() || observation.time > deadline_)
+  progress_.note(kHomeNumber, path, observation.time);
+  if (path.empty() || progress_.isOverdue(observation.time))
     return {{}, {}, ExplorationStatus::kFinished, why + "; the way back to the start is blocked"};
   Action action{{}, *start_map_, ExplorationStatus::kReturning, "back to the start"};
   const std::size_t next = nextWayPoint(path, robot);
   action.velocity = driveTo(next + 1 < path.size() ? path[next] : *start_map_, observation);
+  if (progress_.isStuck(observation.time)) planner_.noteStuck(progress_.shortest());
   return action;
 }
 
@@ -181,13 +180,10 @@ Velocity Explorer::driveTo(const Eigen::Vector2d& way_point, const Observation& 
                            observation.time);
 }
 
-bool Explorer::isOverdue(const std::vector<Eigen::Vector2d>& path, const Observation& observation) {
-  if (goal_number_ != planner_.goals()) {
-    goal_number_ = planner_.goals();
-    deadline_ =
-        observation.time + kGrace + pathLength(path) / (kSlowest * robot_.max_linear_velocity);
-  }
-  return observation.time > deadline_;
+// By Tangent Bug alone the robot may have to drive away from its goal for long.
+bool Explorer::isStuck(double time) {
+  if (progress_.isOverdue(time)) return true;
+  return parameters_.path == "known_space" && progress_.isStuck(time);
 }
 
 }  // namespace cca

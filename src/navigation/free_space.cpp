@@ -48,6 +48,13 @@ void FreeSpace::pass(Cell c) {
   mark(c);
 }
 
+void FreeSpace::bar(Cell c, bool is_barred) {
+  if (!isStorable(c)) return;
+  std::uint16_t& cell = cells_[c];
+  cell = static_cast<std::uint16_t>(is_barred ? cell | kBarred : cell & ~kBarred);
+  mark(c);
+}
+
 void FreeSpace::mark(Cell c) {
   std::uint16_t& block = blocks_[blockOf(c)];
   const unsigned bit = bitOf(c);

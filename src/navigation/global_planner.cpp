@@ -165,14 +165,14 @@ void GlobalPlanner::decide(const Eigen::Vector2d& robot_map) {
   revealed_then_ = grid_.revealed();
   plan_ = {};
   field_.search(space_, grid_.resolution(), grid_.cellOf(robot_map));
-  // Before it ends, what was set aside gets another chance, and then what is hard to see.
+  // Before it ends, what was given up gets another chance, and then what is hard to see.
   const auto present = goal_;
   for (const bool is_last_look : {false, true}) {
     is_last_look_ = is_last_look;
     goal_ = present;
     findViewPoints();
     keepPresentGoal();
-    if (view_points_.empty() && aside_.recall(grid_.revealed())) findViewPoints();
+    if (view_points_.empty() && recall(robot_map)) findViewPoints();
     if (!view_points_.empty()) break;
   }
   while (const auto chosen = choose()) {
@@ -331,6 +331,21 @@ void GlobalPlanner::setGoalAside() {
   goal_.reset();
 }
 
+void GlobalPlanner::noteStuck(const std::vector<Eigen::Vector2d>& way) {
+  barred_.bar(way, grid_.resolution(), grid_.revealed(), space_);
+  if (!goal_) return;
+  if (aside_.noteLostWay(goal_->target)) setGoalAside();
+  goal_.reset();
+}
+
+// Goals that were set aside, and ways.
+bool GlobalPlanner::recall(const Eigen::Vector2d& robot_map) {
+  const bool any_goals = aside_.recall(grid_.revealed());
+  const bool any_ways = barred_.recall(grid_.revealed(), space_);
+  if (any_ways) field_.search(space_, grid_.resolution(), grid_.cellOf(robot_map));
+  return any_goals || any_ways;
+}
+
 void GlobalPlanner::noteArrival() {
   if (goal_) scanned_.addAll(goal_->cell);
 }
@@ -348,10 +363,14 @@ std::vector<Eigen::Vector2d> GlobalPlanner::pathTo(const Eigen::Vector2d& robot_
   if (!isOnGrid(robot_map) || !isOnGrid(goal_map)) return {};
   Cell goal;
   constexpr int kNearEnough = 10;  // cells
-  if (!nearestTraversable(space_, grid_.cellOf(goal_map), kNearEnough, goal)) return {};
-  field_.search(space_, grid_.resolution(), grid_.cellOf(robot_map), DistanceField::kUnreached,
-                goal);
-  return shortestPath(space_, grid_.resolution(), field_, goal);
+  std::vector<Eigen::Vector2d> path;
+  do {
+    if (!nearestTraversable(space_, grid_.cellOf(goal_map), kNearEnough, goal)) continue;
+    field_.search(space_, grid_.resolution(), grid_.cellOf(robot_map), DistanceField::kUnreached,
+                  goal);
+    path = shortestPath(space_, grid_.resolution(), field_, goal);
+  } while (path.empty() && barred_.openAll(space_));
+  return path;
 }
 
 }  // namespace cca

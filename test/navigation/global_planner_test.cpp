@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "cca_mrpt/navigation/grid_paths.hpp"
 #include "known_world.hpp"
 
 namespace cca {
@@ -125,16 +126,44 @@ TEST(GlobalPlanner, WaitsForAFirstScanAndAPose) {
   EXPECT_FALSE(planner.update(kTwoRooms.scanFrom({1.0, 1.0, 0.0}), {1.0, 1.0}).path.empty());
 }
 
-TEST(GlobalPlanner, DoesNotGoBackAtOnceToAGoalThatWasSetAside) {
+TEST(GlobalPlanner, GoalsThatItGetsStuckOnTheWayToRunOut) {
   GlobalPlanner planner;
   const Scan scan = kTwoRooms.scanFrom({1.0, 1.0, 0.0}, 4.0);
   std::vector<Eigen::Vector2d> goals;
   for (int i = 0; i < 100 && !planner.update(scan, {1.0, 1.0}).finished; ++i) {
     goals.push_back(planner.plan().path.back());
-    planner.setGoalAside();
+    planner.noteStuck(planner.plan().path);
   }
-  EXPECT_TRUE(planner.plan().finished) << "goals that cannot be reached must run out";
+  EXPECT_TRUE(planner.plan().finished);
   EXPECT_GE(goals.size(), 1u);
+}
+
+/// Two ways of 0.8 m width around a block, the lower one shorter.
+const KnownWorld kTwoWays{{"####################", "#..................#", "#..................#",
+                           "#..##############..#", "#..##############..#", "#..##############..#",
+                           "#..................#", "#..................#", "####################"},
+                          8};
+
+TEST(GlobalPlanner, WaysLeadAroundThePlaceWhereItGotStuck) {
+  const Eigen::Vector2d from(1.0, 0.8), to(7.0, 0.8);
+  GlobalPlanner planner;
+  std::vector<Cell> free, walls;
+  for (int y = 0; y < kTwoWays.height(); ++y) {
+    for (int x = 0; x < kTwoWays.width(); ++x)
+      (kTwoWays.isOccupied({x, y}) ? walls : free).push_back({x, y});
+  }
+  planner.seed(free, CellState::kFree);
+  planner.seed(walls, CellState::kOccupied);
+  const double lower = pathLength(planner.pathTo(from, to));
+  EXPECT_NEAR(lower, 6.0, 0.1);
+  planner.noteStuck({{4.0, 0.7}, {7.0, 0.7}});
+  EXPECT_NEAR(pathLength(planner.pathTo(from, to)), 6.0, 0.3) << "there is room beside it";
+  planner.noteStuck({{4.0, 0.95}, {7.0, 0.95}});
+  planner.noteStuck({{4.0, 0.5}, {7.0, 0.5}});
+  EXPECT_GT(pathLength(planner.pathTo(from, to)), 8.0);
+  // With both ways barred, what was barred is tried again.
+  for (const double y : {2.6, 2.85, 3.1}) planner.noteStuck({{4.0, y}, {7.0, y}});
+  EXPECT_NEAR(pathLength(planner.pathTo(from, to)), lower, 1e-9);
 }
 
 TEST(GlobalPlanner, LeavesAGoalWhoseWayIsLostTwice) {

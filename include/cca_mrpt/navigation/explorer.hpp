@@ -11,6 +11,7 @@
 #include "cca_mrpt/navigation/global_planner.hpp"
 #include "cca_mrpt/navigation/robot.hpp"
 #include "cca_mrpt/navigation/tangent_bug.hpp"
+#include "cca_mrpt/navigation/way_progress.hpp"
 
 namespace cca {
 
@@ -90,17 +91,16 @@ class Explorer {
   Action lookAround(const Observation& observation);
   Action goHome(const Observation& observation);
   Velocity driveTo(const Eigen::Vector2d& way_point, const Observation& observation);
-  bool isOverdue(const std::vector<Eigen::Vector2d>& path, const Observation& observation);
+  bool isStuck(double time);
 
   ExplorerParameters parameters_;
   RobotParameters robot_;
   LineMap line_map_;
   GlobalPlanner planner_;
   TangentBug tangent_bug_;
+  WayProgress progress_;
   std::optional<Eigen::Vector2d> start_map_;
   std::optional<Eigen::Vector2d> way_point_;
-  int goal_number_ = -1;                      ///< of the planner, that the deadline is for
-  double deadline_ = 0.0;                     ///< s
   std::optional<double> looks_around_since_;  ///< s
   bool is_paused_ = false;
   bool is_returning_ = false;

@@ -37,6 +37,10 @@ class FreeSpace {
   /// not close behind it.
   void pass(Cell c);
 
+  /// Shuts a cell that looks free, or opens it again: the robot could not drive there. A cell that
+  /// it has been in stays open.
+  void bar(Cell c, bool is_barred);
+
   bool isTraversable(Cell c) const { return isTraversable(cells_.at(c)); }
   /// Like isTraversable, for each cell of a block: bit 4 (y mod 4) + (x mod 4).
   unsigned traversableCells(Cell block) const { return blocks_.at(block); }
@@ -46,7 +50,8 @@ class FreeSpace {
   double clearance() const { return clearance_; }
 
  private:
-  static constexpr std::uint16_t kFree = 0x8000, kOccupied = 0x4000, kPassed = 0x2000;
+  static constexpr std::uint16_t kFree = 0x8000, kOccupied = 0x4000, kPassed = 0x2000,
+                                 kBarred = 0x1000;
   static bool isTraversable(std::uint16_t cell) {
     return cell == kFree || (cell & (kPassed | kOccupied)) == kPassed;
   }

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "cca_mrpt/navigation/aside_goals.hpp"
+#include "cca_mrpt/navigation/barred_ways.hpp"
 #include "cca_mrpt/navigation/exploration_grid.hpp"
 #include "cca_mrpt/navigation/free_space.hpp"
 #include "cca_mrpt/navigation/frontier.hpp"
@@ -64,8 +65,10 @@ class GlobalPlanner {
   /// Exploration stays inside a polygon (m, map frame); fewer than three corners: no limit.
   void limitTo(std::vector<Eigen::Vector2d> polygon) { parameters_.limits = std::move(polygon); }
 
-  /// Sets the present goal aside until the map has changed, e.g. where it proved unreachable.
-  void setGoalAside();
+  /// Says that the robot got no farther on this way (m, map frame), from its beginning on. Further
+  /// ways lead around that place. A goal that this happens to twice is set aside until the map has
+  /// changed.
+  void noteStuck(const std::vector<Eigen::Vector2d>& way);
 
   /// Says that the robot is as near to the goal as it gets: if there is nothing new to see from
   /// here, the goal is not tried again until the map has changed.
@@ -74,7 +77,8 @@ class GlobalPlanner {
   /// Says that nothing more will be seen from here, wherever the laser has looked.
   void noteLookAround(const Eigen::Vector2d& robot_map);
 
-  /// The shortest known way from one place to another; empty where there is none.
+  /// The shortest known way from one place to another; empty where there is none. It leads along
+  /// places where the robot got no farther only where there is no other.
   std::vector<Eigen::Vector2d> pathTo(const Eigen::Vector2d& robot_map,
                                       const Eigen::Vector2d& goal_map);
 
@@ -91,6 +95,8 @@ class GlobalPlanner {
   int goals() const { return goals_; }
 
  private:
+  void setGoalAside();
+  bool recall(const Eigen::Vector2d& robot_map);
   void takeChanges();
   void notePassage(const Eigen::Vector2d& robot_map);
   void learnRange(const Scan& scan);
@@ -124,6 +130,7 @@ class GlobalPlanner {
   std::vector<ViewPoint> entries_;  ///< places at the frontiers themselves, rests left out
   bool only_rests_ = false;         ///< whether the view points are rests
   AsideGoals aside_;
+  BarredWays barred_;
   std::optional<ViewPoint> goal_;
   double laser_range_ = 1.0;   ///< m, the longest that a beam was seen to be free
   bool is_last_look_ = false;  ///< nothing is left but what is hard to see

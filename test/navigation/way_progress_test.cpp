@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "cca_mrpt/navigation/way_progress.hpp"
+
+#include <gtest/gtest.h>
+
+#include <functional>
+
+namespace cca {
+namespace {
+
+constexpr double kPatience = 10.0 + 2.0 * 3.14159265358979323846 / 1.5;  // s, of the default robot
+
+/// The first time (s) at which it is stuck, of steps of 0.1 s; `end` where it is not.
+/// @param left  m, of a straight way, at a time.
+double stuckAt(WayProgress& progress, double start, double end,
+               const std::function<double(double)>& left) {
+  for (double time = start; time < end; time += 0.1) {
+    progress.note(1, {{0.0, 0.0}, {left(time), 0.0}}, time);
+    if (progress.isStuck(time)) return time;
+  }
+  return end;
+}
+
+TEST(WayProgress, WhoeverStandsIsStuckWhenThePatienceEndsAndThenHasItAnew) {
+  WayProgress progress{RobotParameters{}};
+  const double first = stuckAt(progress, 0.0, 100.0, [](double) { return 5.0; });
+  EXPECT_NEAR(first, kPatience, 0.2);
+  EXPECT_NEAR(stuckAt(progress, first, 100.0, [](double) { return 5.0; }), first + kPatience, 0.2);
+}
+
+TEST(WayProgress, WhoeverComesNearerIsNotStuckHoweverSlow) {
+  WayProgress progress{RobotParameters{}};
+  EXPECT_EQ(stuckAt(progress, 0.0, 500.0, [](double time) { return 6.0 - 0.01 * time; }), 500.0);
+}
+
+TEST(WayProgress, ToAndFroIsNoProgress) {
+  WayProgress progress{RobotParameters{}};
+  const auto left = [](double time) { return 5.0 - 0.3 * std::sin(time); };
+  EXPECT_NEAR(stuckAt(progress, 0.0, 100.0, left), kPatience + 1.6, 0.3);
+  EXPECT_NEAR(progress.shortest().back().x(), 4.7, 0.03);
+}
+
+TEST(WayProgress, AnotherWayToTheSameGoalHasAPatienceOfItsOwn) {
+  WayProgress progress{RobotParameters{}};
+  const auto left = [](double time) { return time < 12.0 ? 1.0 : 32.0 - time; };
+  EXPECT_EQ(stuckAt(progress, 0.0, 30.0, left), 30.0);
+}
+
+TEST(WayProgress, AGoalHasTheTimeOfItsWayAtAFifthOfFullSpeedAndHalfAMinute) {
+  WayProgress progress{RobotParameters{}};
+  progress.note(1, {{0.0, 0.0}, {7.0, 0.0}}, 100.0);
+  EXPECT_FALSE(progress.isOverdue(179.9));
+  EXPECT_TRUE(progress.isOverdue(180.1));
+  progress.note(2, {{0.0, 0.0}, {0.7, 0.0}}, 180.1);
+  EXPECT_FALSE(progress.isOverdue(215.0));
+  EXPECT_TRUE(progress.isOverdue(215.2));
+}
+
+TEST(WayProgress, StandingStillByOrderIsExcused) {
+  WayProgress progress{RobotParameters{}};
+  progress.note(1, {{0.0, 0.0}, {0.7, 0.0}}, 0.0);
+  progress.excuse(1000.0);
+  EXPECT_FALSE(progress.isStuck(1010.0));
+  EXPECT_FALSE(progress.isOverdue(1029.9));
+  EXPECT_TRUE(progress.isOverdue(1030.1));
+  progress.note(2, {{0.0, 0.0}, {14.0, 0.0}}, 1040.0);
+  progress.excuse(1041.0);
+  EXPECT_FALSE(progress.isOverdue(1169.0)) << "what time it had is not taken away";
+}
+
+}  // namespace
+}  // namespace cca
