@@ -5,18 +5,6 @@
 
 namespace cca {
 
-FittedSegment::FittedSegment(const PointMoments& points, const FittedLine& fitted,
-                             const LineNoise& noise)
-    : moments(points),
-      line(fitted),
-      variance(noise.across),
-      chi_square(fitted.residual_sum_sq / noise.across) {
-  const double told = kLinePrice + 0.5 * chi_square, alone = kPointPrice * points.weight;
-  is_line = points.weight >= kFewestPoints && told < alone &&
-            isDrawnOut(points.weight, fitted.spread_sum_sq, noise);
-  price = is_line ? told : alone;
-}
-
 RunFitter::RunFitter(const std::vector<Eigen::Vector2d>& points, const PointNoise& noise)
     : prefix_(points), noise_(noise), half_over_most_variance_(0.5) {
   double farthest_sq = 0.0;

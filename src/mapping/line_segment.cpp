@@ -15,20 +15,6 @@ Eigen::Vector2d LineSegment::direction() const {
   return along / norm;
 }
 
-FittedLine fitLine(const PointMoments& moments) {
-  const PrincipalAxis axis = principalAxis(moments);
-  FittedLine line;
-  line.centroid = moments.mean;
-  line.residual_sum_sq = axis.residual_sum_sq;
-  line.spread_sum_sq = axis.spread_sum_sq;
-  // The half angle without trigonometry, by whichever of sine and cosine is the larger.
-  const double larger = std::sqrt(0.5 * (1.0 + std::abs(axis.cos_2)));
-  const double smaller = 0.5 * std::abs(axis.sin_2) / larger;
-  const bool level = axis.cos_2 >= 0.0;
-  line.direction = {level ? larger : smaller, std::copysign(level ? smaller : larger, axis.sin_2)};
-  return line;
-}
-
 std::optional<Eigen::Vector2d> intersection(const FittedLine& a, const FittedLine& b) {
   constexpr double kLeastSine = 0.05;
   const double sine = cross(a.direction, b.direction);

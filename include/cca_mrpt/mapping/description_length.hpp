@@ -41,7 +41,16 @@ struct FittedSegment {
   bool is_line = false;     ///< the line is the briefer
 
   FittedSegment() = default;
-  FittedSegment(const PointMoments& points, const FittedLine& fitted, const LineNoise& noise);
+  FittedSegment(const PointMoments& points, const FittedLine& fitted, const LineNoise& noise)
+      : moments(points),
+        line(fitted),
+        variance(noise.across),
+        chi_square(fitted.residual_sum_sq / noise.across) {
+    const double told = kLinePrice + 0.5 * chi_square, alone = kPointPrice * points.weight;
+    is_line = points.weight >= kFewestPoints && told < alone &&
+              isDrawnOut(points.weight, fitted.spread_sum_sq, noise);
+    price = is_line ? told : alone;
+  }
 };
 
 /// What one line through the points of two segments leaves over: all that their similarity asks of
