@@ -93,24 +93,19 @@ bool shareOut(const ScanPoints& points, const RunFitter& fitter, Runs* runs) {
 }
 
 bool splitLines(const RunFitter& fitter, Runs* runs) {
-  Runs parted;
-  parted.reserve(runs->size() + 1);
-  for (FittedRun& run : *runs) {
+  const std::size_t before = runs->size();
+  for (std::size_t k = 0; k < runs->size(); ++k) {
+    FittedRun& run = (*runs)[k];
+    const int first = run.first, last = run.last;
     const bool may_gain = !run.is_searched && (!run.is_line || 0.5 * run.chi_square > kLinePrice);
     const int middle =
-        may_gain ? bestParting(fitter, run.first, run.first + 1, run.last - 1, run.last, run.price)
-                 : -1;
+        may_gain ? bestParting(fitter, first, first + 1, last - 1, last, run.price) : -1;
     if (run.is_line) run.is_searched = true;
-    if (middle < 0) {
-      parted.push_back(run);
-      continue;
-    }
-    parted.push_back(fitter.fit(run.first, middle));
-    parted.push_back(fitter.fit(middle, run.last));
+    if (middle < 0) continue;
+    run = fitter.fit(first, middle);
+    runs->insert(runs->begin() + static_cast<std::ptrdiff_t>(++k), fitter.fit(middle, last));
   }
-  const bool split = parted.size() > runs->size();
-  runs->swap(parted);
-  return split;
+  return runs->size() > before;
 }
 
 /// Appends the points first <= i < last as their best line and what is left on either side.
