@@ -14,23 +14,24 @@ constexpr double kSideBySideGate = 10.83;
 
 double bell(double evidence, double gate) { return gate / (gate + evidence); }  // 0 for infinity
 
-/// z^2 of the distance of b's centroid from a's line, extended that far.
-double offsetStatistic(const FittedSegment& a, const FittedSegment& b, double variance) {
+/// z^2 of the distance of b's centroid from a's line, extended that far; in units of the variance
+/// of one point.
+/// @param centroids  variances of the two centroids, likewise.
+double offsetStatistic(const FittedSegment& a, const FittedSegment& b, double centroids) {
   const Eigen::Vector2d between = b.line.centroid - a.line.centroid;
   const Eigen::Vector2d& u = a.line.direction;
   const double along = u.dot(between), across = u.x() * between.y() - u.y() * between.x();
-  // In units of the variance of one point; spread 0 means that a has no direction at all.
-  if (a.line.spread_sum_sq <= 0.0) return 0.0;
-  const double scale =
-      1.0 / a.moments.weight + along * along / a.line.spread_sum_sq + 1.0 / b.moments.weight;
-  return across * across / (variance * scale);
+  if (a.line.spread_sum_sq <= 0.0) return 0.0;  // a has no direction at all
+  return across * across / (centroids + along * along / a.line.spread_sum_sq);
 }
 
-double orientationStatistic(const FittedSegment& a, const FittedSegment& b, double variance) {
-  if (a.line.spread_sum_sq <= 0.0 || b.line.spread_sum_sq <= 0.0) return 0.0;
+/// z^2 of the angle between the two, likewise.
+double orientationStatistic(const FittedSegment& a, const FittedSegment& b) {
+  const double spread_a = a.line.spread_sum_sq, spread_b = b.line.spread_sum_sq;
+  if (spread_a <= 0.0 || spread_b <= 0.0) return 0.0;
   const Eigen::Vector2d &u = a.line.direction, &v = b.line.direction;
   const double sine = u.x() * v.y() - u.y() * v.x();
-  return sine * sine / (variance * (1.0 / a.line.spread_sum_sq + 1.0 / b.line.spread_sum_sq));
+  return sine * sine * spread_a * spread_b / (spread_a + spread_b);
 }
 
 }  // namespace
@@ -58,9 +59,10 @@ Memberships memberships(const FittedSegment& a, const FittedSegment& b, const Jo
                         double gap_evidence, double overlap) {
   Memberships mu;
   mu.fit = fitMembership(a, b, joint);
+  const double centroids = 1.0 / a.moments.weight + 1.0 / b.moments.weight;
   const double offset =
-      std::max(offsetStatistic(a, b, joint.variance), offsetStatistic(b, a, joint.variance));
-  mu.orientation = bell(orientationStatistic(a, b, joint.variance), kLineGate);
+      std::max(offsetStatistic(a, b, centroids), offsetStatistic(b, a, centroids)) / joint.variance;
+  mu.orientation = bell(orientationStatistic(a, b) / joint.variance, kLineGate);
   mu.offset = bell(offset, kLineGate);
   mu.gap = bell(gap_evidence, kGapGate);
   mu.overlap = bell(overlap * offset, kSideBySideGate);
