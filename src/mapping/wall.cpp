@@ -132,6 +132,7 @@ Eigen::Vector2d Wall::fittedDirection() const {
 }
 
 void absorb(Wall& wall, const Wall& other) {
+  wall.uncut_residual = 0.0;
   const FrameChange change(wall, other);
   for (int i = other.profile.first(); i < other.profile.last(); ++i) {
     const SupportBin& bin = other.profile.bin(i);
@@ -161,6 +162,7 @@ bool yieldOverlap(Wall& lesser, Wall& greater, double gate) {
     greater.profile.add(change(lesser.profile.take(i)));
     moved = true;
   }
+  if (moved) lesser.uncut_residual = greater.uncut_residual = 0.0;
   return moved;
 }
 

@@ -9,19 +9,20 @@ namespace {
 
 using Slot = Walls::Slot;
 
-/// nat, what a bend must save: one vertex, two coordinates of 20 m at 37 cm; found by experiment.
-constexpr double kBendCost = 8.0;
+/// nat, what a bend must save: one vertex, two coordinates of the longest wall at a bin's length,
+/// 2 ln(20 m / 5 cm).
+constexpr double kBendCost = 12.0;
 /// Share of it below which two walls are joined; less than 1, or cuts and joins would alternate.
 constexpr double kJoinShare = 0.6;
 constexpr double kLargestGap = 1.0;  // m, between two stretches of one wall
 /// Returns after which a wall is compared with its neighbours again, however many it has.
 constexpr double kMostBeforeCheck = 100.0;
 /// Gates of a lateral distance, in three deviations of a return, and the least that they fall to
-/// [m]: two walls with one front (each has its own pose error: sqrt 2), two fronts, a stretch side
-/// by side.
+/// [m]: two walls with one front (each has its own pose error: sqrt 2), two fronts (the line
+/// between them lies within two deviations of either), a stretch side by side.
 constexpr double kSameFront = 1.42;
 constexpr double kSameFrontLeast = 0.10;
-constexpr double kTwoFronts = 0.65;
+constexpr double kTwoFronts = 1.33;
 constexpr double kTwoFrontsLeast = 0.06;
 constexpr double kStretch = 0.7;
 constexpr double kStretchLeast = 0.07;
@@ -125,9 +126,13 @@ void mergeWithNeighbours(Slot slot, Walls& walls, const MapNoise& noise) {
 /// Cuts the wall at its strongest bend; the part behind the bend becomes a wall of its own.
 void splitWhereBent(Slot slot, Walls& walls, const MapNoise& noise) {
   const double least_gain = 2.0 * noise.lateralSigma() * noise.lateralSigma() * kBendCost;
-  if (walls[slot].profile.sums().residual() < least_gain) return;  // no cut gains more than all
+  const double residual = walls[slot].profile.sums().residual();
+  // No cut gains more than all, nor more than the best one did and what came on top since.
+  if (residual < std::max(least_gain, walls[slot].uncut_residual)) return;
   const SupportProfile::Cut cut = walls[slot].profile.bestCut();
-  if (cut.gain < least_gain) return;
+  const double lacking = least_gain - cut.gain;
+  walls[slot].uncut_residual = lacking > 0.0 ? residual + lacking : 0.0;
+  if (lacking > 0.0) return;
   const Slot tail_slot = walls.create();
   Wall &wall = walls[slot], &tail = walls[tail_slot];
   tail.origin = wall.origin;
@@ -174,8 +179,9 @@ void seeToTouched(Walls& walls, const MapNoise& noise, std::uint64_t& next_id) {
       continue;
     }
     refit(walls[slot]);
-    if (changedMuch(walls[slot])) {
-      splitWhereBent(slot, walls, noise);
+    const bool changed = changedMuch(walls[slot]);
+    splitWhereBent(slot, walls, noise);
+    if (changed) {
       mergeWithNeighbours(slot, walls, noise);
       Wall& wall = walls[slot];
       wall.profile.prune();

@@ -35,6 +35,7 @@ struct Wall {
   double hits = 0.0;                   ///< returns ever taken in
   double hits_at_check = 0.0;          ///< the same when it was last compared with its neighbours
   int length_at_check = 0;             ///< bins
+  double uncut_residual = 0.0;         ///< m^2, below which no cut is worth its price
   std::uint64_t visit = 0;             ///< Walls::nextVisit() when it was last collected
   bool alive = false, touched = false;
 
