@@ -11,6 +11,12 @@ namespace {
 const KnownWorld kRooms{{"##############", "#......#.....#", "#......#.....#", "#............#",
                          "#............#", "#......#.....#", "##############"},
                         10};
+/// The right room is seen whole only from inside.
+const KnownWorld kTwoDoors{
+    {"################", "#.......#......#", "#..............#", "#..............#",
+     "#.......#......#", "#.......#......#", "#.......####...#", "#.......#......#",
+     "#.......#...####", "#..............#", "#..............#", "################"},
+    10};
 const Pose2 kStart{1.0, 1.0, 0.0};
 
 /// The beams of a scan up to `half` rad from straight ahead.
@@ -33,10 +39,13 @@ struct Driver {
   double time = 0.0, distance = 0.0;
   double half_view = M_PI;  // rad
 
-  explicit Driver(const ExplorerParameters& parameters = {}) : explorer({}, {}, parameters) {}
+  const KnownWorld& world;
+
+  explicit Driver(const ExplorerParameters& parameters = {}, const KnownWorld& place = kRooms)
+      : explorer({}, {}, parameters), world(place) {}
 
   Action step() {
-    const Scan scan = ahead(kRooms.scanFrom(T_map_robot, 4.0), half_view);
+    const Scan scan = ahead(world.scanFrom(T_map_robot, 4.0), half_view);
     const Action action = explorer.step({scan, T_map_robot, velocity, time});
     velocity = action.velocity;
     constexpr double kPeriod = 0.1;
@@ -118,6 +127,34 @@ TEST(Explorer, GivesUpGoalsThatARobotWhichCannotMoveDoesNotReach) {
   for (int i = 0; i < 20000 && action.status != ExplorationStatus::kFinished; ++i, time += 1.0)
     action = explorer.step({scan, kStart, {}, time});
   EXPECT_EQ(action.status, ExplorationStatus::kFinished);
+}
+
+// Glass across one of two doors: the laser sees through, the robot gets no farther.
+TEST(Explorer, TakesTheOtherDoorWhereSomethingUnseenHoldsIt) {
+  ExplorerParameters parameters;
+  parameters.return_to_start = true;
+  Driver driver(parameters, kTwoDoors);
+  driver.T_map_robot = {3.0, 1.0, 0.0};
+  int against_the_glass = 0;
+  Action action;
+  for (int i = 0; i < 6000 && action.status != ExplorationStatus::kFinished; ++i) {
+    const Pose2 before = driver.T_map_robot;
+    action = driver.step();
+    const Eigen::Vector2d now = driver.T_map_robot.position();
+    const bool is_at_the_glass = now.y() < 2.0 && std::abs(now.x() - 4.25) < 0.5;
+    if (!is_at_the_glass) continue;
+    ++against_the_glass;
+    driver.T_map_robot = {before.x, before.y, driver.T_map_robot.theta};
+    driver.velocity.linear = 0.0;
+  }
+  EXPECT_EQ(action.status, ExplorationStatus::kFinished);
+  EXPECT_NE(action.reason.find("back at the start"), std::string::npos) << action.reason;
+  EXPECT_GT(against_the_glass, 50) << "it should have tried";
+  // Fourteen seconds each, three times side by side: the door is four times as wide as what is
+  // barred.
+  EXPECT_LT(against_the_glass, 600);
+  for (const Cell c : {Cell{140, 20}, Cell{140, 100}, Cell{100, 40}})
+    EXPECT_EQ(driver.explorer.grid().at(c), CellState::kFree) << c.x << ", " << c.y;
 }
 
 TEST(Explorer, RefusesAPathThatIsNone) {
