@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "cca_mrpt/mapping/wall_upkeep.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace cca {
+namespace {
+
+constexpr int kBins = 40;
+
+/// Hits on bins [first, last) of the wall, on a line that leaves t = 1 m at `slope`; those of
+/// neighbouring bins lie `rough` [m] on either side of it.
+void hit(Walls& walls, Walls::Slot slot, int first, int last, int times, double slope,
+         double rough = 0.0) {
+  Wall& wall = walls[slot];
+  for (int i = first; i < last; ++i) {
+    const double t = (i + 0.5) * SupportProfile::kBinLength;
+    const double off = slope * std::max(0.0, t - 1.0) + (i % 2 == 0 ? rough : -rough);
+    for (int k = 0; k < times; ++k) wall.profile.hit(t, off);
+    wall.hits += times;
+  }
+  walls.touch(slot);
+}
+
+class WallOfTwoMetres : public testing::Test {
+ protected:
+  /// A straight wall of two metres, of whose second half little was seen yet.
+  void SetUp() override {
+    slot_ = walls_.create();
+    hit(walls_, slot_, 0, kBins / 2, 50, 0.0);
+    hit(walls_, slot_, kBins / 2, kBins, 2, 0.0);
+    seeToTouched(walls_, noise_, next_id_);
+    ASSERT_EQ(wallCount(), 1);
+  }
+  long wallCount() const {
+    return std::count_if(walls_.all().begin(), walls_.all().end(),
+                         [](const Wall& wall) { return wall.alive; });
+  }
+
+  Walls walls_;
+  Walls::Slot slot_ = -1;
+  MapNoise noise_;
+  std::uint64_t next_id_ = 1;
+};
+
+TEST_F(WallOfTwoMetres, IsCutWhenABendPaysHoweverFewHitsShowIt) {
+  hit(walls_, slot_, kBins / 2, kBins, 4, 0.4);  // 80 of now 1120 hits
+  seeToTouched(walls_, noise_, next_id_);
+  EXPECT_EQ(wallCount(), 2);
+}
+
+TEST_F(WallOfTwoMetres, StaysWholeWhereTheBendIsWithinTheNoise) {
+  for (int i = 0; i < 10; ++i) {
+    hit(walls_, slot_, kBins / 2, kBins, 4, 0.1);
+    seeToTouched(walls_, noise_, next_id_);
+  }
+  EXPECT_EQ(wallCount(), 1);
+}
+
+TEST_F(WallOfTwoMetres, IsCutAtABendThatGrowsAfterASearchInVain) {
+  hit(walls_, slot_, 0, kBins, 50, 0.0, 0.04);  // a residual that no cut takes away
+  seeToTouched(walls_, noise_, next_id_);
+  ASSERT_EQ(wallCount(), 1);
+  ASSERT_GT(walls_[slot_].uncut_residual, walls_[slot_].profile.sums().residual());
+  int scans = 0;
+  while (wallCount() == 1 && ++scans < 200) {
+    hit(walls_, slot_, kBins / 2, kBins, 1, 0.3);
+    seeToTouched(walls_, noise_, next_id_);
+  }
+  EXPECT_EQ(wallCount(), 2) << scans;
+}
+
+}  // namespace
+}  // namespace cca
