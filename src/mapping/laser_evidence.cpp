@@ -50,7 +50,7 @@ std::vector<Eigen::Vector2d> beamDirections(const Scan& scan) {
   TurningBeam direction(scan.T_map_sensor.theta + scan.angle_min, scan.angle_increment);
   for (std::size_t beam = 0; beam < scan.size(); ++beam) {
     direction.turnTo(beam);
-    beams.push_back(direction.unit());
+    beams.emplace_back(direction.cosine(), direction.sine());
   }
   return beams;
 }

@@ -91,7 +91,8 @@ int breaksInAll(const ScanPoints& points) {
 
 void TurningBeam::aimAt(std::size_t beam) {
   const double bearing = first_bearing_ + static_cast<double>(beam) * spacing_;
-  unit_ = {std::cos(bearing), std::sin(bearing)};
+  cosine_ = std::cos(bearing);
+  sine_ = std::sin(bearing);
   turns_left_ = kTurnsPerSine;
 }
 
@@ -141,7 +142,7 @@ ScanPoints scanPoints(const Scan& scan, double point_sigma) {
     const double range = ranges[beam];
     silent += isNoReturn(range) ? 1 : 0;
     if (!isReturn(range) || range > kLongestRange) continue;
-    points.positions[returns] = range * direction.unit();
+    points.positions[returns] = {range * direction.cosine(), range * direction.sine()};
     points.beams[returns] = static_cast<int>(i);
     points.silent[returns++] = silent;
   }

@@ -50,20 +50,24 @@ class TurningBeam {
         turn_(std::cos(spacing), std::sin(spacing)) {}
   void turnTo(std::size_t beam) {
     if (beam == beam_ + 1 && --turns_left_ > 0) {
-      unit_ = {unit_.x() * turn_.x() - unit_.y() * turn_.y(),
-               unit_.y() * turn_.x() + unit_.x() * turn_.y()};
+      const double cosine = cosine_, sine = sine_;
+      cosine_ = cosine * turn_.x() - sine * turn_.y();
+      sine_ = sine * turn_.x() + cosine * turn_.y();
     } else {
       aimAt(beam);
     }
     beam_ = beam;
   }
-  const Eigen::Vector2d& unit() const { return unit_; }
+  // Of the bearing; two numbers, for a vector put together from them is slow to read at once.
+  double cosine() const { return cosine_; }
+  double sine() const { return sine_; }
 
  private:
   static constexpr int kTurnsPerSine = 64;
   void aimAt(std::size_t beam);
   double first_bearing_, spacing_;
-  Eigen::Vector2d turn_, unit_ = Eigen::Vector2d::UnitX();
+  Eigen::Vector2d turn_;
+  double cosine_ = 1.0, sine_ = 0.0;
   std::size_t beam_ = 0;
   int turns_left_ = 0;
 };
