@@ -242,26 +242,17 @@ void meetAtCorners(const ScanPoints& points, const RunFitter& fitter, Runs* runs
 }
 
 void tellEdgesBetween(const ScanPoints& points, const RunFitter& fitter, Runs* runs) {
-  Runs told;
-  told.reserve(runs->size() + 1);
-  for (std::size_t k = 0; k < runs->size();) {
-    FittedRun before = (*runs)[k++];
+  for (std::size_t k = 0; k < runs->size(); ++k) {
+    if (!(*runs)[k].is_line) continue;
     double loose_price = 0.0;
-    std::size_t next = k;
-    if (before.is_line) {
-      while (next < runs->size() && !(*runs)[next].is_line) loose_price += (*runs)[next++].price;
-    }
+    std::size_t next = k + 1;
+    while (next < runs->size() && !(*runs)[next].is_line) loose_price += (*runs)[next++].price;
+    if (next == runs->size()) return;
     FittedRun edge;
-    if (before.is_line && next < runs->size() &&
-        findEdgeBetween(points, fitter, loose_price, &before, &edge, &(*runs)[next])) {
-      told.push_back(before);
-      told.push_back(edge);
-      k = next;
-    } else {
-      told.push_back(before);
-    }
+    if (!findEdgeBetween(points, fitter, loose_price, &(*runs)[k], &edge, &(*runs)[next])) continue;
+    const auto between = runs->begin() + static_cast<std::ptrdiff_t>(++k);
+    runs->insert(runs->erase(between, runs->begin() + static_cast<std::ptrdiff_t>(next)), edge);
   }
-  runs->swap(told);
 }
 
 }  // namespace cca
