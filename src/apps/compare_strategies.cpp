@@ -16,6 +16,7 @@
 #include "cca_mrpt/simulation/coverage.hpp"
 #include "cca_mrpt/simulation/simulation.hpp"
 #include "commands.hpp"
+#include "exploration_record.hpp"
 #include "parameter_options.hpp"
 
 namespace cca::apps {
@@ -83,13 +84,12 @@ Result perform(const Run& run, const World& world, const Parameters& parameters)
                     parameters.laser.range);
   Result result;
   std::vector<double> distances;
-  constexpr double kLookEvery = 0.1;  // m
+  std::optional<Pose2> last_look;
   while (simulation.time() < parameters.run.longest_time) {
     const Observation observation = simulation.observe();
     const Action action = explorer.step(observation);
     result.finished = action.status == ExplorationStatus::kFinished;
-    if (distances.empty() || result.finished ||
-        simulation.distance() >= distances.back() + kLookEvery) {
+    if (keepIfMoved(last_look, simulation.T_map_robot()) || result.finished) {
       coverage.look(simulation.T_map_robot());
       distances.push_back(simulation.distance());
     }

@@ -13,7 +13,11 @@ namespace {
 
 constexpr double kEveryDistance = 0.1, kEveryTurn = 0.25;  // m, rad, between kept scans
 
-bool hasMoved(std::optional<Pose2>& last, const Pose2& now) {
+double rounded(double value, double per_unit) { return std::round(value * per_unit) / per_unit; }
+
+}  // namespace
+
+bool keepIfMoved(std::optional<Pose2>& last, const Pose2& now) {
   if (last && (now.position() - last->position()).norm() < kEveryDistance &&
       std::abs(wrapAngle(now.theta - last->theta)) < kEveryTurn) {
     return false;
@@ -21,10 +25,6 @@ bool hasMoved(std::optional<Pose2>& last, const Pose2& now) {
   last = now;
   return true;
 }
-
-double rounded(double value, double per_unit) { return std::round(value * per_unit) / per_unit; }
-
-}  // namespace
 
 ExplorationRecord::ExplorationRecord(const Simulation& simulation, const std::string& folder)
     : folder_(folder),
@@ -34,12 +34,13 @@ ExplorationRecord::ExplorationRecord(const Simulation& simulation, const std::st
 
 void ExplorationRecord::add(const Cycle& cycle) {
   ++scans_;
-  if (hasMoved(last_look_, cycle.T_map_robot)) look(cycle.T_map_robot, cycle.time, cycle.distance);
+  if (keepIfMoved(last_look_, cycle.T_map_robot))
+    look(cycle.T_map_robot, cycle.time, cycle.distance);
   if (cycle.goal && (!goal_ || *goal_ != *cycle.goal)) ++goals_;
   goal_ = cycle.goal;
   const auto& [scan, T_map_robot, velocity, time] = cycle.believed;
   rawlog_.insert(scan, T_map_robot.inverse() * scan.T_map_sensor, cycle.T_odom_robot, time);
-  if (hasMoved(last_insertion_, T_map_robot)) {
+  if (keepIfMoved(last_insertion_, T_map_robot)) {
     grid_.insert(scan);
     believed_way_.push_back(T_map_robot);
   }

@@ -14,6 +14,10 @@
 
 namespace cca::apps {
 
+/// Keeps a pose that lies 10 cm or 0.25 rad from the last one that was kept. @return whether it
+/// does.
+bool keepIfMoved(std::optional<Pose2>& last, const Pose2& now);
+
 /// What is kept of a simulated exploration for the files of its folder.
 class ExplorationRecord {
  public:
