@@ -124,15 +124,16 @@ void mergeWithNeighbours(Slot slot, Walls& walls, const MapNoise& noise) {
 }
 
 /// Cuts the wall at its strongest bend; the part behind the bend becomes a wall of its own.
-void splitWhereBent(Slot slot, Walls& walls, const MapNoise& noise) {
+/// @return whether it was bent.
+bool splitWhereBent(Slot slot, Walls& walls, const MapNoise& noise) {
   const double least_gain = 2.0 * noise.lateralSigma() * noise.lateralSigma() * kBendCost;
   const double residual = walls[slot].profile.sums().residual();
   // No cut gains more than all, nor more than the best one did and what came on top since.
-  if (residual < std::max(least_gain, walls[slot].uncut_residual)) return;
+  if (residual < std::max(least_gain, walls[slot].uncut_residual)) return false;
   const SupportProfile::Cut cut = walls[slot].profile.bestCut();
   const double lacking = least_gain - cut.gain;
   walls[slot].uncut_residual = lacking > 0.0 ? residual + lacking : 0.0;
-  if (lacking > 0.0) return;
+  if (lacking > 0.0) return false;
   const Slot tail_slot = walls.create();
   Wall &wall = walls[slot], &tail = walls[tail_slot];
   tail.origin = wall.origin;
@@ -157,6 +158,7 @@ void splitWhereBent(Slot slot, Walls& walls, const MapNoise& noise) {
   wall.profile.prune();
   refit(wall);
   walls.touch(tail_slot);
+  return true;
 }
 
 bool changedMuch(const Wall& wall) {
@@ -169,6 +171,9 @@ bool changedMuch(const Wall& wall) {
 
 void seeToTouched(Walls& walls, const MapNoise& noise, std::uint64_t& next_id) {
   std::vector<Slot>& touched = walls.touched();
+  // What is cut off from a wall may be shared out so that the wall is bent again, and so on for
+  // ever: there are no more cuts than walls that the scan has touched.
+  std::size_t cuts_left = touched.size();
   for (std::size_t i = 0; i < touched.size(); ++i) {
     const Slot slot = touched[i];
     walls[slot].touched = false;
@@ -180,7 +185,7 @@ void seeToTouched(Walls& walls, const MapNoise& noise, std::uint64_t& next_id) {
     }
     refit(walls[slot]);
     const bool changed = changedMuch(walls[slot]);
-    splitWhereBent(slot, walls, noise);
+    if (cuts_left > 0 && splitWhereBent(slot, walls, noise)) --cuts_left;
     if (changed) {
       mergeWithNeighbours(slot, walls, noise);
       Wall& wall = walls[slot];

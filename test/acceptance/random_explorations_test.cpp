@@ -159,6 +159,16 @@ TEST(RandomExplorations, EndAndTouchNothing) {
   });
 }
 
+// A wall of which a bend is cut off, whose ends are joined, and that then takes the bend back: the
+// line map went round in circles within one scan.
+TEST(RandomExplorations, WhereAWallIsBentAgainByWhatWasCutOffEnd) {
+  Outcome outcome;
+  Trial trial;
+  trial.laser.range = 12.0;
+  explore(194, trial, outcome);
+  EXPECT_EQ(outcome.runs, 1);
+}
+
 TEST(RandomExplorations, InNoiseEndAndTouchNothing) {
   exploreAll(2, [](int seed) {
     Trial trial;
