@@ -2,8 +2,8 @@
 #include "cca_mrpt/navigation/barred_ways.hpp"
 
 #include <algorithm>
+#include <utility>
 
-#include "cca_mrpt/navigation/aside_goals.hpp"
 #include "cca_mrpt/navigation/beam.hpp"
 
 namespace cca {
@@ -31,37 +31,30 @@ std::vector<Cell> cellsAhead(const std::vector<Eigen::Vector2d>& way, double res
 
 }  // namespace
 
-void BarredWays::bar(const std::vector<Eigen::Vector2d>& way, double resolution,
-                     std::size_t revealed, FreeSpace& space) {
-  BarredWay barred{{}, revealed};
+void BarredWays::bar(const std::vector<Eigen::Vector2d>& way, double resolution, FreeSpace& space) {
+  std::vector<Cell> cells;
   for (const Cell c : cellsAhead(way, resolution)) {
     for (int y = -kAside; y <= kAside; ++y) {
-      for (int x = -kAside; x <= kAside; ++x) barred.cells.push_back(c + Cell{x, y});
+      for (int x = -kAside; x <= kAside; ++x) cells.push_back(c + Cell{x, y});
     }
   }
-  for (const Cell c : barred.cells) space.bar(c, true);
-  ways_.push_back(std::move(barred));
+  for (const Cell c : cells) space.bar(c, true);
+  ways_.push_back(std::move(cells));
 }
 
-bool BarredWays::recall(std::size_t revealed, FreeSpace& space) {
-  const auto open = std::stable_partition(ways_.begin(), ways_.end(), [&](const BarredWay& way) {
-    return revealed <= way.revealed_then + AsideGoals::kWorthAnotherTry;
-  });
-  const bool any = open != ways_.end();
-  for (auto way = open; way != ways_.end(); ++way) {
-    for (const Cell c : way->cells) space.bar(c, false);
-  }
-  ways_.erase(open, ways_.end());
+void BarredWays::openLast(FreeSpace& space) {
+  if (ways_.empty()) return;
+  for (const Cell c : ways_.back()) space.bar(c, false);
+  ways_.pop_back();
   // A cell may have been barred twice.
-  for (const BarredWay& way : ways_) {
-    for (const Cell c : way.cells) space.bar(c, true);
+  for (const auto& cells : ways_) {
+    for (const Cell c : cells) space.bar(c, true);
   }
-  return any;
 }
 
 bool BarredWays::openAll(FreeSpace& space) {
-  for (const BarredWay& way : ways_) {
-    for (const Cell c : way.cells) space.bar(c, false);
+  for (const auto& cells : ways_) {
+    for (const Cell c : cells) space.bar(c, false);
   }
   const bool any = !ways_.empty();
   ways_.clear();

@@ -122,9 +122,12 @@ Action Explorer::explore(const Observation& observation) {
   action.velocity = driveTo(plan.path[next], observation);
   const TangentBugState state = tangent_bug_.state();
   progress_.note(planner_.goals(), plan.path, observation.time);
-  if (state == TangentBugState::kUnreachable || isStuck(observation.time)) {
-    planner_.noteStuck(progress_.shortest());
-    way_point_.reset();
+  const bool has_failed =
+      state == TangentBugState::kUnreachable || progress_.isOverdue(observation.time);
+  if (has_failed || isStuck(observation.time)) {
+    const bool goes_around = planner_.goAround(progress_.shortest());
+    if (has_failed && !goes_around) planner_.setGoalAside();
+    if (has_failed || goes_around) way_point_.reset();
   } else if (state == TangentBugState::kReached && is_last) {
     if (looksTowards(observation.scan, plan.look_at)) {
       planner_.noteArrival();
@@ -160,7 +163,7 @@ Action Explorer::goHome(const Observation& observation) {
   Action action{{}, *start_map_, ExplorationStatus::kReturning, "back to the start"};
   const std::size_t next = nextWayPoint(path, robot);
   action.velocity = driveTo(next + 1 < path.size() ? path[next] : *start_map_, observation);
-  if (progress_.isStuck(observation.time)) planner_.noteStuck(progress_.shortest());
+  if (progress_.isStuck(observation.time)) planner_.bar(progress_.shortest());
   return action;
 }
 
@@ -182,7 +185,6 @@ Velocity Explorer::driveTo(const Eigen::Vector2d& way_point, const Observation& 
 
 // By Tangent Bug alone the robot may have to drive away from its goal for long.
 bool Explorer::isStuck(double time) {
-  if (progress_.isOverdue(time)) return true;
   return parameters_.path == "known_space" && progress_.isStuck(time);
 }
 

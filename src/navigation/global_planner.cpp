@@ -331,17 +331,28 @@ void GlobalPlanner::setGoalAside() {
   goal_.reset();
 }
 
-void GlobalPlanner::noteStuck(const std::vector<Eigen::Vector2d>& way) {
-  barred_.bar(way, grid_.resolution(), grid_.revealed(), space_);
-  if (!goal_) return;
+void GlobalPlanner::bar(const std::vector<Eigen::Vector2d>& way) {
+  barred_.bar(way, grid_.resolution(), space_);
+}
+
+// Where there is no other way, the place stays open for the goals behind it: each is another try.
+bool GlobalPlanner::goAround(const std::vector<Eigen::Vector2d>& way) {
+  if (!goal_ || !last_place_) return false;
+  bar(way);
+  field_.search(space_, grid_.resolution(), grid_.cellOf(*last_place_));
+  if (!nearestViewPoint(grid_, space_, field_, scanned_, goal_->target, reach())) {
+    barred_.openLast(space_);
+    return false;
+  }
   if (aside_.noteLostWay(goal_->target)) setGoalAside();
   goal_.reset();
+  return true;
 }
 
 // Goals that were set aside, and ways.
 bool GlobalPlanner::recall(const Eigen::Vector2d& robot_map) {
   const bool any_goals = aside_.recall(grid_.revealed());
-  const bool any_ways = barred_.recall(grid_.revealed(), space_);
+  const bool any_ways = barred_.openAll(space_);
   if (any_ways) field_.search(space_, grid_.resolution(), grid_.cellOf(robot_map));
   return any_goals || any_ways;
 }
@@ -361,10 +372,10 @@ bool GlobalPlanner::isWithinLimits(Cell c) const {
 std::vector<Eigen::Vector2d> GlobalPlanner::pathTo(const Eigen::Vector2d& robot_map,
                                                    const Eigen::Vector2d& goal_map) {
   if (!isOnGrid(robot_map) || !isOnGrid(goal_map)) return {};
-  Cell goal;
   constexpr int kNearEnough = 10;  // cells
   std::vector<Eigen::Vector2d> path;
   do {
+    Cell goal;
     if (!nearestTraversable(space_, grid_.cellOf(goal_map), kNearEnough, goal)) continue;
     field_.search(space_, grid_.resolution(), grid_.cellOf(robot_map), DistanceField::kUnreached,
                   goal);

@@ -31,7 +31,7 @@ struct OpenFloor : testing::Test {
 };
 
 TEST_F(OpenFloor, TheFirstSixtyCentimetresOfAWayAreBarred) {
-  ways.bar({{1.025, 2.025}, {3.025, 2.025}}, kResolution, 0, space);
+  ways.bar({{1.025, 2.025}, {3.025, 2.025}}, kResolution, space);
   for (int x = 15; x < 45; ++x) {
     EXPECT_EQ(space.isTraversable({x, 40}), x < 18 || x > 34) << x;
     EXPECT_EQ(space.isTraversable({x, 42}), x < 18 || x > 34) << x;
@@ -40,43 +40,37 @@ TEST_F(OpenFloor, TheFirstSixtyCentimetresOfAWayAreBarred) {
 }
 
 TEST_F(OpenFloor, AWayIsBarredAroundItsCorners) {
-  ways.bar({{1.025, 2.025}, {1.225, 2.025}, {1.225, 3.0}}, kResolution, 0, space);
+  ways.bar({{1.025, 2.025}, {1.225, 2.025}, {1.225, 3.0}}, kResolution, space);
   EXPECT_FALSE(space.isTraversable({24, 47}));
   EXPECT_TRUE(space.isTraversable({28, 40}));
 }
 
 TEST_F(OpenFloor, WhereTheRobotHasBeenStaysOpen) {
   space.pass({25, 40});
-  ways.bar({{1.025, 2.025}, {3.025, 2.025}}, kResolution, 0, space);
+  ways.bar({{1.025, 2.025}, {3.025, 2.025}}, kResolution, space);
   EXPECT_TRUE(space.isTraversable({25, 40}));
   EXPECT_FALSE(space.isTraversable({26, 40}));
 }
 
-TEST_F(OpenFloor, BarredWaysAreRecalledOnlyAfterSomethingNewWasSeen) {
-  ways.bar({{1.025, 2.025}, {3.025, 2.025}}, kResolution, 1000, space);
-  EXPECT_FALSE(ways.recall(1200, space));
-  EXPECT_FALSE(space.isTraversable({25, 40}));
-  EXPECT_TRUE(ways.recall(1201, space));
-  EXPECT_EQ(shut(), 0);
-  EXPECT_FALSE(ways.recall(9999, space));
-}
-
-TEST_F(OpenFloor, WhatWasBarredTwiceStaysShutUntilBothAreOpen) {
-  ways.bar({{1.025, 2.025}, {3.025, 2.025}}, kResolution, 1000, space);
+TEST_F(OpenFloor, WhatWasBarredTwiceStaysShutWhenTheLastIsOpened) {
+  ways.bar({{1.025, 2.025}, {3.025, 2.025}}, kResolution, space);
   const int once = shut();
-  ways.bar({{1.025, 2.025}, {3.025, 2.025}}, kResolution, 2000, space);
-  EXPECT_TRUE(ways.recall(1500, space));
+  ways.bar({{1.225, 2.025}, {3.025, 2.025}}, kResolution, space);
+  EXPECT_GT(shut(), once);
+  ways.openLast(space);
   EXPECT_EQ(shut(), once);
   EXPECT_TRUE(ways.openAll(space));
   EXPECT_EQ(shut(), 0);
   EXPECT_FALSE(ways.openAll(space));
+  ways.openLast(space);
+  EXPECT_EQ(shut(), 0);
 }
 
 TEST_F(OpenFloor, WaysWithoutLengthAndBeyondTheGridBarNothing) {
-  ways.bar({}, kResolution, 0, space);
-  ways.bar({{1.0, 1.0}}, kResolution, 0, space);
-  ways.bar({{1.0, 1.0}, {1.0, 1.0}}, kResolution, 0, space);
-  ways.bar({{1e4, 1e4}, {1e4, 2e4}}, kResolution, 0, space);
+  ways.bar({}, kResolution, space);
+  ways.bar({{1.0, 1.0}}, kResolution, space);
+  ways.bar({{1.0, 1.0}, {1.0, 1.0}}, kResolution, space);
+  ways.bar({{1e4, 1e4}, {1e4, 2e4}}, kResolution, space);
   EXPECT_EQ(shut(), 0);
 }
 

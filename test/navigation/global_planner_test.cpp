@@ -127,42 +127,60 @@ TEST(GlobalPlanner, WaitsForAFirstScanAndAPose) {
 }
 
 TEST(GlobalPlanner, GoalsThatItGetsStuckOnTheWayToRunOut) {
-  GlobalPlanner planner;
-  const Scan scan = kTwoRooms.scanFrom({1.0, 1.0, 0.0}, 4.0);
-  std::vector<Eigen::Vector2d> goals;
-  for (int i = 0; i < 100 && !planner.update(scan, {1.0, 1.0}).finished; ++i) {
-    goals.push_back(planner.plan().path.back());
-    planner.noteStuck(planner.plan().path);
+  for (const bool goes_around : {false, true}) {
+    GlobalPlanner planner;
+    const Scan scan = kTwoRooms.scanFrom({1.0, 1.0, 0.0}, 4.0);
+    std::vector<Eigen::Vector2d> goals;
+    for (int i = 0; i < 100 && !planner.update(scan, {1.0, 1.0}).finished; ++i) {
+      goals.push_back(planner.plan().path.back());
+      if (!goes_around || !planner.goAround(planner.plan().path)) planner.setGoalAside();
+    }
+    EXPECT_TRUE(planner.plan().finished);
+    EXPECT_GE(goals.size(), 1u);
   }
-  EXPECT_TRUE(planner.plan().finished);
-  EXPECT_GE(goals.size(), 1u);
 }
 
-/// Two ways of 0.8 m width around a block, the lower one shorter.
+/// Two ways of 0.8 m width around a block; the lower one is the shorter one from below.
 const KnownWorld kTwoWays{{"####################", "#..................#", "#..................#",
                            "#..##############..#", "#..##############..#", "#..##############..#",
                            "#..................#", "#..................#", "####################"},
                           8};
 
-TEST(GlobalPlanner, WaysLeadAroundThePlaceWhereItGotStuck) {
-  const Eigen::Vector2d from(1.0, 0.8), to(7.0, 0.8);
+TEST(GlobalPlanner, WaysLeadAroundThePlaceWhereItGotStuckWhileThereIsAnother) {
+  const Eigen::Vector2d robot(1.0, 0.8);
+  const Scan scan = kTwoWays.scanFrom({robot.x(), robot.y(), 0.0}, 1.0);
   GlobalPlanner planner;
-  std::vector<Cell> free, walls;
-  for (int y = 0; y < kTwoWays.height(); ++y) {
-    for (int x = 0; x < kTwoWays.width(); ++x)
-      (kTwoWays.isOccupied({x, y}) ? walls : free).push_back({x, y});
-  }
-  planner.seed(free, CellState::kFree);
-  planner.seed(walls, CellState::kOccupied);
+  std::vector<Cell> known = kTwoWays.freeCells();
+  const auto is_in_the_corner = [](Cell c) { return c.x > 140 && c.y < 24; };
+  known.erase(std::remove_if(known.begin(), known.end(), is_in_the_corner), known.end());
+  planner.seed(known, CellState::kFree);
+  planner.seed(kTwoWays.walls(), CellState::kOccupied);
+  const auto highest = [&] {
+    double y = 0.0;
+    for (const Eigen::Vector2d& corner : planner.plan().path) y = std::max(y, corner.y());
+    return y;
+  };
+  planner.update(scan, robot);
+  EXPECT_LT(highest(), 1.5);
+  EXPECT_TRUE(planner.goAround({{1.5, 0.8}, {7.0, 0.8}})) << "another way to see the corner";
+  planner.update(scan, robot);
+  ASSERT_FALSE(planner.plan().path.empty());
+  EXPECT_GT(highest(), 2.5);
+  EXPECT_FALSE(planner.goAround({{0.8, 1.5}, {0.8, 2.8}})) << "both ways would be barred";
+  planner.update(scan, robot);
+  EXPECT_GT(highest(), 2.5) << "the upper way stays open";
+}
+
+TEST(GlobalPlanner, AWayHomeLeadsAlongABarredPlaceWhereThereIsNoOther) {
+  GlobalPlanner planner;
+  planner.seed(kTwoWays.freeCells(), CellState::kFree);
+  planner.seed(kTwoWays.walls(), CellState::kOccupied);
+  const Eigen::Vector2d from(1.0, 0.8), to(6.8, 0.8);
   const double lower = pathLength(planner.pathTo(from, to));
-  EXPECT_NEAR(lower, 6.0, 0.1);
-  planner.noteStuck({{4.0, 0.7}, {7.0, 0.7}});
-  EXPECT_NEAR(pathLength(planner.pathTo(from, to)), 6.0, 0.3) << "there is room beside it";
-  planner.noteStuck({{4.0, 0.95}, {7.0, 0.95}});
-  planner.noteStuck({{4.0, 0.5}, {7.0, 0.5}});
+  EXPECT_NEAR(lower, 5.8, 0.1);
+  planner.bar({{4.0, 0.8}, {7.0, 0.8}});
   EXPECT_GT(pathLength(planner.pathTo(from, to)), 8.0);
-  // With both ways barred, what was barred is tried again.
-  for (const double y : {2.6, 2.85, 3.1}) planner.noteStuck({{4.0, y}, {7.0, y}});
+  planner.bar({{4.0, 2.8}, {7.0, 2.8}});
   EXPECT_NEAR(pathLength(planner.pathTo(from, to)), lower, 1e-9);
 }
 

@@ -27,6 +27,18 @@ struct KnownWorld {
     return rows[row][static_cast<std::size_t>(c.x / scale)] == '#';
   }
 
+  std::vector<Cell> freeCells() const { return cells(false); }
+  std::vector<Cell> walls() const { return cells(true); }
+  std::vector<Cell> cells(bool occupied) const {
+    std::vector<Cell> cells;
+    for (int y = 0; y < height(); ++y) {
+      for (int x = 0; x < width(); ++x) {
+        if (isOccupied({x, y}) == occupied) cells.push_back({x, y});
+      }
+    }
+    return cells;
+  }
+
   /// All that the world holds, as if it had been seen.
   ExplorationGrid seen() const {
     ExplorationGrid grid;

@@ -14,8 +14,6 @@ namespace cca {
 /// Cost: O(goals set aside) each.
 class AsideGoals {
  public:
-  static constexpr std::size_t kWorthAnotherTry = 200;  ///< cells newly seen: half a square metre
-
   void add(Cell target, std::size_t revealed);
 
   /// Notes that the way to a goal was lost, half-way there. A passage about as wide as the robot

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <cstddef>
 #include <vector>
 
 #include "cca_mrpt/navigation/free_space.hpp"
@@ -13,31 +12,21 @@ namespace cca {
 /// width, where the grid and Tangent Bug disagree by a centimetre, or somebody who stands there.
 /// All further ways lead around them. Without that, every goal behind such a passage was tried in
 /// turn.
-///
-/// As with AsideGoals, `revealed` tells how much has been seen: the number of cells that the grid
-/// has ever come to know.
 class BarredWays {
  public:
   /// Bars the first 60 cm of a way, 25 cm wide; cells that the robot has been in stay open.
   /// @param way  corners, m, map frame, from where the robot got no farther.
   /// Cost: O(1).
-  void bar(const std::vector<Eigen::Vector2d>& way, double resolution, std::size_t revealed,
-           FreeSpace& space);
+  void bar(const std::vector<Eigen::Vector2d>& way, double resolution, FreeSpace& space);
 
-  /// Opens those since which half a square metre has been seen.
-  /// @return whether there were any. Cost: O(cells barred).
-  bool recall(std::size_t revealed, FreeSpace& space);
+  /// Opens what was barred last. Cost: O(cells barred).
+  void openLast(FreeSpace& space);
 
   /// Opens all. @return whether there were any. Cost: O(cells barred).
   bool openAll(FreeSpace& space);
 
  private:
-  struct BarredWay {
-    std::vector<Cell> cells;
-    std::size_t revealed_then;
-  };
-
-  std::vector<BarredWay> ways_;
+  std::vector<std::vector<Cell>> ways_;
 };
 
 }  // namespace cca

@@ -65,10 +65,17 @@ class GlobalPlanner {
   /// Exploration stays inside a polygon (m, map frame); fewer than three corners: no limit.
   void limitTo(std::vector<Eigen::Vector2d> polygon) { parameters_.limits = std::move(polygon); }
 
-  /// Says that the robot got no farther on this way (m, map frame), from its beginning on. Further
-  /// ways lead around that place. A goal that this happens to twice is set aside until the map has
-  /// changed.
-  void noteStuck(const std::vector<Eigen::Vector2d>& way);
+  /// Sets the present goal aside until the map has changed, e.g. where it proved unreachable.
+  void setGoalAside();
+
+  /// Says that the robot got no farther on a way (m, map frame), from its beginning on: further
+  /// ways lead around that place.
+  void bar(const std::vector<Eigen::Vector2d>& way);
+
+  /// The same, where what the present goal is to show can be seen on another way. A goal that this
+  /// happens to twice is set aside.
+  /// @return whether there is another way. Cost: a search over the known blocks.
+  bool goAround(const std::vector<Eigen::Vector2d>& way);
 
   /// Says that the robot is as near to the goal as it gets: if there is nothing new to see from
   /// here, the goal is not tried again until the map has changed.
@@ -95,7 +102,6 @@ class GlobalPlanner {
   int goals() const { return goals_; }
 
  private:
-  void setGoalAside();
   bool recall(const Eigen::Vector2d& robot_map);
   void takeChanges();
   void notePassage(const Eigen::Vector2d& robot_map);
