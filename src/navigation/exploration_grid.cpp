@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 
+#include "cca_mrpt/mapping/cross.hpp"
 #include "cca_mrpt/navigation/beam.hpp"
 
 namespace cca {
@@ -100,7 +101,7 @@ void ExplorationGrid::presumeWalls(const Scan& scan) {
         const Eigen::Vector2d offset = p - end;
         const double reach = std::abs(offset.dot(along)) / gap;
         return reach > kLeastReach && reach < kMostReach &&
-               std::abs(along.x() * offset.y() - along.y() * offset.x()) < kInLine * (1.0 + reach);
+               std::abs(cross(along, offset)) < kInLine * (1.0 + reach);
       };
       if (gap > kWidestGuess || !(isInLine(i - 1, from) || isInLine(i + 2, to))) continue;
     }

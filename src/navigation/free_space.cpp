@@ -21,23 +21,23 @@ FreeSpace::FreeSpace(double clearance, double resolution) : clearance_(clearance
 void FreeSpace::update(const ExplorationGrid& grid, const std::vector<Cell>& changed) {
   for (const Cell c : changed) {
     const CellState state = grid.at(c);
-    std::uint16_t& cell = cells_[c];
+    std::uint32_t& cell = cells_[c];
     const bool was_occupied = cell & kOccupied, is_occupied = state == CellState::kOccupied;
-    cell = static_cast<std::uint16_t>(cell & ~(kFree | kOccupied));
+    cell &= ~(kFree | kOccupied);
     if (state == CellState::kFree || state == CellState::kPresumedFree) cell |= kFree;
     if (is_occupied) cell |= kOccupied;
-    if (is_occupied != was_occupied) grow(c, is_occupied ? 1 : -1);
+    if (is_occupied != was_occupied) grow(c, is_occupied);
     mark(c);
   }
 }
 
-void FreeSpace::grow(Cell obstacle, int sign) {
+void FreeSpace::grow(Cell obstacle, bool is_growing) {
   for (const Cell offset : disc_) {
     const Cell c = obstacle + offset;
     if (!isStorable(c)) continue;
-    std::uint16_t& cell = cells_[c];
+    std::uint32_t& cell = cells_[c];
     const bool was_traversable = isTraversable(cell);
-    cell = static_cast<std::uint16_t>(cell + sign);
+    cell = is_growing ? cell + 1 : cell - 1;
     if (was_traversable != isTraversable(cell)) mark(c);
   }
 }
@@ -50,8 +50,8 @@ void FreeSpace::pass(Cell c) {
 
 void FreeSpace::bar(Cell c, bool is_barred) {
   if (!isStorable(c)) return;
-  std::uint16_t& cell = cells_[c];
-  cell = static_cast<std::uint16_t>(is_barred ? cell | kBarred : cell & ~kBarred);
+  std::uint32_t& cell = cells_[c];
+  cell = is_barred ? cell | kBarred : cell & ~kBarred;
   mark(c);
 }
 

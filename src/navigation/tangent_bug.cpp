@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "cca_mrpt/mapping/cross.hpp"
 #include "cca_mrpt/mapping/range_noise.hpp"
 #include "cca_mrpt/navigation/motion_control.hpp"
 #include "cca_mrpt/navigation/safe_velocity.hpp"
@@ -211,7 +212,7 @@ std::optional<Eigen::Vector2d> TangentBug::startFollowing() {
   // lies towards the goal on its right.
   const Eigen::Vector2d last =
       motion_to_goal_.lastDirection().value_or(view_.T_map_robot.heading());
-  const bool on_the_right = towards_goal.x() * last.y() - towards_goal.y() * last.x() > 0.0;
+  const bool on_the_right = cross(towards_goal, last) > 0.0;
   if (!started_at_map_ || (x - *started_at_map_).norm() > kSameArea) {
     started_at_map_ = x;
     ++starts_;

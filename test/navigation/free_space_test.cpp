@@ -44,6 +44,25 @@ TEST(FreeSpace, KeepsTheClearanceFromEveryOccupiedCell) {
   expectEqualsDefinition(space, grid, 60);
 }
 
+// A robot of two metres in a saved map of filled walls: more obstacles within reach than 12 bits
+// count.
+TEST(FreeSpace, CountsThousandsOfObstaclesWithinItsClearance) {
+  ExplorationGrid grid;
+  std::vector<Cell> all;
+  for (int y = 0; y < 80; ++y) {
+    for (int x = 0; x < 80; ++x) {
+      all.push_back({x, y});
+      grid.set({x, y}, x == 40 && y == 40 ? CellState::kFree : CellState::kOccupied);
+    }
+  }
+  FreeSpace space(2.0, grid.resolution());
+  space.update(grid, all);
+  EXPECT_FALSE(space.isTraversable({40, 40}));
+  for (const Cell c : all) grid.set(c, CellState::kFree);
+  space.update(grid, all);
+  for (const Cell c : all) ASSERT_TRUE(space.isTraversable(c)) << c.x << ", " << c.y;
+}
+
 TEST(FreeSpace, StaysEqualToItsDefinitionWhileCellsChangeBackAndForth) {
   ExplorationGrid grid = randomWorld(2, 40, 0.01).seen();
   FreeSpace space(0.25, grid.resolution());

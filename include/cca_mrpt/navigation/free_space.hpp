@@ -50,17 +50,17 @@ class FreeSpace {
   double clearance() const { return clearance_; }
 
  private:
-  static constexpr std::uint16_t kFree = 0x8000, kOccupied = 0x4000, kPassed = 0x2000,
-                                 kBarred = 0x1000;
-  static bool isTraversable(std::uint16_t cell) {
+  static constexpr std::uint32_t kFree = 0x80000000, kOccupied = 0x40000000, kPassed = 0x20000000,
+                                 kBarred = 0x10000000;
+  static bool isTraversable(std::uint32_t cell) {
     return cell == kFree || (cell & (kPassed | kOccupied)) == kPassed;
   }
-  void grow(Cell obstacle, int sign);
+  void grow(Cell obstacle, bool is_growing);
   void mark(Cell c);
 
   double clearance_;
   std::vector<Cell> disc_;
-  TiledGrid<std::uint16_t> cells_;   ///< state bits, and the number of obstacles within clearance
+  TiledGrid<std::uint32_t> cells_;   ///< state bits, and the number of obstacles within clearance
   TiledGrid<std::uint16_t> blocks_;  ///< traversable cells, a bit each
 };
 

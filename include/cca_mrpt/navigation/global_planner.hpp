@@ -7,13 +7,9 @@
 #include <vector>
 
 #include "cca_mrpt/navigation/aside_goals.hpp"
-#include "cca_mrpt/navigation/barred_ways.hpp"
-#include "cca_mrpt/navigation/exploration_grid.hpp"
-#include "cca_mrpt/navigation/free_space.hpp"
-#include "cca_mrpt/navigation/frontier.hpp"
+#include "cca_mrpt/navigation/frontier_views.hpp"
 #include "cca_mrpt/navigation/goal_selection.hpp"
-#include "cca_mrpt/navigation/grid_paths.hpp"
-#include "cca_mrpt/navigation/scanned_places.hpp"
+#include "cca_mrpt/navigation/known_place.hpp"
 #include "cca_mrpt/navigation/view_tour.hpp"
 
 namespace cca {
@@ -23,8 +19,6 @@ struct GlobalPlannerParameters {
   double clearance = 0.30;            ///< m, kept from known obstacles
   double smallest_gain = 0.1;         ///< m^2, frontiers that promise less are left
   std::size_t smallest_frontier = 5;  ///< cells, likewise
-  /// m, map frame: exploration stays inside this polygon. Fewer than three corners: no limit.
-  std::vector<Eigen::Vector2d> limits;
   ViewTourParameters tour;
 };
 
@@ -60,17 +54,19 @@ class GlobalPlanner {
   const Plan& update(const Scan& scan, const Eigen::Vector2d& robot_map);
 
   /// Takes a scan and decides nothing.
-  void observe(const Scan& scan, const Eigen::Vector2d& robot_map);
+  void observe(const Scan& scan, const Eigen::Vector2d& robot_map) {
+    place_.observe(scan, robot_map);
+  }
 
   /// Exploration stays inside a polygon (m, map frame); fewer than three corners: no limit.
-  void limitTo(std::vector<Eigen::Vector2d> polygon) { parameters_.limits = std::move(polygon); }
+  void limitTo(std::vector<Eigen::Vector2d> polygon) { views_.limitTo(std::move(polygon)); }
 
   /// Sets the present goal aside until the map has changed, e.g. where it proved unreachable.
   void setGoalAside();
 
   /// Says that the robot got no farther on a way (m, map frame), from its beginning on: further
   /// ways lead around that place.
-  void bar(const std::vector<Eigen::Vector2d>& way);
+  void bar(const std::vector<Eigen::Vector2d>& way) { place_.bar(way); }
 
   /// The same, where what the present goal is to show can be seen on another way. A goal that this
   /// happens to twice is set aside.
@@ -90,56 +86,37 @@ class GlobalPlanner {
                                       const Eigen::Vector2d& goal_map);
 
   /// Declares cells as known from a saved map.
-  void seed(const std::vector<Cell>& cells, CellState state);
+  void seed(const std::vector<Cell>& cells, CellState state) { place_.seed(cells, state); }
 
-  const ExplorationGrid& grid() const { return grid_; }
-  const FreeSpace& space() const { return space_; }
-  const FrontierCells& frontierCells() const { return frontier_cells_; }
-  /// Of the last decision.
-  const std::vector<ViewPoint>& viewPoints() const { return view_points_; }
+  const ExplorationGrid& grid() const { return place_.grid(); }
+  const FreeSpace& space() const { return place_.space(); }
+  const FrontierCells& frontierCells() const { return place_.frontierCells(); }
   const Plan& plan() const { return plan_; }
   /// Number of goals set so far.
   int goals() const { return goals_; }
 
  private:
-  bool recall(const Eigen::Vector2d& robot_map);
-  void takeChanges();
-  void notePassage(const Eigen::Vector2d& robot_map);
-  void learnRange(const Scan& scan);
+  bool isScanned(const Eigen::Vector2d& p_map) const;
+  bool isGoalUnseen() const;
   bool goalStands() const;
   bool pathStands() const;
   void advance(const Eigen::Vector2d& robot_map);
   void replan(const Eigen::Vector2d& robot_map);
+  bool takeWayTo(Cell goal, const Eigen::Vector2d& robot_map);
   bool isTimeToReconsider(const Eigen::Vector2d& robot_map) const;
   void decide(const Eigen::Vector2d& robot_map);
-  void lookAround();
-  std::optional<ViewPoint> viewOf(const Frontier& frontier) const;
-  void findViewPoints();
-  std::optional<Cell> entryAt(Cell middle) const;
-  void keepPresentGoal();
+  void findViews();
+  bool recall();
   std::optional<ViewPoint> choose();
-  bool isWithinLimits(Cell c) const;
-  double reach() const;
-  bool isOnGrid(const Eigen::Vector2d& p_map) const;
+  void lookAround();
 
-  GlobalPlannerParameters parameters_;
   Strategy strategy_;
-  ExplorationGrid grid_;
-  FreeSpace space_;
-  FrontierCells frontier_cells_;
-  DistanceField field_;
-  ScannedPlaces scanned_;
-  std::optional<Eigen::Vector2d> last_place_;  ///< m, of the robot at the last scan
+  KnownPlace place_;
+  FrontierViews views_;
   ViewTour view_tour_;
-  bool has_looked_around_ = false;  ///< from the start
-  std::vector<ViewPoint> view_points_;
-  std::vector<ViewPoint> entries_;  ///< places at the frontiers themselves, rests left out
-  bool only_rests_ = false;         ///< whether the view points are rests
   AsideGoals aside_;
-  BarredWays barred_;
+  bool has_looked_around_ = false;  ///< from the start
   std::optional<ViewPoint> goal_;
-  double laser_range_ = 1.0;   ///< m, the longest that a beam was seen to be free
-  bool is_last_look_ = false;  ///< nothing is left but what is hard to see
   Eigen::Vector2d decided_at_ = Eigen::Vector2d::Zero();
   std::size_t revealed_then_ = 0;  ///< at the last decision
   int goals_ = 0;

@@ -16,8 +16,7 @@ class WayProgress {
 
   /// Notes what is left of the way to a goal; once a step.
   /// @param goal  its number: another one has all the time, that of its way at a fifth of full
-  /// speed
-  ///              and half a minute more.
+  ///              speed and half a minute more.
   /// @param way   corners, m, map frame, from the robot on. One that becomes longer at a stroke is
   ///              another way to the same goal. Empty: nothing is noted.
   void note(int goal, const std::vector<Eigen::Vector2d>& way, double time);

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "cca_mrpt/navigation/known_place.hpp"
+
+#include <algorithm>
+
+#include "cca_mrpt/navigation/beam.hpp"
+
+namespace cca {
+namespace {
+
+constexpr double kLongestStep = 0.5;  // m, between scans; a farther one is a jump
+
+}  // namespace
+
+void KnownPlace::observe(const Scan& scan, const Eigen::Vector2d& robot_map) {
+  learnRange(scan);
+  grid_.insert(scan);
+  takeChanges();
+  if (!isOnGrid(robot_map)) return;
+  notePassage(robot_map);
+  scanned_.add(grid_.cellOf(robot_map), scan);
+}
+
+void KnownPlace::learnRange(const Scan& scan) {
+  for (std::size_t beam = 0; beam < scan.size(); ++beam) {
+    const double seen = scan.freeRange(beam);
+    if (isReturn(seen)) laser_range_ = std::max(laser_range_, seen);
+  }
+}
+
+void KnownPlace::notePassage(const Eigen::Vector2d& robot_map) {
+  const Eigen::Vector2d from = last_place_.value_or(robot_map) / grid_.resolution();
+  const Eigen::Vector2d step = robot_map / grid_.resolution() - from;
+  const double length = step.norm();
+  last_place_ = robot_map;
+  if (length == 0.0 || length > kLongestStep / grid_.resolution()) return;
+  walkBeam(from, step / length, length, [&](Cell c, double) {
+    space_.pass(c);
+    return true;
+  });
+}
+
+void KnownPlace::seed(const std::vector<Cell>& cells, CellState state) {
+  for (const Cell c : cells) grid_.set(c, state);
+  takeChanges();
+}
+
+void KnownPlace::takeChanges() {
+  space_.update(grid_, grid_.changed());
+  frontier_cells_.update(grid_, grid_.changed());
+}
+
+void KnownPlace::findWays(const Eigen::Vector2d& from_map, std::optional<Cell> until) {
+  ways_.search(space_, grid_.resolution(), grid_.cellOf(from_map), DistanceField::kUnreached,
+               until);
+}
+
+bool KnownPlace::isOnGrid(const Eigen::Vector2d& p_map) const {
+  return p_map.allFinite() && p_map.cwiseAbs().maxCoeff() < grid_.resolution() * kFarthestCell;
+}
+
+}  // namespace cca
