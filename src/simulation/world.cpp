@@ -29,6 +29,8 @@ World::World(std::string world_name, int width, int height,
 
 double World::clearance(const Eigen::Vector2d& p_map, double limit) const {
   const Eigen::Vector2d p = toCells(p_map);
+  // Asked so that what is no number is not inside, and no huge one becomes a cell's.
+  if (!(p.x() >= 0.0 && p.y() >= 0.0 && p.x() <= width_ && p.y() <= height_)) return 0.0;
   const double reach = limit / resolution_;
   const int x0 = static_cast<int>(std::floor(p.x() - reach)),
             x1 = static_cast<int>(std::floor(p.x() + reach)),

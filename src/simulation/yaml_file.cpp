@@ -5,6 +5,8 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <cstring>
+#include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <stdexcept>
@@ -21,6 +23,27 @@ std::string shown(double value) {
   return text;
 }
 
+constexpr std::size_t kDeepest = 100;  // levels; these files need three
+
+/// At least as many levels as a YAML text can have: brackets that are open at a time, or what may
+/// stand before the first word of a line.
+std::size_t deepestNesting(const std::string& text) {
+  std::size_t deepest = 0, open = 0, before_word = 0;
+  bool in_word = false;
+  for (const char c : text) {
+    if (c == '\n' || c == '\r') {
+      before_word = 0;
+      in_word = false;
+    }
+    if (c == '[' || c == '{') ++open;
+    if ((c == ']' || c == '}') && open > 0) --open;
+    in_word = in_word || std::strchr(" \t\r\n-?:[{", c) == nullptr;
+    if (!in_word) ++before_word;
+    deepest = std::max({deepest, open, before_word});
+  }
+  return deepest;
+}
+
 std::string joined(const std::vector<std::string>& words) {
   std::string all;
   for (const auto& word : words) all += (all.empty() ? "" : ", ") + word;
@@ -30,6 +53,7 @@ std::string joined(const std::vector<std::string>& words) {
 }  // namespace
 
 YamlNode YamlNode::load(const std::string& path) {
+  if (!std::filesystem::is_regular_file(path)) throw std::runtime_error(path + ": cannot be read");
   std::ifstream file(path);
   const std::string text{std::istreambuf_iterator<char>(file), {}};
   if (!file) throw std::runtime_error(path + ": cannot be read");
@@ -38,6 +62,8 @@ YamlNode YamlNode::load(const std::string& path) {
       text.find("\r%") != std::string::npos) {
     throw std::runtime_error(path + ": YAML directives (%...) are not read");
   }
+  // It also calls itself once a level, until the stack ends.
+  if (deepestNesting(text) > kDeepest) throw std::runtime_error(path + ": is nested too deep");
   yaml node;
   try {
     node.loadFromText(text);

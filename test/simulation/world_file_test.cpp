@@ -127,12 +127,22 @@ TEST(WorldFile, RefusesDirectivesOnSomeOfWhichTheYamlLibraryHangs) {
   EXPECT_NE(complaintAbout("%YAML 1.1\n" + kRest).find("directives"), std::string::npos);
 }
 
-TEST(WorldFile, AMissingFileIsNamed) {
-  try {
-    loadWorld("nowhere/world.yaml");
-    FAIL();
-  } catch (const std::runtime_error& error) {
-    EXPECT_STREQ(error.what(), "nowhere/world.yaml: cannot be read");
+TEST(WorldFile, RefusesNestingThatWouldEndTheStackOfTheYamlLibrary) {
+  for (const char* level : {"[", "{a: ", "- ", "? "}) {
+    std::string deep;
+    for (int k = 0; k < 20000; ++k) deep += level;
+    EXPECT_NE(complaintAbout(deep).find("nested too deep"), std::string::npos) << level;
+  }
+}
+
+TEST(WorldFile, AMissingFileIsNamedAndSoIsAFolder) {
+  for (const std::string& path : {std::string("nowhere/world.yaml"), testing::TempDir()}) {
+    try {
+      loadWorld(path);
+      FAIL();
+    } catch (const std::runtime_error& error) {
+      EXPECT_EQ(error.what(), path + ": cannot be read");
+    }
   }
 }
 
@@ -142,6 +152,8 @@ TEST(World, ClearanceIsTheDistanceToTheNearestObstacleCell) {
   EXPECT_NEAR(world.clearance({2.5, 2.5}, 0.3), 0.3, 1e-12);
   EXPECT_EQ(world.clearance({0.02, 2.5}, 0.3), 0.0);
   EXPECT_EQ(world.clearance({-9.0, 2.5}, 0.3), 0.0);
+  EXPECT_EQ(world.clearance({1e300, 2.5}, 0.3), 0.0);
+  EXPECT_EQ(world.clearance({2.5, NAN}, 0.3), 0.0);
 }
 
 TEST(DefaultStart, IsTheWidestPlaceAndRefusesWorldsTooNarrow) {

@@ -46,8 +46,8 @@ class World {
     return (p_map - origin_) / resolution_;
   }
   /// @param limit  m; obstacles farther away than this are not looked for.
-  /// @return       m, distance from a point to the nearest obstacle cell, 0 inside one, at most
-  ///               limit. Cost: cells within the limit.
+  /// @return       m, distance from a point to the nearest obstacle cell, 0 inside one and beyond
+  ///               the grid, at most limit. Cost: cells within the limit.
   double clearance(const Eigen::Vector2d& p_map, double limit) const;
 
   std::string name;                       ///< file name without extension
