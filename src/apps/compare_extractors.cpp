@@ -70,8 +70,7 @@ std::vector<ScanGroup> gather(const Options& options, const LaserParameters& las
     if (!isWorld(input)) append(real.scans, sampleLog(input, options.scans));
   }
   if (!real.scans.empty()) groups.push_back(std::move(real));
-  if (groups.empty())
-    throw std::runtime_error("no scan to compare on: give logs, worlds, or --polygons");
+  if (groups.empty()) throw CLI::RequiredError("INPUT or --polygons");
   return groups;
 }
 
@@ -192,7 +191,7 @@ void addCompareExtractorsCommand(CLI::App& program) {
       ->add_option("--noise", options->noises,
                    "range noises of the simulated scans [m], separated by commas")
       ->delimiter(',')
-      ->check(CLI::Range(0.0, 1.0));
+      ->check(valueOf("laser.range_noise"));
   command->add_option("--extractors", options->extractors, "only these, separated by commas")
       ->delimiter(',')
       ->check(CLI::IsMember(allNames()));

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
 #include <atomic>
-#include <cmath>
 #include <cstdio>
+#include <exception>
 #include <filesystem>
 #include <map>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <random>
 #include <stdexcept>
@@ -12,6 +14,7 @@
 #include <thread>
 #include <vector>
 
+#include "cca_mrpt/io/atomic_file.hpp"
 #include "cca_mrpt/navigation/explorer.hpp"
 #include "cca_mrpt/simulation/coverage.hpp"
 #include "cca_mrpt/simulation/simulation.hpp"
@@ -33,6 +36,7 @@ struct CompareOptions {
 
 struct Run {
   std::string world, strategy;
+  std::size_t world_number = 0;
   int number = 0;  ///< of the start; the seed too
   Pose2 T_map_start;
 };
@@ -51,21 +55,22 @@ struct Result {
 /// Start 0 is the world's own; the others are drawn among the places where the robot can stand and
 /// that can be seen from there by driving.
 std::vector<Pose2> drawStarts(const World& world, const Parameters& parameters, int count) {
-  std::vector<Pose2> starts{defaultStart(world, parameters.robot.radius)};
-  const auto visible = visibleCells(world, starts.front().position(), parameters.robot.radius, 8.0);
+  const double radius = parameters.robot.radius;
+  std::vector<Pose2> starts{defaultStart(world, radius)};
+  requireStandable(world, starts.front(), radius);
+  const auto visible = visibleCells(world, starts.front().position(), radius, 8.0);
   const auto width = static_cast<std::size_t>(world.grid().getSizeX());
   std::mt19937 random(1);
   for (int tries = 0; static_cast<int>(starts.size()) < count && tries < 100000; ++tries) {
     const std::size_t cell = random() % visible.size();
     if (!visible[cell]) continue;
-    const Pose2 T{world.grid().idx2x(static_cast<int>(cell % width)),
-                  world.grid().idx2y(static_cast<int>(cell / width)), 0.0};
-    try {
-      Simulation stands(world, T, SimulationParameters{});
-    } catch (const std::runtime_error&) {
-      continue;
-    }
-    starts.push_back(T);
+    const Eigen::Vector2d p_grid(world.grid().idx2x(static_cast<int>(cell % width)),
+                                 world.grid().idx2y(static_cast<int>(cell / width)));
+    const Eigen::Vector2d p_map = world.origin() + p_grid;
+    if (world.clearance(p_map, radius) >= radius) starts.push_back({p_map.x(), p_map.y(), 0.0});
+  }
+  if (static_cast<int>(starts.size()) < count) {
+    throw std::runtime_error(world.name + ": no place is found for so many starts");
   }
   return starts;
 }
@@ -74,7 +79,6 @@ Result perform(const Run& run, const World& world, const Parameters& parameters)
   SimulationParameters simulated;
   simulated.robot = parameters.robot;
   simulated.laser = parameters.laser;
-  simulated.odometry = parameters.odometry;
   simulated.seed = static_cast<std::uint64_t>(run.number) + 1;
   Simulation simulation(world, run.T_map_start, simulated);
   ExplorerParameters exploration = parameters.exploration;
@@ -118,57 +122,54 @@ std::string inMetres(const std::optional<double>& distance) {
   return distance ? text : "-";
 }
 
-std::FILE* openFile(const std::string& path) {
-  std::FILE* file = std::fopen(path.c_str(), "w");
-  if (!file) throw std::runtime_error(path + ": cannot be written");
-  return file;
+template <class... Values>
+std::string format(const char* pattern, Values... values) {
+  char text[256];
+  std::snprintf(text, sizeof text, pattern, values...);
+  return text;
 }
 
-void writeTable(const std::string& path, const std::vector<Run>& runs,
-                const std::vector<Result>& results) {
-  std::FILE* file = openFile(path);
-  std::fprintf(file,
-               "world,strategy,start,to_90_m,to_95_m,to_99_m,distance_m,duration_s,coverage,"
-               "collisions,finished\n");
+std::string table(const std::vector<Run>& runs, const std::vector<Result>& results) {
+  std::string text =
+      "world,strategy,start,to_90_m,to_95_m,to_99_m,distance_m,duration_s,coverage,"
+      "collisions,finished\n";
   for (std::size_t i = 0; i < runs.size(); ++i) {
-    std::fprintf(file, "%s,%s,%d", runs[i].world.c_str(), runs[i].strategy.c_str(), runs[i].number);
-    for (const double level : kLevels)
-      std::fprintf(file, ",%s", inMetres(distanceTo(results[i], level)).c_str());
-    std::fprintf(file, ",%.2f,%.1f,%.5f,%d,%d\n", results[i].distance, results[i].duration,
-                 results[i].coverage, results[i].collisions, results[i].finished ? 1 : 0);
+    text += runs[i].world + "," + runs[i].strategy + "," + std::to_string(runs[i].number);
+    for (const double level : kLevels) text += "," + inMetres(distanceTo(results[i], level));
+    text += format(",%.2f,%.1f,%.5f,%d,%d\n", results[i].distance, results[i].duration,
+                   results[i].coverage, results[i].collisions, results[i].finished ? 1 : 0);
   }
-  std::fclose(file);
+  return text;
 }
 
-void writeCurves(const std::string& path, const std::vector<Run>& runs,
-                 const std::vector<Result>& results) {
-  std::FILE* file = openFile(path);
-  std::fprintf(file, "world,strategy,start,distance_m,coverage\n");
+std::string curves(const std::vector<Run>& runs, const std::vector<Result>& results) {
+  std::string text = "world,strategy,start,distance_m,coverage\n";
   for (std::size_t i = 0; i < runs.size(); ++i) {
     for (const CurvePoint& p : results[i].curve) {
-      std::fprintf(file, "%s,%s,%d,%.2f,%.5f\n", runs[i].world.c_str(), runs[i].strategy.c_str(),
-                   runs[i].number, p.distance, p.coverage);
+      text += runs[i].world + "," + runs[i].strategy +
+              format(",%d,%.2f,%.5f\n", runs[i].number, p.distance, p.coverage);
     }
   }
-  std::fclose(file);
+  return text;
 }
 
 /// Means over the starts; '-' where a start did not get to the level.
-void writeMarkdown(const std::string& path, const CompareOptions& options,
-                   const std::vector<Run>& runs, const std::vector<Result>& results) {
+std::string markdown(const CompareOptions& options, const std::vector<Run>& runs,
+                     const std::vector<Result>& results) {
   std::map<std::pair<std::string, std::string>, std::vector<std::size_t>> cells;
   std::vector<std::string> worlds;
   for (std::size_t i = 0; i < runs.size(); ++i) {
     if (worlds.empty() || worlds.back() != runs[i].world) worlds.push_back(runs[i].world);
     cells[{runs[i].world, runs[i].strategy}].push_back(i);
   }
-  std::FILE* file = openFile(path);
-  std::fprintf(file, "| world |");
-  for (const auto& strategy : options.strategies) std::fprintf(file, " %s |", strategy.c_str());
-  std::fprintf(file, "\n|---|");
-  for (std::size_t k = 0; k < options.strategies.size(); ++k) std::fprintf(file, "---|");
+  std::string text = "| world |", rule = "\n|---|";
+  for (const auto& strategy : options.strategies) {
+    text += " " + strategy + " |";
+    rule += "---|";
+  }
+  text += rule;
   for (const auto& world : worlds) {
-    std::fprintf(file, "\n| %s |", world.c_str());
+    text += "\n| " + world + " |";
     for (const auto& strategy : options.strategies) {
       const auto& cell = cells[{world, strategy}];
       for (const double level : kLevels) {
@@ -179,49 +180,75 @@ void writeMarkdown(const std::string& path, const CompareOptions& options,
                      ? std::optional<double>(*mean + *distance / static_cast<double>(cell.size()))
                      : std::nullopt;
         }
-        std::fprintf(file, "%s%s", level == kLevels[0] ? " " : " / ", inMetres(mean).c_str());
+        text += (level == kLevels[0] ? " " : " / ") + inMetres(mean);
       }
-      std::fprintf(file, " |");
+      text += " |";
     }
   }
-  std::fprintf(file, "\n");
-  std::fclose(file);
+  return text + "\n";
 }
 
-void compare(const CompareOptions& options, const Parameters& parameters) {
-  for (const auto& strategy : options.strategies) strategyNamed(strategy);  // before any work
-  std::vector<World> worlds;
-  std::vector<Run> runs;
-  std::vector<std::size_t> world_of_run;
-  for (const auto& path : options.worlds) {
-    worlds.push_back(loadWorld(path));
-    const auto starts = drawStarts(worlds.back(), parameters, options.starts);
-    for (const auto& strategy : options.strategies) {
-      for (std::size_t k = 0; k < starts.size(); ++k) {
-        runs.push_back({worlds.back().name, strategy, static_cast<int>(k), starts[k]});
-        world_of_run.push_back(worlds.size() - 1);
-      }
-    }
-  }
-  std::filesystem::create_directories(options.out);
+/// All runs, as many at a time as the machine has cores. @throws what the first to fail threw.
+std::vector<Result> performAll(const std::vector<Run>& runs, const std::vector<World>& worlds,
+                               const Parameters& parameters) {
   std::vector<Result> results(runs.size());
   std::atomic<std::size_t> next{0};
-  std::vector<std::thread> threads;
-  for (unsigned t = 0; t < std::max(1u, std::thread::hardware_concurrency()); ++t) {
-    threads.emplace_back([&] {
+  std::exception_ptr failure;
+  std::mutex mutex;
+  const auto work = [&] {
+    try {
       for (std::size_t i; (i = next++) < runs.size();) {
-        results[i] = perform(runs[i], worlds[world_of_run[i]], parameters);
+        results[i] = perform(runs[i], worlds[runs[i].world_number], parameters);
         std::fprintf(stderr, "%s, %s, start %d: %.1f m, %.2f %% seen\n", runs[i].world.c_str(),
                      runs[i].strategy.c_str(), runs[i].number, results[i].distance,
                      100.0 * results[i].coverage);
       }
-    });
+    } catch (...) {
+      const std::lock_guard<std::mutex> lock(mutex);
+      if (!failure) failure = std::current_exception();
+      next = runs.size();
+    }
+  };
+  std::vector<std::thread> threads;
+  for (unsigned t = 0; t < std::max(1u, std::thread::hardware_concurrency()); ++t) {
+    threads.emplace_back(work);
   }
   for (auto& thread : threads) thread.join();
-  writeTable(options.out + "/runs.csv", runs, results);
-  writeCurves(options.out + "/curves.csv", runs, results);
-  writeMarkdown(options.out + "/strategies.md", options, runs, results);
+  if (failure) std::rethrow_exception(failure);
+  return results;
+}
+
+void compare(const CompareOptions& options, const Parameters& parameters) {
+  std::vector<World> worlds;
+  std::vector<Run> runs;
+  for (const auto& path : options.worlds) {
+    World world = loadWorld(path);
+    for (const World& other : worlds) {
+      if (other.name == world.name)
+        throw std::runtime_error(path + ": a second world of this name");
+    }
+    const auto starts = drawStarts(world, parameters, options.starts);
+    for (const auto& strategy : options.strategies) {
+      for (std::size_t k = 0; k < starts.size(); ++k) {
+        runs.push_back({world.name, strategy, worlds.size(), static_cast<int>(k), starts[k]});
+      }
+    }
+    worlds.push_back(std::move(world));
+  }
+  std::filesystem::create_directories(options.out);
+  const std::vector<Result> results = performAll(runs, worlds, parameters);
+  writeFile(options.out + "/runs.csv", table(runs, results));
+  writeFile(options.out + "/curves.csv", curves(runs, results));
+  writeFile(options.out + "/strategies.md", markdown(options, runs, results));
   std::printf("%s/strategies.md, runs.csv, curves.csv\n", options.out.c_str());
+}
+
+/// Empty for the name of a strategy, else what is wrong with it.
+std::string complaintAboutStrategy(const std::string& name) try {
+  strategyNamed(name);
+  return "";
+} catch (const std::runtime_error& error) {
+  return error.what();
 }
 
 }  // namespace
@@ -235,14 +262,16 @@ void addCompareStrategiesCommand(CLI::App& program) {
   command->add_option("WORLD", options->worlds, "worlds, map_server YAML files")->required();
   command->add_option("--strategies", options->strategies, "names, comma-separated")
       ->delimiter(',')
+      ->check(complaintAboutStrategy)
       ->capture_default_str();
   command->add_option("--starts", options->starts, "starts in each world")
       ->check(CLI::Range(1, 1000))
       ->capture_default_str();
   command->add_option("--out", options->out, "folder for the results")->capture_default_str();
   auto parameters = std::make_shared<ParameterOptions>(
-      *command,
-      std::vector<std::string>{"run", "mapping", "exploration", "robot", "laser", "odometry"});
+      *command, std::vector<std::string>{"run.control_period", "run.longest_time", "mapping",
+                                         "exploration.path", "exploration.smallest_gain",
+                                         "exploration.return_to_start", "robot", "laser"});
   command->callback([options, parameters] { compare(*options, parameters->resolve()); });
 }
 

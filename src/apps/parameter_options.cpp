@@ -7,6 +7,23 @@
 
 namespace cca::apps {
 
+CLI::Validator valueOf(const std::string& key) {
+  const auto complaint = [key](const std::string& text) -> std::string {
+    Parameters parameters;
+    for (const auto& field : listParameters(parameters)) {
+      if (field.key() != key) continue;
+      try {
+        field.set(text);
+      } catch (const std::runtime_error& error) {
+        return error.what();
+      }
+      return "";
+    }
+    throw std::logic_error("no parameter " + key);
+  };
+  return CLI::Validator(complaint, "");
+}
+
 ParameterOptions::ParameterOptions(CLI::App& command, const std::vector<std::string>& sections)
     : command_(command) {
   config_ = command.add_option("--config", "parameters from an MRPT .ini file")
@@ -21,7 +38,8 @@ ParameterOptions::ParameterOptions(CLI::App& command, const std::vector<std::str
       "print every parameter with its value, range, unit and meaning, and stop");
   Parameters defaults;
   for (const auto& field : listParameters(defaults)) {
-    if (std::find(sections.begin(), sections.end(), field.section) == sections.end()) continue;
+    const auto names = [&](const std::string& s) { return s == field.section || s == field.key(); };
+    if (std::none_of(sections.begin(), sections.end(), names)) continue;
     addOption("--" + field.key(), field)->group("Parameters");
   }
 }

@@ -10,12 +10,16 @@
 
 namespace cca::apps {
 
+/// Accepts what the parameter SECTION.KEY may be, for options that give it several values.
+CLI::Validator valueOf(const std::string& key);
+
 /// The options that every sub-command has in common: --config FILE.ini, --dump-config, and one
 /// --SECTION.KEY for each parameter of the named sections. Must outlive the parsing.
 class ParameterOptions {
  public:
-  /// @param sections  those that the command uses; others are neither shown nor accepted on the
-  ///                  command line, but may stand in the .ini.
+  /// @param sections  those that the command uses, or SECTION.KEY for one parameter of a section;
+  ///                  others are neither shown nor accepted on the command line, but may stand in
+  ///                  the .ini.
   ParameterOptions(CLI::App& command, const std::vector<std::string>& sections);
 
   /// Also sets a parameter under a name of its own, e.g. addAlias("--laser-range", "laser.range").

@@ -16,6 +16,7 @@
 #include "cca_mrpt/evidence/tuning_rows.hpp"
 #include "cca_mrpt/io/atomic_file.hpp"
 #include "commands.hpp"
+#include "parameter_options.hpp"
 
 namespace cca::apps {
 namespace {
@@ -166,7 +167,15 @@ void analyse(const Options& options) {
   writeFile(options.out + "/surface.csv", csv.str());
 }
 
+/// The analysis of variance compares levels: one alone would end it after all the work.
+void requireTwoLevels(const char* option, std::size_t levels) {
+  if (levels < 2) throw CLI::ValidationError(option, "needs at least two levels");
+}
+
 void tune(const Options& options) {
+  requireTwoLevels("--points-per-cluster", options.design.points_per_cluster.size());
+  requireTwoLevels("--similarity-cut", options.design.similarity_cut.size());
+  requireTwoLevels("--scans-per-batch", options.design.scans_per_batch.size());
   const Shard shard = parseShard(options.shard);
   std::filesystem::create_directories(options.out);
   if (!options.merge) {
@@ -187,13 +196,18 @@ void addTuneCommand(CLI::App& program) {
       ->required();
   command->add_option("--out", options->out, "folder of the results; run again, it goes on there")
       ->required();
-  const auto levels = [command](const char* name, auto& values, const char* meaning) {
-    command->add_option(name, values, meaning)->delimiter(',')->capture_default_str();
+  const auto levels = [command](const char* name, auto& values, const std::string& key,
+                                const char* meaning) {
+    command->add_option(name, values, meaning)
+        ->delimiter(',')
+        ->check(valueOf(key))
+        ->capture_default_str();
   };
-  levels("--points-per-cluster", design.points_per_cluster, "levels, separated by commas");
-  levels("--similarity-cut", design.similarity_cut, "levels, separated by commas");
-  levels("--scans-per-batch", design.scans_per_batch, "levels, separated by commas");
-  levels("--noise", design.noises, "range noises [m], separated by commas");
+  const char* two = "at least two levels, separated by commas";
+  levels("--points-per-cluster", design.points_per_cluster, "mapping.points_per_cluster", two);
+  levels("--similarity-cut", design.similarity_cut, "mapping.similarity_cut", two);
+  levels("--scans-per-batch", design.scans_per_batch, "mapping.scans_per_batch", two);
+  levels("--noise", design.noises, "laser.range_noise", "range noises [m], separated by commas");
   const auto count = [command](const char* name, int& value, const char* meaning) {
     command->add_option(name, value, meaning)->check(CLI::Range(1, 1000000))->capture_default_str();
   };

@@ -43,4 +43,8 @@ sort "$rows" | diff "$tmp/before" - || fail "a killed run goes on where it was"
 grep -q 'another design' "$tmp/error" || fail "says that the design differs"
 status=0; tune --out "$tmp/x" --shard 3/2 >/dev/null 2>&1 || status=$?
 [ $status -eq 2 ] || fail "a bad shard is a usage error, got $status"
+status=0; tune --out "$tmp/x" --points-per-cluster 0,5 >/dev/null 2>&1 || status=$?
+[ $status -eq 2 ] || fail "a level out of range is a usage error, got $status"
+status=0; "$program" tune "$maps/maze.yaml" --out "$tmp/x" --similarity-cut 0.5 >/dev/null 2>&1 || status=$?
+[ $status -eq 2 ] || fail "a single level is a usage error, got $status"
 echo passed
