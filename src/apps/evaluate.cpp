@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
@@ -14,9 +15,12 @@
 #include "cca_mrpt/io/atomic_file.hpp"
 #include "cca_mrpt/io/log_reader.hpp"
 #include "commands.hpp"
+#include "log_warnings.hpp"
 
 namespace cca::apps {
 namespace {
+
+constexpr double kFarthest = 1e5;  // m; what is scored is sampled every few centimetres
 
 /// Rows x1,y1,x2,y2[,...] by comma or blank; a first row that is no numbers is the header, lines
 /// that begin with # are comments.
@@ -27,17 +31,21 @@ std::vector<Segment2> readSegments(const std::string& path) {
   }
   std::vector<Segment2> segments;
   std::string line;
+  bool first = true;
   for (int number = 1; std::getline(file, line); ++number) {
     for (char& c : line) c = c == ',' || c == ';' || c == '\r' ? ' ' : c;
     if (line.find_first_not_of(' ') == std::string::npos || line[0] == '#') continue;
     std::istringstream row(line);
     Segment2 s;
     row >> s.start.x() >> s.start.y() >> s.end.x() >> s.end.y();
-    const bool good = row && s.start.allFinite() && s.end.allFinite();
-    if (!good && number == 1) continue;
-    if (!good) {
+    const bool numbers = static_cast<bool>(row), is_header = first && !numbers;
+    first = false;
+    if (is_header) continue;
+    const double farthest =
+        std::max(s.start.lpNorm<Eigen::Infinity>(), s.end.lpNorm<Eigen::Infinity>());
+    if (!numbers || !(farthest <= kFarthest)) {
       throw std::runtime_error(path + ":" + std::to_string(number) +
-                               ": needs four finite numbers x1,y1,x2,y2");
+                               ": needs four numbers x1,y1,x2,y2 in [-1e5, 1e5] m");
     }
     segments.push_back(s);
   }
@@ -60,8 +68,7 @@ LogScore evaluateLog(const std::string& log, const std::vector<Segment2>& map) {
   auto reader = openLog(log);
   std::vector<Scan> scans;
   while (auto record = reader->next()) scans.push_back(std::move(record->scan));
-  const std::string warnings = reader->warnings();
-  if (!warnings.empty()) std::fprintf(stderr, "%s\n", warnings.c_str());
+  tellWarnings(log, *reader);
   return scoreAgainstLog(scans, map);
 }
 

@@ -107,6 +107,7 @@ MapProducts ExplorationRecord::products(const Simulation& simulation,
 void ExplorationRecord::write(const Simulation& simulation, const Explorer& explorer,
                               const End& end) {
   look(simulation.T_map_robot(), simulation.time(), simulation.distance());
+  withdrawSummary(folder_);
   rawlog_.commit();
   writeTrajectory(simulation);
   writeCoverage();

@@ -21,6 +21,7 @@
 #include "interruption.hpp"
 #include "parameter_options.hpp"
 #include "progress.hpp"
+#include "within.hpp"
 
 namespace cca::apps {
 
@@ -60,7 +61,7 @@ Simulation makeSimulation(const ExploreOptions& options, const Parameters& param
 }
 
 /// The folder that was asked for, else a fresh one: out/WORLD-001, -002, ...
-std::string makeFolder(const ExploreOptions& options, const std::string& world) {
+std::string chooseFolder(const ExploreOptions& options, const std::string& world) {
   std::string folder = options.out;
   if (folder.empty()) {
     fs::create_directories("out");
@@ -70,7 +71,6 @@ std::string makeFolder(const ExploreOptions& options, const std::string& world) 
       if (fs::create_directory("out/" + world + name)) folder = "out/" + world + name;
     }
   }
-  prepareMapFolder(folder, options.force);
   return folder;
 }
 
@@ -157,7 +157,8 @@ std::unique_ptr<ExplorationWindow> openWindow(const World& world) {
 void explore(const ExploreOptions& options, const Parameters& parameters) {
   const auto start = Clock::now();
   Simulation simulation = makeSimulation(options, parameters);
-  const std::string folder = makeFolder(options, simulation.world().name);
+  const std::string folder = chooseFolder(options, simulation.world().name);
+  const FolderLock lock = prepareMapFolder(folder, options.force);
   Explorer explorer(parameters.mapping, parameters.robot, parameters.exploration);
   ExplorationRecord record(simulation, folder);
   std::unique_ptr<ExplorationWindow> window;
@@ -189,7 +190,8 @@ void addExploreCommand(CLI::App& program) {
   command->add_option("WORLD", options->world, "world, a map_server YAML file")->required();
   command->add_option("--start", options->start, "X,Y,DEG: start pose, m and degrees")
       ->delimiter(',')
-      ->expected(3);
+      ->expected(3)
+      ->check(within(-1e6, 1e6));
   command->add_option("--movers", options->movers, "what moves about, a YAML file");
   command->add_flag("--gui", options->gui, "show the run in MRPT's 3-D window");
   command->add_option("--out", options->out, "folder for the results; else out/WORLD-001, ...");

@@ -9,6 +9,7 @@
 #include "cca_mrpt/io/log_reader.hpp"
 #include "cca_mrpt/mapping/line_extraction.hpp"
 #include "commands.hpp"
+#include "log_warnings.hpp"
 #include "parameter_options.hpp"
 
 namespace cca::apps {
@@ -43,6 +44,7 @@ void addExtractCommand(CLI::App& program) {
         csv += row(id, line);
       }
     }
+    tellWarnings(*log, *reader);
     writeFile(*out, csv);
   });
 }

@@ -69,7 +69,7 @@ void addInfoCommand(CLI::App& program) {
   command->callback([log, json] {
     const Json info = inspectLog(*openLog(*log));
     if (*json) {
-      std::printf("%s\n", info.dump(2).c_str());
+      std::printf("%s\n", info.dump(2, ' ', false, Json::error_handler_t::replace).c_str());
       return;
     }
     row("log", *log);

@@ -7,6 +7,7 @@ namespace cca::apps {
 namespace {
 
 volatile std::sig_atomic_t interrupted = 0;
+constexpr int kSignals[] = {SIGINT, SIGTERM, SIGHUP};
 
 extern "C" void remember(int signal) {
   interrupted = 1;
@@ -17,13 +18,16 @@ extern "C" void remember(int signal) {
 
 Interruption::Interruption() {
   interrupted = 0;
-  std::signal(SIGINT, remember);
-  std::signal(SIGTERM, remember);
+  for (const int signal : kSignals) {
+    const bool ignored = std::signal(signal, remember) == SIG_IGN;
+    if (ignored && signal == SIGHUP) std::signal(signal, SIG_IGN);  // nohup
+  }
 }
 
 Interruption::~Interruption() {
-  std::signal(SIGINT, SIG_DFL);
-  std::signal(SIGTERM, SIG_DFL);
+  for (const int signal : kSignals) {
+    if (std::signal(signal, SIG_DFL) == SIG_IGN) std::signal(signal, SIG_IGN);
+  }
 }
 
 bool Interruption::requested() const { return interrupted != 0; }

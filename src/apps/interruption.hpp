@@ -3,8 +3,8 @@
 
 namespace cca::apps {
 
-/// While one exists, Ctrl-C and SIGTERM do not end the program but are remembered, so that it can
-/// save what it has; a second one ends it at once.
+/// While one exists, Ctrl-C, SIGTERM and a terminal that is closed do not end the program but are
+/// remembered, so that it can save what it has; a second one ends it at once.
 class Interruption {
  public:
   Interruption();

@@ -8,8 +8,17 @@
 #include "commands.hpp"
 
 namespace {
+
 constexpr int kDone = 0, kRunFailed = 1, kUsage = 2;
+
+/// What was printed may not have arrived: a full disk behind `> FILE` is told at the end only.
+int withOutput(int status) {
+  if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return status;
+  std::fputs("cca-mrpt: standard output: cannot be written\n", stderr);
+  return status == kDone ? kRunFailed : status;
 }
+
+}  // namespace
 
 int main(int argc, char** argv) {
   CLI::App program{"Line maps from 2-D lasers, and exploration that brings them back", "cca-mrpt"};
@@ -30,10 +39,10 @@ int main(int argc, char** argv) {
   try {
     program.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    return program.exit(error) == 0 ? kDone : kUsage;
+    return withOutput(program.exit(error) == 0 ? kDone : kUsage);
   } catch (const std::exception& error) {
     std::fprintf(stderr, "cca-mrpt: %s\n", error.what());
     return kRunFailed;
   }
-  return kDone;
+  return withOutput(kDone);
 }

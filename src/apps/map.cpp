@@ -14,6 +14,7 @@
 #include "cca_mrpt/mapping/line_map.hpp"
 #include "commands.hpp"
 #include "interruption.hpp"
+#include "log_warnings.hpp"
 #include "parameter_options.hpp"
 #include "progress.hpp"
 
@@ -47,9 +48,10 @@ void insert(MappedLog& mapped, LogRecord record, const Pose2& T_map_robot) {
   }
 }
 
-MappedLog mapLog(LogReader& log, PoseSource poses, const CcaParameters& parameters,
-                 const Interruption& interruption) {
-  MappedLog mapped{LineMap(parameters), {}, {}, {}, {}, 0, false};
+MappedLog mapLog(const MapOptions& options, LogReader& log, const Parameters& parameters,
+                 const Interruption& interruption) try {
+  PoseSource poses(poseKind(options.pose), parameters.icp);
+  MappedLog mapped{LineMap(parameters.mapping), {}, {}, {}, {}, 0, false};
   Progress progress("map");
   while (auto record = log.next()) {
     const Pose2 T_map_robot = poses.locate(*record);
@@ -60,6 +62,8 @@ MappedLog mapLog(LogReader& log, PoseSource poses, const CcaParameters& paramete
   }
   mapped.map.finishBatch();
   return mapped;
+} catch (const std::runtime_error& error) {
+  throw std::runtime_error(options.log + ": " + error.what());
 }
 
 double pathLength(const std::vector<Pose2>& trajectory) {
@@ -116,13 +120,9 @@ void makeMap(const MapOptions& options, const Parameters& parameters) {
   const Interruption interruption;
   const auto log = openLog(options.log);
   if (interruption.requested()) throw std::runtime_error("interrupted; no map was begun");
-  prepareMapFolder(options.out, options.force);
-  const MappedLog mapped = mapLog(*log, PoseSource(poseKind(options.pose), parameters.icp),
-                                  parameters.mapping, interruption);
-  const std::string warnings = log->warnings();
-  if (!warnings.empty()) {
-    std::fprintf(stderr, "cca-mrpt: %s: %s\n", options.log.c_str(), warnings.c_str());
-  }
+  const FolderLock folder = prepareMapFolder(options.out, options.force);
+  const MappedLog mapped = mapLog(options, *log, parameters, interruption);
+  tellWarnings(options.log, *log);
   MapProducts map = products(options, mapped, *log);
   const std::chrono::duration<double> mapping = std::chrono::steady_clock::now() - begin;
   map.summary["mapping_s"] = mapping.count();

@@ -17,11 +17,15 @@
 #include "cca_mrpt/mapping/line_map.hpp"
 #include "commands.hpp"
 #include "interruption.hpp"
+#include "log_warnings.hpp"
 #include "parameter_options.hpp"
 #include "progress.hpp"
+#include "within.hpp"
 
 namespace cca::apps {
 namespace {
+
+constexpr double kSmallestView = 0.01;  // m
 
 struct RenderOptions {
   std::string map, log, out;
@@ -50,6 +54,7 @@ void addLog(const std::string& path, MapProducts& products) {
     products.trajectory.push_back(record->scan.T_map_sensor * record->T_robot_sensor.inverse());
   }
   products.grid = grid.grid();
+  tellWarnings(path, *log);
 }
 
 /// What lies beside a map of our own: its poly-lines, and without a log its grid and trajectory.
@@ -129,8 +134,8 @@ void render(RenderOptions options, const Parameters& parameters) {
   options.picture.caption = !options.no_caption;
   if (!options.view.empty()) {
     const auto& v = options.view;
-    if (!(v[0] < v[2] && v[1] < v[3]))
-      throw CLI::ValidationError("--view", "X0,Y0 must lie below X1,Y1");
+    if (v[2] - v[0] < kSmallestView || v[3] - v[1] < kSmallestView)
+      throw CLI::ValidationError("--view", "X0,Y0 must lie below X1,Y1, by a centimetre at least");
     options.picture.view =
         Eigen::AlignedBox2d(Eigen::Vector2d(v[0], v[1]), Eigen::Vector2d(v[2], v[3]));
   }
@@ -139,6 +144,9 @@ void render(RenderOptions options, const Parameters& parameters) {
     renderVideo(options, parameters);
   } else {
     if (options.map.empty()) throw CLI::RequiredError("MAP.csv");
+    if (std::filesystem::path(options.out).extension() != ".png") {
+      throw CLI::ValidationError("--out", options.out + " must end in .png");
+    }
     renderPicture(options);
   }
 }
@@ -156,14 +164,15 @@ void addRenderCommand(CLI::App& program) {
       ->check(CLI::Range(kSmallestPicture, kLargestPicture));
   command->add_option("--view", options->view, "X0,Y0,X1,Y1: what to show, m; default: all")
       ->delimiter(',')
-      ->expected(4);
+      ->expected(4)
+      ->check(within(-1e6, 1e6));
   command->add_flag("--no-background", options->no_background, "lines alone");
   command->add_flag("--no-trajectory", options->no_trajectory, "without the robot's way");
   command->add_flag("--no-caption", options->no_caption, "without title and numbers");
   command->add_flag("--3d", options->solid, "walls raised, seen from above and aside");
   command->add_flag("--video", options->video, "the map of --log as it is built (needs ffmpeg)");
   command->add_option("--seconds", options->seconds, "length of the video")
-      ->check(CLI::Range(0.5, 600.0))
+      ->check(within(0.5, 600.0))
       ->capture_default_str();
   auto parameters =
       std::make_shared<ParameterOptions>(*command, std::vector<std::string>{"mapping"});

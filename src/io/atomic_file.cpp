@@ -13,44 +13,68 @@
 namespace cca {
 namespace {
 
+namespace fs = std::filesystem;
+
 std::runtime_error cannotWrite(const std::string& path) {
   const std::string reason = errno != 0 ? std::strerror(errno) : "unknown reason";
   return std::runtime_error(path + ": cannot be written: " + reason);
 }
 
 /// Unique among the processes and threads that may write the same file.
-std::string temporaryName(const std::filesystem::path& path) {
+std::string temporaryName(const fs::path& path) {
   static std::atomic<unsigned> number{0};
   const std::string part = ".part-" + std::to_string(getpid()) + "-" + std::to_string(number++);
   const std::string name = "." + path.stem().string() + part + path.extension().string();
   return (path.parent_path() / name).string();
 }
 
+/// Where a link leads: renamed onto, the link itself would become the file.
+std::string behindLinks(const std::string& path) {
+  std::error_code none;
+  if (!fs::is_symlink(fs::symlink_status(path, none))) return path;
+  const std::string target = fs::canonical(path, none).string();
+  return target.empty() ? path : target;
+}
+
+/// A terminal, a pipe, /dev/null: nothing that a rename may take the place of.
+bool isDevice(const std::string& path) {
+  std::error_code none;
+  const fs::file_status status = fs::status(path, none);
+  return fs::exists(status) && !fs::is_regular_file(status) && !fs::is_directory(status);
+}
+
+void write(const std::string& to, std::string_view content, const std::string& path) {
+  errno = 0;
+  std::ofstream stream(to, std::ios::binary);
+  stream.write(content.data(), static_cast<std::streamsize>(content.size()));
+  stream.close();
+  if (!stream) throw cannotWrite(path);
+}
+
 }  // namespace
 
 AtomicFile::AtomicFile(std::string path)
-    : path_(std::move(path)), temporary_(temporaryName(path_)) {
-  errno = 0;
+    : path_(std::move(path)), target_(behindLinks(path_)), temporary_(temporaryName(target_)) {
+  if (isDevice(target_)) throw std::runtime_error(path_ + ": is no regular file");
+  errno = fs::is_directory(target_) ? EISDIR : 0;
+  if (errno != 0) throw cannotWrite(path_);
   if (!std::ofstream(temporary_)) throw cannotWrite(path_);
 }
 
 AtomicFile::~AtomicFile() {
   std::error_code ignored;  // nothing is there after commit()
-  std::filesystem::remove(temporary_, ignored);
+  fs::remove(temporary_, ignored);
 }
 
 void AtomicFile::commit() {
   errno = 0;
-  if (std::rename(temporary_.c_str(), path_.c_str()) != 0) throw cannotWrite(path_);
+  if (std::rename(temporary_.c_str(), target_.c_str()) != 0) throw cannotWrite(path_);
 }
 
 void writeFile(const std::string& path, std::string_view content) {
+  if (isDevice(path)) return write(path, content, path);
   AtomicFile file(path);
-  errno = 0;
-  std::ofstream stream(file.temporary(), std::ios::binary);
-  stream.write(content.data(), static_cast<std::streamsize>(content.size()));
-  stream.close();
-  if (!stream) throw cannotWrite(path);
+  write(file.temporary(), content, path);
   file.commit();
 }
 

@@ -7,6 +7,8 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "png_file.hpp"
+
 namespace cca {
 namespace {
 
@@ -118,7 +120,7 @@ void Canvas::writePng(const std::string& path) const {
     auto* to = image.ptrLine<std::uint8_t>(static_cast<unsigned>(row));
     for (int column = 0; column < width_; ++column, from += 4) to = std::copy_n(from, 3, to);
   }
-  if (!image.saveToFile(path)) throw std::runtime_error(path + ": cannot be written");
+  cca::writePng(image, path);
 }
 
 }  // namespace cca

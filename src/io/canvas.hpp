@@ -38,7 +38,7 @@ class Canvas {
             const std::string& utf8);
   void bar(double x, double y, double width, double height, const Colour& colour);
 
-  /// @throws std::runtime_error naming the file and Cairo's reason.
+  /// Whole or not at all. @throws std::runtime_error naming the file, and Cairo's reason if any.
   void writePng(const std::string& path) const;
 
  private:

@@ -26,7 +26,8 @@ double median(std::vector<double> values) {
   return *middle;
 }
 
-double rounded(double value, double step) { return std::round(value / step) * step; }
+/// Adding 0 turns a negative zero into a plain one.
+double rounded(double value, double step) { return std::round(value / step) * step + 0.0; }
 
 class Times {
  public:
@@ -73,7 +74,7 @@ class Ranges {
       ++returns_;
       shortest_ = std::min(shortest_, range);
       longest_ = std::max(longest_, range);
-      ++histogram_[std::min(static_cast<std::size_t>(range / kRangeBin), kRangeBins - 1)];
+      ++histogram_[static_cast<std::size_t>(std::min(range / kRangeBin, kRangeBins - 1.0))];
     }
   }
 

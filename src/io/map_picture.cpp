@@ -7,7 +7,6 @@
 #include <cstdio>
 
 #include "canvas.hpp"
-#include "cca_mrpt/io/atomic_file.hpp"
 #include "cca_mrpt/io/line_formats.hpp"
 
 namespace cca {
@@ -120,6 +119,12 @@ void drawScaleBar(Canvas& canvas, bool beside_caption, double unit) {
   canvas.text(x, y - 6.0 * unit, 15.0 * unit, false, kInk, label);
 }
 
+/// Names of files may be anything; Cairo draws no text that is not UTF-8.
+std::string asUtf8(const std::string& text) {
+  using nlohmann::json;
+  return json::parse(json(text).dump(-1, ' ', false, json::error_handler_t::replace));
+}
+
 void drawCaption(Canvas& canvas, const MapProducts& products, double unit) {
   double length = 0.0;
   for (const MapLine& line : products.lines) length += line.segment.length();
@@ -127,7 +132,7 @@ void drawCaption(Canvas& canvas, const MapProducts& products, double unit) {
   std::snprintf(numbers, sizeof numbers, "%zu lines, %zu poly-lines, %.0f m of wall",
                 products.lines.size(), products.poly_lines.size(), length);
   canvas.bar(0, 0, canvas.width(), kHeader * unit, kPaper);
-  canvas.text(16.0 * unit, 28.0 * unit, 21.0 * unit, true, kInk, products.title);
+  canvas.text(16.0 * unit, 28.0 * unit, 21.0 * unit, true, kInk, asUtf8(products.title));
   canvas.text(16.0 * unit, 51.0 * unit, 15.0 * unit, false, kSoftInk, numbers);
 }
 
@@ -168,9 +173,7 @@ void writePicture(const std::string& png_path, const MapProducts& products,
   if (options.trajectory) drawEnds(canvas, products.trajectory, unit);
   if (options.caption) drawCaption(canvas, products, unit);
   drawScaleBar(canvas, options.caption, unit);
-  AtomicFile file(png_path);
-  canvas.writePng(file.temporary());
-  file.commit();
+  canvas.writePng(png_path);
 }
 
 }  // namespace cca

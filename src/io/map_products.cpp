@@ -17,9 +17,20 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* kSummary = "summary.json";
+/// Names of files and what is found in damaged ones need not be UTF-8.
+constexpr auto kReplace = nlohmann::ordered_json::error_handler_t::replace;
 
 std::string inFolder(const std::string& folder, const char* name) {
   return (fs::path(folder) / name).string();
+}
+
+void makeFolder(const std::string& folder) {
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (error || !fs::is_directory(folder)) {
+    throw std::runtime_error(folder + ": cannot be made a folder" +
+                             (error ? ": " + error.message() : ""));
+  }
 }
 
 nlohmann::ordered_json summarize(const MapProducts& products) {
@@ -34,22 +45,24 @@ nlohmann::ordered_json summarize(const MapProducts& products) {
 
 }  // namespace
 
-void prepareMapFolder(const std::string& folder, bool overwrite) {
-  std::error_code error;
-  fs::create_directories(folder, error);
-  if (error || !fs::is_directory(folder)) {
-    throw std::runtime_error(folder + ": cannot be made a folder" +
-                             (error ? ": " + error.message() : ""));
-  }
+FolderLock prepareMapFolder(const std::string& folder, bool overwrite) {
+  makeFolder(folder);
   const std::string summary = inFolder(folder, kSummary);
   if (fs::exists(summary) && !overwrite) {
     throw std::runtime_error(summary + ": there is a map already (--force overwrites it)");
   }
   AtomicFile probe(summary);  // fails now, not after the work
+  return FolderLock(folder);
+}
+
+void withdrawSummary(const std::string& folder) {
+  std::error_code none_there;
+  fs::remove(inFolder(folder, kSummary), none_there);
 }
 
 void writeMapFolder(const std::string& folder, const MapProducts& products) {
-  prepareMapFolder(folder, true);
+  makeFolder(folder);
+  withdrawSummary(folder);
   const auto& [title, lines, poly_lines, trajectory, grid, summary] = products;
   writeFile(inFolder(folder, "lines.csv"), linesCsv(lines));
   writeFile(inFolder(folder, "lines.geojson"), linesGeoJson(lines, poly_lines, trajectory));
@@ -62,7 +75,7 @@ void writeMapFolder(const std::string& folder, const MapProducts& products) {
   }
   writeLineMap(inFolder(folder, "map.linemap.gz"), lines);
   writeScene(inFolder(folder, "scene.3Dscene"), products);
-  writeFile(inFolder(folder, kSummary), summarize(products).dump(2) + "\n");
+  writeFile(inFolder(folder, kSummary), summarize(products).dump(2, ' ', false, kReplace) + "\n");
 }
 
 }  // namespace cca

@@ -11,15 +11,16 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "cca_mrpt/io/atomic_file.hpp"
 #include "cca_mrpt/io/gzip_archive.hpp"
 #include "cca_mrpt/io/map_picture.hpp"
+#include "png_file.hpp"
 
 namespace cca {
 namespace {
 
 constexpr float kWallHeight = 1.0F;      // m
 constexpr double kFloorGrid = 5.0;       // m
+constexpr double kMostSquares = 1000.0;  // along a side; beyond, they grow
 constexpr double kCameraDistance = 2.1;  // of the map's longer side
 
 mrpt::math::TPoint3Df at(const Eigen::Vector2d& p, float height) {
@@ -65,12 +66,14 @@ mrpt::opengl::CRenderizable::Ptr corner(const Pose2& pose, const std::string& na
 mrpt::opengl::COpenGLScene::Ptr makeScene(const MapProducts& products) {
   auto scene = mrpt::opengl::COpenGLScene::Create();
   const auto view = wholeView(products);
-  const auto snapped = [](double v, double up) {
-    return static_cast<float>(kFloorGrid * (std::floor(v / kFloorGrid) + up));
+  const double side =
+      kFloorGrid * std::max(1.0, std::ceil(view.sizes().maxCoeff() / (kMostSquares * kFloorGrid)));
+  const auto snapped = [side](double v, double up) {
+    return static_cast<float>(side * (std::floor(v / side) + up));
   };
   scene->insert(mrpt::opengl::CGridPlaneXY::Create(
       snapped(view.min().x(), 0), snapped(view.max().x(), 1), snapped(view.min().y(), 0),
-      snapped(view.max().y(), 1), 0.0F, static_cast<float>(kFloorGrid)));
+      snapped(view.max().y(), 1), 0.0F, static_cast<float>(side)));
 
   auto lines = strokes("lines", {20, 60, 120}, 3.0F);
   for (const MapLine& line : products.lines) {
@@ -115,13 +118,13 @@ void writeSolidPicture(const std::string& png_path, const MapProducts& products,
   camera.setElevationDegrees(50.0F);
   camera.setZoomDistance(static_cast<float>(kCameraDistance * view.sizes().maxCoeff()));
   mrpt::img::CImage large, image;
-  renderer.render_RGB(*scene, large);
-  large.scaleHalf(image, mrpt::img::IMG_INTERP_AREA);
-  AtomicFile file(png_path);
-  if (!image.saveToFile(file.temporary())) {
-    throw std::runtime_error(png_path + ": cannot be written");
+  try {
+    renderer.render_RGB(*scene, large);
+  } catch (const std::exception&) {  // MRPT's own text is a stack of addresses
+    throw std::runtime_error(png_path + ": cannot be drawn in 3-D");
   }
-  file.commit();
+  large.scaleHalf(image, mrpt::img::IMG_INTERP_AREA);
+  writePng(image, png_path);
 }
 
 }  // namespace cca

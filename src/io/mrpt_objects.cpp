@@ -21,11 +21,17 @@ std::size_t mostMemory(std::size_t file_bytes) {
 
 /// MRPT's messages are several lines with a call stack; the cause stands after "Message:".
 std::string shortReason(const std::string& message) {
+  if (message.find("while parsing") != std::string::npos) return "damaged, or the file ends early";
   const std::string key = "Message:";
   const std::size_t found = message.find(key);
   const std::size_t key_end = found == std::string::npos ? 0 : found + key.size();
   const std::size_t begin = std::min(message.find_first_not_of(" \n", key_end), message.size());
-  return message.substr(begin, std::min<std::size_t>(message.find('\n', begin) - begin, 200));
+  std::string reason =
+      message.substr(begin, std::min<std::size_t>(message.find('\n', begin) - begin, 200));
+  // It may quote what it found in a damaged file.
+  std::replace_if(
+      reason.begin(), reason.end(), [](unsigned char c) { return std::isprint(c) == 0; }, '?');
+  return reason;
 }
 
 }  // namespace

@@ -3,16 +3,32 @@
 
 #include <mrpt/img/CImage.h>
 
+#include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <stdexcept>
 
 #include "cca_mrpt/io/atomic_file.hpp"
+#include "png_file.hpp"
 
 namespace cca {
 
 namespace {
+
+constexpr std::size_t kLongestName = 100;
+
+/// The name stands in the YAML file, and is that of files in the folder.
+void requirePlainName(const std::string& name) {
+  const bool plain = std::all_of(name.begin(), name.end(), [](unsigned char c) {
+    return std::isalnum(c) != 0 || c == '_' || c == '-' || c == '.';
+  });
+  if (!plain || name.empty() || name.front() == '.' || name.size() > kLongestName) {
+    throw std::runtime_error("name of a world '" + name +
+                             "': letters, digits, '_', '-' and '.' only, at most 100 of them");
+  }
+}
 
 std::string yamlText(const FloorPlan& plan) {
   char text[400];
@@ -48,15 +64,12 @@ std::string truthText(const FloorPlan& plan) {
 }  // namespace
 
 void writeWorldFiles(const FloorPlan& plan, const std::string& folder) {
+  requirePlainName(plan.name);
   std::error_code failure;
   std::filesystem::create_directories(folder, failure);
   const std::string stem = folder + "/" + plan.name;
-  AtomicFile png(stem + ".png");
-  if (!picture(rasterise(plan, kWorldResolution)).saveToFile(png.temporary())) {
-    throw std::runtime_error(stem + ".png: cannot be written");
-  }
+  writePng(picture(rasterise(plan, kWorldResolution)), stem + ".png");
   writeFile(stem + ".truth.csv", truthText(plan));
-  png.commit();
   writeFile(stem + ".yaml", yamlText(plan));  // last: a world that is there is whole
 }
 

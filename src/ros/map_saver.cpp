@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "map_saver.hpp"
 
+#include <exception>
 #include <filesystem>
-#include <stdexcept>
 
 namespace cca {
 
@@ -22,7 +22,7 @@ void MapSaver::save() {
     const std::lock_guard<std::mutex> lock(mutex_);
     return snapshot_();
   }();
-  prepareMapFolder(folder_, true);
+  const FolderLock lock = prepareMapFolder(folder_, true);
   writeMapFolder(folder_, products);
   ROS_INFO("map saved to %s", folder_.c_str());
 }
@@ -30,7 +30,7 @@ void MapSaver::save() {
 void MapSaver::saveOrTell() {
   try {
     save();
-  } catch (const std::runtime_error& error) {
+  } catch (const std::exception& error) {
     ROS_ERROR("the map could not be saved: %s", error.what());
   }
 }
@@ -46,7 +46,7 @@ bool MapSaver::onSave(std_srvs::Trigger::Request& /*request*/,
     save();
     response.success = true;
     response.message = folder_;
-  } catch (const std::runtime_error& error) {
+  } catch (const std::exception& error) {
     response.success = false;
     response.message = error.what();
   }

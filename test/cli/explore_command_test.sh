@@ -55,6 +55,8 @@ expect_error 1 "gone.yaml: image:" explore gone.yaml --out d
 expect_error 1 "nowhere.yaml: cannot be read" explore nowhere.yaml --out d
 expect_error 1 "touches an obstacle" explore "$maps/two_rooms.yaml" --start 5,1,0 --out d
 expect_error 1 "outside the world" explore "$maps/two_rooms.yaml" --start=-5,1,0 --out d
+expect_error 1 "outside the world" explore "$maps/two_rooms.yaml" --start=1e6,1,0 --out d
+expect_error 2 "start" explore "$maps/two_rooms.yaml" --start=nan,1,0 --out d
 expect_error 2 "strategy" explore "$maps/two_rooms.yaml" --strategy clairvoyance --out d
 expect_error 2 "laser-range" explore "$maps/two_rooms.yaml" --laser-range -3 --out d
 expect_error 2 "pose" explore "$maps/two_rooms.yaml" --pose guess --out d
@@ -90,6 +92,18 @@ for extension in yaml png truth.csv; do
   cmp "worlds/maze.$extension" "$maps/maze.$extension" || fail "maze.$extension differs"
 done
 expect_error 1 "exists" generate-world maze --out worlds
+
+expect_error 1 "name of a world" generate-world maze --out worlds --name ../elsewhere
+
+# compare-strategies: a robot of another size, results whole or an error.
+"$program" compare-strategies "$maps/two_rooms.yaml" --strategies nearest_frontier --starts 3 \
+  --robot.radius 0.4 --out strategies >/dev/null 2>&1 || fail "compare-strategies: status $?"
+[ "$(wc -l <strategies/runs.csv)" -eq 4 ] || fail "compare-strategies: a row a run"
+expect_error 2 "clairvoyance" compare-strategies "$maps/two_rooms.yaml" --strategies clairvoyance
+expect_error 1 "second world" compare-strategies "$maps/two_rooms.yaml" "$maps/two_rooms.yaml" --out s
+said=$(trap '' XFSZ; ulimit -f 0; "$program" compare-strategies "$maps/two_rooms.yaml" \
+  --strategies nearest_frontier --starts 1 --out unwritten 2>&1) && fail "lost results, status 0"
+case "$said" in *"runs.csv: cannot be written"*) ;; *) fail "lost results were not told: $said" ;; esac
 
 [ $failures -eq 0 ] && echo "all is well"
 exit $((failures > 0))

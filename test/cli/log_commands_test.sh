@@ -112,9 +112,25 @@ if command -v ffmpeg >/dev/null; then
 else
   refuses 1 "ffmpeg" "$program" render --video --log room.log --out a.gif
 fi
+refuses 2 "must end in .png" "$program" render map/lines.csv --out d.foo
+refuses 2 "inf" "$program" render map/lines.csv --view 0,0,inf,1 --out d.png
 refuses 1 "written as .gif or .mp4" "$program" render --video --log room.log --out a.avi
 refuses 2 "view" "$program" render map/lines.csv --view 3,0,0,2 --out d.png
 refuses 1 "not a line map" "$program" render room.log --out d.png
+
+# What is scored: comments and a header are passed over, what is no place in a building is refused.
+printf '# a comment\nx1,y1,x2,y2\n0,3,6,3\n' >one.csv
+check "evaluate takes a comment before the header" "$program" evaluate one.csv --log room.log
+printf 'x1,y1,x2,y2\n0,0,1e9,0\n' >far.csv
+refuses 1 "far.csv:2" "$program" evaluate far.csv --log room.log
+
+# What does not arrive is told; a device stays one; a name need not be UTF-8.
+if [ -w /dev/full ]; then
+  refuses 1 "cannot be written" sh -c '"$0" evaluate one.csv --log room.log >/dev/full' "$program"
+fi
+check "extract into a pipe" sh -c '"$0" extract room.log --out /dev/stdout | grep -q scan_id' "$program"
+cp room.log "$(printf 'caf\351.log')"
+check "a name that is not UTF-8" "$program" map "$(printf 'caf\351.log')" --out latin1
 
 # What is no log, or only a part of one.
 : >empty.log
@@ -130,6 +146,8 @@ refuses 1 "no such file" "$program" info missing.log
 refuses 1 "not a regular file" "$program" info .
 check "a log cut in a line is used" "$program" map cut.log --out cut
 grep -q "1 damaged" last.err || { echo "FAILED: the damaged line is not told"; failed=1; }
+check "a log cut in a line is extracted" "$program" extract cut.log --out cut.csv
+grep -q "1 damaged" last.err || { echo "FAILED: extract does not tell the damaged line"; failed=1; }
 check "half a gzip is used" "$program" map half.log.gz --out half
 grep -q "ends early" last.err || { echo "FAILED: the early end is not told"; failed=1; }
 check "content counts, not the name" "$program" info misnamed.rawlog

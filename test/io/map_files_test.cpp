@@ -163,15 +163,15 @@ TEST(MapFolder, HoldsEveryFileAndNothingElse) {
 TEST(MapFolder, IsNotOverwrittenUnasked) {
   const TemporaryFolder folder;
   writeMapFolder(folder.path(), corner());
-  EXPECT_THROW(prepareMapFolder(folder.path(), false), std::runtime_error);
-  EXPECT_NO_THROW(prepareMapFolder(folder.path(), true));
+  EXPECT_THROW(static_cast<void>(prepareMapFolder(folder.path(), false)), std::runtime_error);
+  EXPECT_NO_THROW(static_cast<void>(prepareMapFolder(folder.path(), true)));
 }
 
 TEST(MapFolder, AFileInItsPlaceIsNamed) {
   const TemporaryFolder folder;
   std::ofstream(folder / "file") << "x";
   try {
-    prepareMapFolder(folder / "file", true);
+    static_cast<void>(prepareMapFolder(folder / "file", true));
     FAIL();
   } catch (const std::runtime_error& error) {
     EXPECT_THAT(error.what(), HasSubstr(folder / "file"));
@@ -187,6 +187,51 @@ TEST(MapFolder, FailedWriteLeavesTheOldFile) {
   }
   EXPECT_EQ(read(folder / "a.txt"), "old");
   EXPECT_EQ(std::distance(fs::directory_iterator(folder.path()), {}), 1);
+}
+
+TEST(MapFolder, IsOneRunsAtATime) {
+  const TemporaryFolder folder;
+  {
+    const FolderLock first = prepareMapFolder(folder.path(), true);
+    EXPECT_THROW(static_cast<void>(prepareMapFolder(folder.path(), true)), std::runtime_error);
+  }
+  EXPECT_NO_THROW(static_cast<void>(prepareMapFolder(folder.path(), true)));
+}
+
+TEST(MapFolder, HasNoSummaryWhereItsFilesWereReplacedInPart) {
+  const TemporaryFolder folder;
+  writeMapFolder(folder.path(), corner());
+  fs::remove(folder / "map.png");
+  fs::create_directory(folder / "map.png");  // cannot be overwritten
+  EXPECT_THROW(writeMapFolder(folder.path(), corner()), std::runtime_error);
+  EXPECT_FALSE(fs::exists(folder / "summary.json"));
+}
+
+TEST(MapFolder, TakesNamesThatAreNotUtf8) {
+  const TemporaryFolder folder;
+  MapProducts products = corner();
+  products.title = "caf\xE9.log";
+  products.summary["log"] = products.title;
+  writeMapFolder(folder.path(), products);
+  EXPECT_TRUE(nlohmann::json::accept(read(folder / "summary.json")));
+}
+
+TEST(AtomicFile, WritesWhatALinkLeadsTo) {
+  const TemporaryFolder folder;
+  writeFile(folder / "a.txt", "old");
+  fs::create_symlink("a.txt", folder / "link.txt");
+  writeFile(folder / "link.txt", "new");
+  EXPECT_TRUE(fs::is_symlink(folder / "link.txt"));
+  EXPECT_EQ(read(folder / "a.txt"), "new");
+}
+
+TEST(AtomicFile, TakesTheNameOfNoDeviceAndNoFolder) {
+  const TemporaryFolder folder;
+  fs::create_symlink("/dev/null", folder / "null");
+  EXPECT_THROW(AtomicFile(folder / "null"), std::runtime_error);
+  EXPECT_NO_THROW(writeFile(folder / "null", "into the void"));
+  EXPECT_TRUE(fs::is_character_file(folder / "null"));
+  EXPECT_THROW(writeFile(folder.path(), "x"), std::runtime_error);
 }
 
 TEST(MapFolder, EmptyMapIsWrittenToo) {

@@ -8,6 +8,7 @@
 #include <iterator>
 
 #include "cca_mrpt/simulation/world_generator.hpp"
+#include "temporary_folder.hpp"
 
 namespace cca {
 namespace {
@@ -43,6 +44,15 @@ TEST_P(Shipped, WorldLoadsAsItWasDrawn) {
 
 INSTANTIATE_TEST_SUITE_P(Worlds, Shipped, testing::ValuesIn(floorPlanKinds()),
                          [](const auto& kind) { return kind.param; });
+
+TEST(WorldFiles, RefusesNamesThatLeaveTheFolderOrBreakTheYaml) {
+  const TemporaryFolder folder;
+  FloorPlan plan = generateFloorPlan("two_rooms", 1);
+  for (const char* name : {"", "../a", "a/b", "a: b", ".hidden", "caf\xE9"}) {
+    plan.name = name;
+    EXPECT_THROW(writeWorldFiles(plan, folder.path()), std::runtime_error) << name;
+  }
+}
 
 }  // namespace
 }  // namespace cca

@@ -7,10 +7,12 @@
 namespace cca {
 
 /// A file that appears whole or not at all: it is written under a temporary name in the same folder
-/// and renamed at the end. A file of that name that was there before survives a failed write.
+/// and renamed at the end. A file of that name that was there before survives a failed write. Where
+/// the path is a link, the file that it leads to is written.
 class AtomicFile {
  public:
-  /// @throws std::runtime_error where the folder does not exist or cannot be written to.
+  /// @throws std::runtime_error where the folder does not exist or cannot be written to, and where
+  ///         something that is no regular file has that name.
   explicit AtomicFile(std::string path);
   /// Removes what was not committed.
   ~AtomicFile();
@@ -24,10 +26,11 @@ class AtomicFile {
   void commit();
 
  private:
-  std::string path_, temporary_;
+  std::string path_, target_, temporary_;
 };
 
-/// Writes a whole file at once. @throws std::runtime_error naming the file and the reason.
+/// Writes a whole file at once; into devices and pipes (/dev/stdout) directly. @throws
+/// std::runtime_error naming the file and the reason.
 void writeFile(const std::string& path, std::string_view content);
 
 }  // namespace cca

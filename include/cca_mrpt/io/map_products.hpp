@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "cca_mrpt/io/folder_lock.hpp"
 #include "cca_mrpt/mapping/line_map.hpp"
 #include "cca_mrpt/mapping/pose2.hpp"
 
@@ -33,9 +34,13 @@ struct MapProducts {
 /// @throws std::runtime_error naming the file and the reason.
 void writeMapFolder(const std::string& folder, const MapProducts& products);
 
+/// Takes back what says that all is there, before the first of the files is replaced.
+void withdrawSummary(const std::string& folder);
+
 /// Makes the folder for a run's files, before the work is done.
-/// @throws std::runtime_error where it cannot be made or written to, and where it already holds a
-///         run's summary.json and overwriting is not allowed.
-void prepareMapFolder(const std::string& folder, bool overwrite);
+/// @return  to be kept while the run writes there.
+/// @throws std::runtime_error where it cannot be made or written to, where another run is writing
+///         to it, and where it already holds a run's summary.json and overwriting is not allowed.
+[[nodiscard]] FolderLock prepareMapFolder(const std::string& folder, bool overwrite);
 
 }  // namespace cca
