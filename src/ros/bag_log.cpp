@@ -90,26 +90,25 @@ class BagLog : public LogReader {
     base_ = transforms_.knows("base_link")        ? "base_link"
             : transforms_.knows("base_footprint") ? "base_footprint"
                                                   : "";
+    has_map_ = !base_.empty() && transforms_.find(kMapFrame, base_, ros::Time()).has_value();
   }
 
-  std::optional<LogRecord> next() override {
-    for (; at_ != view_.end(); ++at_, ++read_) {
-      if (const auto odometry = at_->instantiate<nav_msgs::Odometry>()) take(*odometry);
-      const auto message = at_->instantiate<sensor_msgs::LaserScan>();
-      if (!message) continue;
-      if (auto record = makeRecord(*message)) {
-        ++at_;
-        ++read_;
-        return record;
-      }
-      ++left_out_;
-    }
+  std::optional<LogRecord> next() override try {
+    return fault_.empty() ? nextReadable() : std::nullopt;
+  } catch (const std::runtime_error& error) {  // rosbag's, from a damaged part of the file
+    fault_ = std::string("unreadable from there on: ") + error.what();
     return std::nullopt;
   }
 
   std::string warnings() const override {
-    return left_out_ == 0 ? ""
-                          : std::to_string(left_out_) + " impossible or tilted scan(s) left out";
+    std::string text = fault_;
+    const auto tell = [&text](std::size_t count, const char* what) {
+      if (count == 0) return;
+      text += (text.empty() ? "" : "; ") + std::to_string(count) + " " + what + " left out";
+    };
+    tell(left_out_, "impossible or tilted scan(s)");
+    tell(unplaced_, "scan(s) from before the first pose in 'map'");
+    return text;
   }
 
   double progress() const override {
@@ -117,6 +116,21 @@ class BagLog : public LogReader {
   }
 
  private:
+  std::optional<LogRecord> nextReadable() {
+    for (; at_ != view_.end(); ++at_, ++read_) {
+      if (const auto odometry = at_->instantiate<nav_msgs::Odometry>()) take(*odometry);
+      const auto message = at_->instantiate<sensor_msgs::LaserScan>();
+      if (!message) continue;
+      auto record = makeRecord(*message);
+      left_out_ += !record;
+      if (!record || !place(*record)) continue;
+      ++at_;
+      ++read_;
+      return record;
+    }
+    return std::nullopt;
+  }
+
   void take(const nav_msgs::Odometry& odometry) {
     geometry_msgs::Transform transform;
     transform.translation.x = odometry.pose.pose.position.x;
@@ -131,12 +145,13 @@ class BagLog : public LogReader {
 
   std::optional<LogRecord> makeRecord(const sensor_msgs::LaserScan& message) const {
     LogRecord record;
+    ros::Time time;
     try {
       record.scan = scanFromMessage(message);
+      time = sweepMiddle(message);
     } catch (const std::runtime_error&) {
       return std::nullopt;
     }
-    const ros::Time time = sweepMiddle(message);
     record.time = time.toSec();
     record.has_time = !message.header.stamp.isZero();
     const std::string laser = withoutSlash(message.header.frame_id);
@@ -152,9 +167,25 @@ class BagLog : public LogReader {
     if (const auto pose = transforms_.find(kMapFrame, base, time)) record.corrected = pose->pose;
     if (const auto pose = transforms_.find(kOdomFrame, base, time)) record.odometry = pose->pose;
     if (!record.odometry) record.odometry = wheels_;
+    return record;
+  }
+
+  /// Puts the scan where the robot was. tf may end before the scans, or begin after them: where the
+  /// bag knows `map`, a scan is not put into another frame instead.
+  /// @return  whether that place is known.
+  bool place(LogRecord& record) {
+    if (record.corrected) {
+      if (record.odometry) T_map_odom_ = *record.corrected * record.odometry->inverse();
+      has_map_ = true;
+    } else if (T_map_odom_ && record.odometry) {
+      record.corrected = *T_map_odom_ * *record.odometry;
+    } else if (has_map_) {
+      ++unplaced_;
+      return false;
+    }
     const Pose2 robot = record.corrected ? *record.corrected : record.odometry.value_or(Pose2());
     record.scan.T_map_sensor = robot * record.T_robot_sensor;
-    return record;
+    return true;
   }
 
   rosbag::Bag bag_;
@@ -163,8 +194,10 @@ class BagLog : public LogReader {
   rosbag::View::iterator at_;
   std::size_t messages_ = 1;
   std::string base_;
-  std::optional<Pose2> wheels_;
-  std::size_t read_ = 0, left_out_ = 0;
+  bool has_map_ = false;  ///< tf knows the base in `map`, at some time
+  std::optional<Pose2> wheels_, T_map_odom_;
+  std::string fault_;
+  std::size_t read_ = 0, left_out_ = 0, unplaced_ = 0;
 };
 
 std::unique_ptr<LogReader> openBag(const std::string& path) {

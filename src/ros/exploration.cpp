@@ -78,6 +78,7 @@ void Exploration::end() {
 }
 
 void Exploration::setMode(Mode mode) {
+  const std::lock_guard<std::mutex> lock(saver_.mutex());
   mode_ = mode;
   explorer_.pause(mode == Mode::kPaused);
   if (finished_) return;
@@ -108,8 +109,11 @@ bool Exploration::onHome(std_srvs::Trigger::Request& /*request*/,
   response.success = !record_.way.empty();
   response.message = response.success ? "returning" : "it has not left yet";
   if (!response.success) return true;
-  explorer_.returnToStart();
-  finished_ = false;
+  {
+    const std::lock_guard<std::mutex> lock(saver_.mutex());
+    explorer_.returnToStart();
+    finished_ = false;
+  }
   setMode(Mode::kRunning);
   return true;
 }

@@ -13,7 +13,7 @@ namespace cca {
 namespace {
 
 std::string worldFile(const std::string& world) {
-  if (std::filesystem::exists(world)) return world;
+  if (std::filesystem::is_regular_file(world)) return world;
   const std::string maps = ros::package::getPath("cca_mrpt") + "/maps/";
   for (const std::string& candidate : {maps + world, maps + world + ".yaml"}) {
     if (std::filesystem::is_regular_file(candidate)) return candidate;
@@ -57,6 +57,7 @@ Simulation makeSimulation(const SimulatorParameters& p, const Parameters& progra
   SimulationParameters simulation;
   simulation.robot = program.robot;
   simulation.laser = program.laser;
+  simulation.odometry = program.odometry;
   simulation.seed = static_cast<std::uint64_t>(p.seed);
   return Simulation(std::move(world), T_map_start, simulation);
 }

@@ -11,6 +11,7 @@
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
+#include <fstream>
 
 #include "cca_mrpt/io/log_reader.hpp"
 #include "cca_mrpt/ros/pose_message.hpp"
@@ -91,6 +92,41 @@ TEST_F(BagLog, OdometryMessagesStandInForTf) {
   ASSERT_TRUE(record->odometry.has_value());
   EXPECT_NEAR(record->odometry->x, 3.0, 1e-9);
   EXPECT_NEAR(record->odometry->theta, 0.5, 1e-9);
+}
+
+TEST_F(BagLog, ScansAreNotPutIntoTwoFrames) {
+  transform("base_link", "laser", {}, 0.0, "/tf_static");
+  transform("odom", "base_link", {0.0, 0.0, 0.0}, 0.0);
+  scan(0.1);  // `map` is not known yet
+  transform("map", "odom", {50.0, 0.0, 0.0}, 0.2);
+  scan(0.3);
+  transform("map", "odom", {50.0, 0.0, 0.0}, 0.4);
+  transform("odom", "base_link", {1.0, 0.0, 0.0}, 1.0);
+  scan(0.8);  // `map` is not known any more
+  const auto log = open();
+  for (const double x : {50.3, 50.8}) {
+    const auto record = log->next();
+    ASSERT_TRUE(record.has_value());
+    EXPECT_NEAR(record->scan.T_map_sensor.x, x, 1e-6);
+  }
+  EXPECT_FALSE(log->next().has_value());
+  EXPECT_THAT(log->warnings(), testing::HasSubstr("1 scan(s) from before"));
+}
+
+TEST_F(BagLog, DamageInTheMiddleEndsTheLogAndIsSaid) {
+  for (int k = 0; k < 500; ++k) scan(0.01 * k);
+  bag_.close();
+  {
+    std::fstream file(path_, std::ios::in | std::ios::out | std::ios::binary);
+    file.seekp(static_cast<std::streamoff>(std::filesystem::file_size(path_) / 4));
+    file << std::string(400, '\xFF');
+  }
+  const auto log = openLog(path_);
+  int scans = 0;
+  while (log->next()) ++scans;
+  EXPECT_GT(scans, 10);
+  EXPECT_LT(scans, 490);
+  EXPECT_THAT(log->warnings(), testing::HasSubstr("unreadable from there on"));
 }
 
 TEST_F(BagLog, ImpossibleScansAreLeftOutAndSaid) {
