@@ -11,6 +11,7 @@ namespace cca {
 namespace {
 
 constexpr double kAge = 0.45;  // s, of the scan to compare with: a walker has gone its own depth
+constexpr double kLongAge = 1.35;  // s, of another: somebody of 0.2 m/s has come by kClearly
 constexpr double kClearly = 0.12;  // m, beyond the noise
 constexpr int kBeamsAround = 2;    // of the other scan, to each side
 constexpr int kLeastBeams = 3;     // of a mover
@@ -104,19 +105,21 @@ bool sawSurfaceAt(const Scan& scan, const std::vector<Eigen::Vector2d>& points,
 std::vector<bool> MovingPoints::update(const Scan& scan, double range_sigma, double time) {
   std::vector<bool> moving(scan.size(), false);
   const std::vector<Eigen::Vector2d> points = pointsOf(scan);
-  while (past_.size() > 1 && past_[1].time <= time - kAge) past_.pop_front();
+  while (past_.size() > 1 && past_[1].time <= time - kLongAge) past_.pop_front();
   places_.erase(std::remove_if(places_.begin(), places_.end(),
                                [&](const Place& place) { return time - place.time > kMemory; }),
                 places_.end());
   if (!past_.empty() && past_.front().time < time) {
-    const Past& earlier = past_.front();
     const double clearly = kClearly + 4.0 * range_sigma;
-    for (const auto& [first, last] : runsInFreeSpace(scan, points, earlier.scan, clearly)) {
-      markBody(points, first, last, moving);
-      places_.push_back({points[(first + last) / 2], time});
+    const Past &long_ago = past_.front(), &lately = scanBefore(time - kAge);
+    for (const Past* earlier : {&long_ago, &lately}) {
+      for (const auto& [first, last] : runsInFreeSpace(scan, points, earlier->scan, clearly)) {
+        markBody(points, first, last, moving);
+        places_.push_back({points[(first + last) / 2], time});
+      }
     }
-    for (const auto& [first, last] : runsInFreeSpace(earlier.scan, earlier.points, scan, clearly)) {
-      places_.push_back({earlier.points[(first + last) / 2], time});
+    for (const auto& [first, last] : runsInFreeSpace(lately.scan, lately.points, scan, clearly)) {
+      places_.push_back({lately.points[(first + last) / 2], time});
     }
   }
   for (std::size_t i = 0; i < scan.size(); ++i) {
@@ -131,15 +134,23 @@ std::vector<bool> MovingPoints::update(const Scan& scan, double range_sigma, dou
   return moving;
 }
 
+// The latest scan of at least that age; else the oldest.
+const MovingPoints::Past& MovingPoints::scanBefore(double time) const {
+  std::size_t i = 0;
+  while (i + 1 < past_.size() && past_[i + 1].time <= time) ++i;
+  return past_[i];
+}
+
 void MovingPoints::findUnsettled(const Scan& scan, const std::vector<Eigen::Vector2d>& points,
                                  const std::vector<bool>& moving, double range_sigma, double time) {
   unsettled_.clear();
   if (!areAround(time)) return;
   const bool old_enough = !past_.empty() && past_.front().time <= time - kAge;
+  const Past* earlier = old_enough ? &scanBefore(time - kAge) : nullptr;
   for (std::size_t i = 0; i < scan.size(); ++i) {
     if (moving[i] || !isReturn(scan.ranges[i]) || scan.ranges[i] > kHeeded) continue;
-    const bool settled = old_enough && sawSurfaceAt(past_.front().scan, past_.front().points,
-                                                    points[i], kStill + 2.0 * range_sigma);
+    const bool settled = old_enough && sawSurfaceAt(earlier->scan, earlier->points, points[i],
+                                                    kStill + 2.0 * range_sigma);
     if (!settled) unsettled_.push_back(points[i]);
   }
 }

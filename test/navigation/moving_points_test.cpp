@@ -91,6 +91,19 @@ INSTANTIATE_TEST_SUITE_P(Directions, MovingPointsWalk,
                          ::testing::Values(Walk{{8, 5}, {-1, 0}}, Walk{{7, 5}, {1, 0}},
                                            Walk{{7, 4.5}, {0, 1}}, Walk{{3, 3}, {0.4, 0.4}}));
 
+// Half a second is too short for that: a walker of 0.3 m/s has come by 13 cm, and noise is 4 cm.
+TEST(MovingPoints, FindsWhoComesSlowlyStraightTowardsIt) {
+  BoxWorld world;
+  world.addFrame(10, 10);
+  MovingPoints points;
+  long found = 0;
+  for (int i = 0; i <= 14; ++i) {
+    world.discs = {{{7.0 - 0.025 * i, 5.0}, 0.25}};
+    found = movingBeams(points.update(world.scan({5, 5, 0}, 8.0), 0.01, 0.1 * i));
+  }
+  EXPECT_GT(found, 3);
+}
+
 /// Returns of the scan on a disc: all of them, and those found to move or not to stand for certain.
 struct OnDisc {
   int all = 0, heeded = 0;

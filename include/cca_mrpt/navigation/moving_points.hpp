@@ -13,7 +13,8 @@ namespace cca {
 /// space, or beside a place that an earlier scan saw taken and this one sees free.
 ///
 /// The scan of about half a second ago is looked up in the direction of each return, and the other
-/// way round; a return is suspicious where all beams around that direction saw clearly farther.
+/// way round; so is, one way, that of 1.4 s ago, for who comes slowly. A return is suspicious where
+/// all beams around that direction saw clearly farther.
 /// Three suspicious neighbours are a mover, with all that is joined to them; a mover that pauses
 /// stays one for kMemory. Beyond kFarthest beams are too sparse to tell a thin pole from somebody.
 class MovingPoints {
@@ -47,6 +48,7 @@ class MovingPoints {
   static void markBody(const std::vector<Eigen::Vector2d>& points, std::size_t first,
                        std::size_t last, std::vector<bool>& moving);
 
+  const Past& scanBefore(double time) const;
   void findUnsettled(const Scan& scan, const std::vector<Eigen::Vector2d>& points,
                      const std::vector<bool>& moving, double range_sigma, double time);
 
