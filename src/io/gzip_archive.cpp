@@ -4,8 +4,9 @@
 #include <mrpt/serialization/CArchive.h>
 
 #include <cstdint>
-#include <fstream>
 #include <stdexcept>
+
+#include "gzip_lines.hpp"
 
 namespace cca {
 namespace {
@@ -14,15 +15,6 @@ constexpr int kCompression = 1;  // the fastest: higher levels gain little on ra
 
 std::runtime_error notWritten(const std::string& path) {
   return std::runtime_error(path + ": cannot be written whole: is the disk full?");
-}
-
-/// What gzip's trailer says of the length before compression, modulo 2^32; 0 for no file.
-std::uint32_t lengthInTrailer(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  file.seekg(-4, std::ios::end);
-  unsigned char bytes[4] = {};
-  if (!file.read(reinterpret_cast<char*>(bytes), sizeof bytes)) return 0;
-  return bytes[0] | bytes[1] << 8 | bytes[2] << 16 | static_cast<std::uint32_t>(bytes[3]) << 24;
 }
 
 }  // namespace
@@ -45,7 +37,7 @@ void GzipArchive::write(const mrpt::serialization::CSerializable& object) {
 void GzipArchive::commit() {
   const auto length = static_cast<std::uint32_t>(stream_.getPosition());
   stream_.close();  // MRPT does not tell whether the rest could be written: the trailer does
-  if (lengthInTrailer(file_.temporary()) != length) throw notWritten(path_);
+  if (lengthInGzipTrailer(file_.temporary()) != length) throw notWritten(path_);
   file_.commit();
 }
 

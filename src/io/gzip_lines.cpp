@@ -5,6 +5,7 @@
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
+#include <fstream>
 #include <stdexcept>
 
 namespace cca {
@@ -72,6 +73,20 @@ std::string fileHead(const std::string& path, std::size_t bytes) {
   const int got = gzread(file.get(), head.data(), static_cast<unsigned>(bytes));
   head.resize(got > 0 ? static_cast<std::size_t>(got) : 0);
   return head;
+}
+
+std::uint32_t lengthInGzipTrailer(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  file.seekg(-4, std::ios::end);
+  unsigned char bytes[4] = {};
+  if (!file.read(reinterpret_cast<char*>(bytes), sizeof bytes)) return 0;
+  return bytes[0] | bytes[1] << 8 | bytes[2] << 16 | static_cast<std::uint32_t>(bytes[3]) << 24;
+}
+
+double unzippedBytes(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  const bool zipped = file.get() == 0x1F && file.get() == 0x8B;
+  return zipped ? lengthInGzipTrailer(path) : static_cast<double>(std::filesystem::file_size(path));
 }
 
 }  // namespace cca

@@ -3,6 +3,7 @@
 
 #include <zlib.h>
 
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
@@ -43,5 +44,12 @@ class GzipLines {
 /// The first bytes of a file, unzipped where it is gzipped.
 /// @throws std::runtime_error naming the file where it cannot be opened or is no regular file.
 std::string fileHead(const std::string& path, std::size_t bytes);
+
+/// What gzip's trailer says of the length before compression, modulo 2^32; 0 for no file.
+std::uint32_t lengthInGzipTrailer(const std::string& path);
+
+/// Bytes of a file, unzipped where it is gzipped: for people, since a file beyond 4 GiB, or one
+/// that was broken off, does not tell.
+double unzippedBytes(const std::string& path);
 
 }  // namespace cca

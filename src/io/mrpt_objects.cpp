@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "allocation_limit.hpp"
+#include "gzip_lines.hpp"
 
 namespace cca {
 namespace {
@@ -39,6 +40,7 @@ std::string shortReason(const std::string& message) {
 MrptObjects::MrptObjects(const std::string& path) {
   if (!file_.open(path)) throw std::runtime_error(path + ": cannot be opened");
   most_memory_ = mostMemory(std::filesystem::file_size(path));
+  bytes_ = unzippedBytes(path);
 }
 
 mrpt::serialization::CSerializable::Ptr MrptObjects::next() {
@@ -61,8 +63,8 @@ mrpt::serialization::CSerializable::Ptr MrptObjects::next() {
 }
 
 double MrptObjects::progress() const {
-  const auto bytes = static_cast<double>(file_.getTotalBytesCount());
-  return bytes > 0.0 ? std::clamp(static_cast<double>(file_.getPosition()) / bytes, 0.0, 1.0) : 1.0;
+  const auto at = static_cast<double>(file_.getPosition());
+  return bytes_ > 0.0 ? std::clamp(at / bytes_, 0.0, 1.0) : 1.0;
 }
 
 std::string mrptClassName(const std::string& head) {

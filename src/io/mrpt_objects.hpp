@@ -29,6 +29,7 @@ class MrptObjects {
  private:
   mrpt::io::CFileGZInputStream file_;
   std::size_t most_memory_;  ///< bytes, for one object
+  double bytes_;             ///< of the file, unzipped
   std::string fault_;
   bool ended_ = false;
 };

@@ -108,6 +108,18 @@ TEST(Rawlog, WrittenRunReadsBackWithOdometryAndTimes) {
   EXPECT_EQ(log->warnings(), "");
 }
 
+TEST(Rawlog, TellsHowMuchOfItHasBeenRead) {
+  const TemporaryFolder folder;
+  {
+    RawlogWriter writer(folder / "run.rawlog", kMaxRange);
+    for (int k = 0; k < 200; ++k) writer.insert(someScan(), {}, {0.01 * k, 0.0, 0.0}, k);
+    writer.commit();
+  }
+  const auto log = openLog(folder / "run.rawlog");
+  for (int k = 0; k < 100; ++k) ASSERT_TRUE(log->next());
+  EXPECT_NEAR(log->progress(), 0.5, 0.02);  // scans alike are packed to a tenth
+}
+
 TEST(Rawlog, UncommittedRunLeavesNothingBehind) {
   const TemporaryFolder folder;
   { RawlogWriter writer(folder / "run.rawlog", kMaxRange); }
