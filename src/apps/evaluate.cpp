@@ -1,17 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
-#include <fstream>
 #include <memory>
 #include <nlohmann/json.hpp>
-#include <sstream>
 #include <stdexcept>
 #include <string>
 
 #include "cca_mrpt/evaluation/log_score.hpp"
 #include "cca_mrpt/evaluation/world_score.hpp"
+#include "cca_mrpt/evidence/labelled_scan.hpp"
 #include "cca_mrpt/io/atomic_file.hpp"
 #include "cca_mrpt/io/log_reader.hpp"
 #include "commands.hpp"
@@ -19,38 +17,6 @@
 
 namespace cca::apps {
 namespace {
-
-constexpr double kFarthest = 1e5;  // m; what is scored is sampled every few centimetres
-
-/// Rows x1,y1,x2,y2[,...] by comma or blank; a first row that is no numbers is the header, lines
-/// that begin with # are comments.
-std::vector<Segment2> readSegments(const std::string& path) {
-  std::ifstream file(path);
-  if (!file || std::filesystem::is_directory(path)) {
-    throw std::runtime_error(path + ": cannot be read");
-  }
-  std::vector<Segment2> segments;
-  std::string line;
-  bool first = true;
-  for (int number = 1; std::getline(file, line); ++number) {
-    for (char& c : line) c = c == ',' || c == ';' || c == '\r' ? ' ' : c;
-    if (line.find_first_not_of(' ') == std::string::npos || line[0] == '#') continue;
-    std::istringstream row(line);
-    Segment2 s;
-    row >> s.start.x() >> s.start.y() >> s.end.x() >> s.end.y();
-    const bool numbers = static_cast<bool>(row), is_header = first && !numbers;
-    first = false;
-    if (is_header) continue;
-    const double farthest =
-        std::max(s.start.lpNorm<Eigen::Infinity>(), s.end.lpNorm<Eigen::Infinity>());
-    if (!numbers || !(farthest <= kFarthest)) {
-      throw std::runtime_error(path + ":" + std::to_string(number) +
-                               ": needs four numbers x1,y1,x2,y2 in [-1e5, 1e5] m");
-    }
-    segments.push_back(s);
-  }
-  return segments;
-}
 
 nlohmann::ordered_json toJson(const LogScore& score) {
   nlohmann::ordered_json json;
@@ -73,12 +39,12 @@ LogScore evaluateLog(const std::string& log, const std::vector<Segment2>& map) {
 }
 
 LogScore evaluateWorld(const std::string& world, const std::vector<Segment2>& map) {
-  const std::string truth = std::filesystem::path(world).replace_extension(".truth.csv");
+  const std::string truth = evidence::truthPath(world);
   if (!std::filesystem::exists(truth)) {
     throw std::runtime_error(world + ": its true segments are not known; " + truth +
                              " (x1,y1,x2,y2) must stand beside it");
   }
-  return scoreAgainstWorld(readSegments(truth), map);
+  return scoreAgainstWorld(evidence::loadSegments(truth), map);
 }
 
 }  // namespace
@@ -97,7 +63,7 @@ void addEvaluateCommand(CLI::App& program) {
   against->require_option(1);
   command->add_option("--out", options->out, "JSON file to write; default: standard output");
   command->callback([options] {
-    const auto map = readSegments(options->map);
+    const auto map = evidence::loadSegments(options->map);
     const LogScore score =
         options->log.empty() ? evaluateWorld(options->world, map) : evaluateLog(options->log, map);
     const std::string text = toJson(score).dump(1) + "\n";

@@ -10,12 +10,14 @@
 #include <stdexcept>
 
 #include "cca_mrpt/io/log_reader.hpp"
+#include "cca_mrpt/mapping/cross.hpp"
 #include "cca_mrpt/simulation/world.hpp"
 
 namespace cca::evidence {
 namespace {
 
 constexpr std::uint64_t kPlaces = 0x9e3779b97f4a7c15u;  // tells the streams of one seed apart
+constexpr double kFarthest = 1e5;  // m; what is scored is sampled every few centimetres
 constexpr int kMostTrials = 200000;
 constexpr double kFewestReturns = 0.25;  // of the beams; less: the place lies outside the building
 
@@ -27,10 +29,10 @@ struct Hit {
 
 Hit meet(const Eigen::Vector2d& u, const Segment2& edge) {
   const Eigen::Vector2d d = edge.end - edge.start;
-  const double across = u.x() * d.y() - u.y() * d.x();
+  const double across = cross(u, d);
   if (across == 0.0) return {};
-  const double range = (edge.start.x() * d.y() - edge.start.y() * d.x()) / across;
-  const double along = (edge.start.x() * u.y() - edge.start.y() * u.x()) / across;
+  const double range = cross(edge.start, d) / across;
+  const double along = cross(edge.start, u) / across;
   if (range <= 0.0 || along < 0.0 || along > 1.0) return {};
   return {range, along};
 }
@@ -113,22 +115,32 @@ std::vector<Segment2> randomPolygon(Random& random) {
 
 }  // namespace
 
-std::vector<Segment2> loadEdges(const std::string& csv_path) {
+std::vector<Segment2> loadSegments(const std::string& csv_path) {
   std::ifstream file(csv_path);
-  if (!file) throw std::runtime_error(csv_path + ": the true segments cannot be read");
-  std::vector<Segment2> edges;
-  std::string line;
-  for (int number = 1; std::getline(file, line); ++number) {
-    if (line.empty() || line[0] == '#' || line.rfind("x1", 0) == 0) continue;
-    std::replace(line.begin(), line.end(), ',', ' ');
-    std::istringstream fields(line);
-    Segment2 e;
-    if (!(fields >> e.start.x() >> e.start.y() >> e.end.x() >> e.end.y())) {
-      throw std::runtime_error(csv_path + ":" + std::to_string(number) + ": needs x1,y1,x2,y2");
-    }
-    edges.push_back(e);
+  if (!file || std::filesystem::is_directory(csv_path)) {
+    throw std::runtime_error(csv_path + ": cannot be read");
   }
-  return edges;
+  std::vector<Segment2> segments;
+  std::string line;
+  bool first = true;
+  for (int number = 1; std::getline(file, line); ++number) {
+    for (char& c : line) c = c == ',' || c == ';' || c == '\r' ? ' ' : c;
+    if (line.find_first_not_of(' ') == std::string::npos || line[0] == '#') continue;
+    std::istringstream row(line);
+    Segment2 s;
+    row >> s.start.x() >> s.start.y() >> s.end.x() >> s.end.y();
+    const bool numbers = static_cast<bool>(row), is_header = first && !numbers;
+    first = false;
+    if (is_header) continue;
+    const double farthest =
+        std::max(s.start.lpNorm<Eigen::Infinity>(), s.end.lpNorm<Eigen::Infinity>());
+    if (!numbers || !(farthest <= kFarthest)) {
+      throw std::runtime_error(csv_path + ":" + std::to_string(number) +
+                               ": needs four numbers x1,y1,x2,y2 in [-1e5, 1e5] m");
+    }
+    segments.push_back(s);
+  }
+  return segments;
 }
 
 std::string truthPath(const std::string& yaml_path) {
@@ -176,7 +188,7 @@ LabelledScan sweepOverEdges(const std::vector<Segment2>& edges_map, const Pose2&
 
 std::vector<LabelledScan> sampleWorld(const std::string& yaml_path, const Sampling& sampling) {
   const World world = loadWorld(yaml_path);
-  const std::vector<Segment2> edges = loadEdges(truthPath(yaml_path));
+  const std::vector<Segment2> edges = loadSegments(truthPath(yaml_path));
   Random places(sampling.seed ^ kPlaces), noise(noiseSeed(sampling));
   const double width = world.width() * world.resolution();
   const double height = world.height() * world.resolution();

@@ -82,7 +82,7 @@ Scene makeScene(const TuningDesign& design, const TuningJob& job) {
   sampling.seed = static_cast<std::uint64_t>(job.seed);
   Scene scene;
   scene.scans = sampleWorld(job.world, sampling);
-  const std::vector<Segment2> walls = loadEdges(truthPath(job.world));
+  const std::vector<Segment2> walls = loadSegments(truthPath(job.world));
   std::vector<std::pair<double, double>> seen(walls.size(), {INFINITY, -INFINITY});
   Random random(sampling.seed * 7919u + static_cast<std::uint64_t>(std::llround(1e6 * job.noise)));
   for (const Pose2& T_map_sensor : tour(loadWorld(job.world), design.poses)) {

@@ -77,23 +77,36 @@ TEST(SamplePolygons, NoiseDoesNotMoveThePlaces) {
   const auto exact = samplePolygons(sampling);
   sampling.laser.range_noise = 0.02;
   const auto noisy = samplePolygons(sampling);
+  ASSERT_EQ(exact.size(), 5U);
+  ASSERT_EQ(noisy.size(), 5U);
   for (std::size_t i = 0; i < exact.size(); ++i) {
+    ASSERT_EQ(exact[i].scan.size(), noisy[i].scan.size());
     for (std::size_t k = 0; k < exact[i].scan.size(); ++k) {
       EXPECT_NEAR(exact[i].scan.ranges[k], noisy[i].scan.ranges[k], 0.12);  // six sigma
     }
   }
 }
 
-TEST(LoadEdges, NamesFileAndLineOfWhatItCannotRead) {
+TEST(LoadSegments, PassesOverCommentsAndHeader) {
+  const std::string path = testing::TempDir() + "segments.csv";
+  std::ofstream(path) << "# a comment\nx1,y1,x2,y2,id\n\n0,0,1,0,7\n# another\n1;0 1 2\r\n";
+  const auto segments = loadSegments(path);
+  ASSERT_EQ(segments.size(), 2U);
+  EXPECT_EQ(segments[1].end, Eigen::Vector2d(1.0, 2.0));
+  std::ofstream(path) << "0,0,1e6,0\n";
+  EXPECT_THROW(loadSegments(path), std::runtime_error);
+}
+
+TEST(LoadSegments, NamesFileAndLineOfWhatItCannotRead) {
   const std::string path = testing::TempDir() + "edges.csv";
   std::ofstream(path) << "x1,y1,x2,y2\n0,0,1,0\n0,zero,1,1\n";
   try {
-    loadEdges(path);
+    loadSegments(path);
     FAIL() << "no error";
   } catch (const std::runtime_error& error) {
     EXPECT_NE(std::string(error.what()).find("edges.csv:3"), std::string::npos) << error.what();
   }
-  EXPECT_THROW(loadEdges(path + ".absent"), std::runtime_error);
+  EXPECT_THROW(loadSegments(path + ".absent"), std::runtime_error);
 }
 
 }  // namespace

@@ -38,9 +38,11 @@ struct Sampling {
   std::uint64_t seed = 1;
 };
 
-/// True segments from CSV with the header x1,y1,x2,y2 (metres, map frame; more columns may follow).
-/// @throws std::runtime_error naming file and line.
-std::vector<Segment2> loadEdges(const std::string& csv_path);
+/// Segments from CSV, rows x1,y1,x2,y2 (metres; more columns may follow) by comma, semicolon or
+/// blank: true ones, or those of a map. A first row that is no numbers is the header, lines that
+/// begin with # are comments.
+/// @throws std::runtime_error naming file and line, also for numbers beyond 100 km.
+std::vector<Segment2> loadSegments(const std::string& csv_path);
 
 /// Where the true segments of a world stand: WORLD.truth.csv beside WORLD.yaml.
 std::string truthPath(const std::string& yaml_path);
