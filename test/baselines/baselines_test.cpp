@@ -205,7 +205,8 @@ TEST(Baselines, AccuracyFollowsTheNoise) {
           ++count;
         }
       }
-      if (count == 0) continue;
+      ASSERT_TRUE(count > 0 || noise > 0.0) << b.name;
+      if (count == 0) continue;  // a noisy wall falls to short pieces
       EXPECT_GE(sum / count + 1e-9, last) << b.name;
       EXPECT_LE(sum / count, noise + 1e-9) << b.name;
       last = sum / count;

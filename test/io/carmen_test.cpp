@@ -115,6 +115,8 @@ TEST_F(CarmenLog, FarWallOfASmallRoomIsKept) {
   std::string wall = "FLASER 181";
   for (int beam = 0; beam <= 180; ++beam) wall += " " + std::to_string(5.0 + 0.001 * (beam % 90));
   const auto records = readAll(write(wall + " 0 0 0 0 0 0 1 h 1\n"));
+  ASSERT_EQ(records.size(), 1U);
+  ASSERT_EQ(records[0].scan.size(), 181U);
   for (const double range : records[0].scan.ranges) EXPECT_TRUE(isReturn(range));
 }
 

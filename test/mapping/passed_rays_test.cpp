@@ -110,6 +110,7 @@ TEST(PassRays, SayNothingWhereBearingsAreNotFinite) {
       const Scan scan = first ? evenScan(180, bad, 0.01) : evenScan(180, 0.0, bad);
       passRays(scan, beamDirections(scan), MapNoise{}, walls);
     }
+    ASSERT_FALSE(walls[slot].profile.empty());
     for (int i = walls[slot].profile.first(); i < walls[slot].profile.last(); ++i) {
       EXPECT_GE(walls[slot].profile.bin(i).hits, 4.0);
     }

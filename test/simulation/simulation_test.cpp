@@ -65,6 +65,7 @@ TEST(Simulation, RecordsItsWayDenselyEnough) {
   Simulation simulation(room(), {1.0, 1.0, 1.57}, {});
   for (int i = 0; i < 30; ++i) simulation.drive({0.7, 0.4}, 1.0);
   const auto& way = simulation.trajectory();
+  ASSERT_GT(way.size(), 100U);
   for (std::size_t i = 1; i < way.size(); ++i) {
     const Eigen::Vector2d step = way[i].T_map_robot.position() - way[i - 1].T_map_robot.position();
     EXPECT_LE(step.norm(), 0.1);

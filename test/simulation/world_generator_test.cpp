@@ -50,7 +50,9 @@ TEST_P(EveryKind, IsOneRegionForARobotWithItsMargin) {
 TEST_P(EveryKind, HasFreeSpaceBeforeEachTrueFaceAndSolidBehind) {
   const FloorPlan plan = generateFloorPlan(GetParam(), 1);
   const World world = rasterise(plan, kResolution);
-  for (const auto& [a, b] : wallFaces(plan, kResolution)) {
+  const auto faces = wallFaces(plan, kResolution);
+  ASSERT_GE(faces.size(), 4U);
+  for (const auto& [a, b] : faces) {
     const Eigen::Vector2d along = b - a;
     if (along.norm() < 0.2) continue;  // the stairs of the raster are as long
     const Eigen::Vector2d out = Eigen::Vector2d(along.y(), -along.x()).normalized();
