@@ -3,6 +3,8 @@
 
 #include <cmath>
 
+#include "cca_mrpt/mapping/cross.hpp"
+
 namespace cca::baselines {
 namespace {
 
@@ -11,7 +13,7 @@ double distanceFromChord(const Points& points, Run run, std::size_t i) {
   const Eigen::Vector2d offset = points[i] - points[run.first];
   const double length = chord.norm();
   if (length <= 0.0) return offset.norm();
-  return std::abs(chord.x() * offset.y() - chord.y() * offset.x()) / length;
+  return std::abs(cross(chord, offset)) / length;
 }
 
 void split(const Points& points, Run run, const IterativeEndPointFitParameters& p,

@@ -4,12 +4,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cca_mrpt/mapping/cross.hpp"
+
 namespace cca::baselines {
 namespace {
 
 double lineAngle(const FittedLine& a, const FittedLine& b) {
-  const double cross = a.direction.x() * b.direction.y() - a.direction.y() * b.direction.x();
-  return std::asin(std::min(1.0, std::abs(cross)));
+  return std::asin(std::min(1.0, std::abs(cross(a.direction, b.direction))));
 }
 
 /// Squared Mahalanobis distance of two lines in (lateral offset, orientation), compared midway

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cca_mrpt/mapping/cross.hpp"
+
 namespace cca::baselines {
 namespace {
 
@@ -63,7 +65,7 @@ PointMoments momentsOf(const Points& points, Run run) {
 
 double distanceFrom(const FittedLine& line, const Eigen::Vector2d& point) {
   const Eigen::Vector2d offset = point - line.centroid;
-  return std::abs(line.direction.x() * offset.y() - line.direction.y() * offset.x());
+  return std::abs(cross(line.direction, offset));
 }
 
 std::size_t farthestFromChord(const Points& points, Run run) {
@@ -74,7 +76,7 @@ std::size_t farthestFromChord(const Points& points, Run run) {
   double largest = -1.0;
   for (std::size_t i = run.first + 1; i + 1 < run.last; ++i) {
     const Eigen::Vector2d offset = points[i] - origin;
-    const double across = std::abs(chord.x() * offset.y() - chord.y() * offset.x());
+    const double across = std::abs(cross(chord, offset));
     const double distance = length > 0.0 ? across / length : offset.norm();
     if (distance > largest) largest = distance, farthest = i;
   }

@@ -3,12 +3,14 @@
 
 #include <algorithm>
 
+#include "cca_mrpt/mapping/cross.hpp"
+
 namespace cca::baselines {
 namespace {
 
 double signedDistance(const FittedLine& line, const Eigen::Vector2d& point) {
   const Eigen::Vector2d offset = point - line.centroid;
-  return line.direction.x() * offset.y() - line.direction.y() * offset.x();
+  return cross(line.direction, offset);
 }
 
 bool twoNeighboursLeave(const Points& points, Run run, double tolerance) {

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "cca_mrpt/baselines/hough_transform.hpp"
+#include "cca_mrpt/mapping/cross.hpp"
 
 namespace cca::baselines {
 namespace {
@@ -52,10 +53,9 @@ LineSegment fitWeighted(const Points& points, const WeightedLineFittingParameter
 /// Squared Mahalanobis distance of two segments' lines, compared at a's centroid.
 double chiSquare(const LineSegment& a, const LineSegment& b) {
   const Eigen::Vector2d u = a.direction(), v = b.direction();
-  const double turn = std::asin(std::clamp(u.x() * v.y() - u.y() * v.x(), -1.0, 1.0)) *
-                      (u.dot(v) < 0.0 ? -1.0 : 1.0);
+  const double turn = std::asin(std::clamp(cross(u, v), -1.0, 1.0)) * (u.dot(v) < 0.0 ? -1.0 : 1.0);
   const Eigen::Vector2d arm = a.moments.mean - b.moments.mean;
-  const double offset = v.x() * arm.y() - v.y() * arm.x();
+  const double offset = cross(v, arm);
   const double reach = v.dot(arm);
   const double lateral =
       a.covariance(0, 0) + b.covariance(0, 0) + reach * reach * b.covariance(1, 1);

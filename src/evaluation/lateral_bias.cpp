@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 
+#include "cca_mrpt/mapping/cross.hpp"
 #include "log_score_parts.hpp"
 
 namespace cca::log_score {
@@ -33,8 +34,7 @@ LateralBias lateralBias(const std::vector<Eigen::Vector2d>& points,
     const double along = d.dot(u) / length;
     if (along < 0.0 || along > 1.0) continue;
     const auto bin = static_cast<std::size_t>(along * static_cast<double>(count[hit.index]));
-    offsets[first[hit.index] + std::min(bin, count[hit.index] - 1)].push_back(u.x() * d.y() -
-                                                                              u.y() * d.x());
+    offsets[first[hit.index] + std::min(bin, count[hit.index] - 1)].push_back(cross(u, d));
   }
   LateralBias bias;
   std::vector<double> medians, spreads;

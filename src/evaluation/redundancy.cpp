@@ -2,6 +2,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cca_mrpt/mapping/cross.hpp"
+
 #include "log_score_parts.hpp"
 
 namespace cca::log_score {
@@ -29,7 +31,7 @@ std::vector<double> facing(const std::vector<Segment2>& map, const SegmentIndex&
     for (const std::size_t s : index.within(points[i], kFacing)) {
       const Eigen::Vector2d u = (map[s].end - map[s].start).normalized();
       const Eigen::Vector2d v = origins[i] - map[s].start;
-      const double side = u.x() * v.y() - u.y() * v.x();
+      const double side = cross(u, v);
       if (std::abs(side) <= 0.10) continue;
       votes[s] += side > 0.0 ? 1.0 : -1.0;
       number[s] += 1.0;

@@ -5,6 +5,8 @@
 #include <cassert>
 #include <cmath>
 
+#include "cca_mrpt/mapping/cross.hpp"
+
 namespace cca {
 namespace {
 
@@ -22,7 +24,7 @@ Pose2 bestMotion(const std::vector<Pose2>& estimate, const std::vector<Pose2>& t
   for (std::size_t k = 0; k < truth.size(); ++k) {
     const Eigen::Vector2d e = estimate[k].position() - mean_e, t = truth[k].position() - mean_t;
     along += e.dot(t);
-    across += e.x() * t.y() - e.y() * t.x();
+    across += cross(e, t);
   }
   Pose2 motion{0.0, 0.0, along == 0.0 && across == 0.0 ? 0.0 : std::atan2(across, along)};
   const Eigen::Vector2d shift = mean_t - motion * mean_e;

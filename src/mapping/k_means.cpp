@@ -46,6 +46,8 @@ class SortedCentroids {
   std::vector<int> order_;
 };
 
+}  // namespace
+
 void moveToMeans(const Points& points, const std::vector<int>& cluster, Points* centroids) {
   Points sum(centroids->size(), Eigen::Vector2d::Zero());
   std::vector<int> count(centroids->size(), 0);
@@ -57,8 +59,6 @@ void moveToMeans(const Points& points, const std::vector<int>& cluster, Points* 
     if (count[k] > 0) (*centroids)[k] = sum[k] / count[k];
   }
 }
-
-}  // namespace
 
 std::vector<int> kMeans(const Points& points, Points seeds, int sweeps) {
   std::vector<int> cluster(points.size(), 0);

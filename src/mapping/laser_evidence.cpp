@@ -5,6 +5,8 @@
 #include <array>
 #include <cmath>
 
+#include "cca_mrpt/mapping/cross.hpp"
+
 namespace cca {
 namespace {
 
@@ -32,7 +34,7 @@ std::vector<Slot> wallsOfReturns(const Scan& scan, const std::vector<Eigen::Vect
       for (std::size_t beam = range.first; beam < range.last; ++beam) {
         if (!isUsable(scan.ranges[beam])) continue;
         const Eigen::Vector2d v = viewpoint + scan.ranges[beam] * beams[beam] - line.segment.start;
-        const double t = u.dot(v), d = std::abs(u.x() * v.y() - u.y() * v.x());
+        const double t = u.dot(v), d = std::abs(cross(u, v));
         if (t < -1e-6 || t > length + 1e-6 || d >= off[beam]) continue;
         off[beam] = d;
         slots[beam] = line.wall;
@@ -63,12 +65,12 @@ std::array<BeamRange, 2> beamsTowards(const Scan& scan, const Eigen::Vector2d& s
   const double all = static_cast<double>(scan.size());
   if (!std::isfinite(scan.angle_min) || !std::isfinite(spacing)) return {};
   if (spacing <= 0.0 || !(nearest > off)) return {BeamRange{0, scan.size()}, {}};
-  const double cross = a.x() * b.y() - a.y() * b.x();
-  const bool start_first = (cross > 0.0) == (scan.angle_increment > 0.0);
+  const double side = cross(a, b);
+  const bool start_first = (side > 0.0) == (scan.angle_increment > 0.0);
   const Eigen::Vector2d& from = start_first ? a : b;
   const double turned = wrapAngle(std::atan2(from.y(), from.x()) - T.theta - scan.angle_min);
   const double first = scan.angle_increment > 0.0 ? turned : -turned;
-  const double width = std::atan2(std::abs(cross), a.dot(b));
+  const double width = std::atan2(std::abs(side), a.dot(b));
   const double slack = spacing + std::asin(off / nearest);
   std::array<BeamRange, 2> ranges;
   for (std::size_t turn = 0; turn < 2; ++turn) {

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "cca_mrpt/mapping/cross.hpp"
 #include "cca_mrpt/mapping/laser_evidence.hpp"
 #include "cca_mrpt/mapping/line_extraction.hpp"
 #include "cca_mrpt/mapping/wall_upkeep.hpp"
@@ -36,7 +37,7 @@ NewLine inMap(const LineSegment& line, const Pose2& T_map_sensor, const MapNoise
   n.segment.covariance << n.own_offset_variance + noise.offsetVariance(), 0.0, 0.0,
       n.own_angle_variance + noise.angleVariance();
   const Eigen::Vector2d u = n.segment.direction(), v = n.viewpoint - n.segment.start;
-  if (u.x() * v.y() - u.y() * v.x() < 0.0) std::swap(n.segment.start, n.segment.end);
+  if (cross(u, v) < 0.0) std::swap(n.segment.start, n.segment.end);
   return n;
 }
 
@@ -104,7 +105,7 @@ void LineMap::learn(const std::vector<NewLine>& lines) {
     noise_.learnOffset(m.y() - seen.d / seen.w - wall.fit.slope * (m.x() - seen.t / seen.w),
                        line.own_offset_variance);
     const Eigen::Vector2d u = line.segment.direction(), w = wall.fittedDirection();
-    noise_.learnAngle(w.x() * u.y() - w.y() * u.x(), line.own_angle_variance);
+    noise_.learnAngle(cross(w, u), line.own_angle_variance);
   }
 }
 

@@ -8,6 +8,8 @@
 #include <tuple>
 #include <utility>
 
+#include "cca_mrpt/mapping/cross.hpp"
+
 namespace cca {
 namespace {
 
@@ -32,11 +34,11 @@ bool meet(const std::vector<MapLine>& lines, const End& a, const End& b, double 
           Candidate* corner) {
   const LineSegment &s = lines[a.line].segment, &t = lines[b.line].segment;
   const Eigen::Vector2d u = s.direction(), v = t.direction();
-  const double sine = u.x() * v.y() - u.y() * v.x();
+  const double sine = cross(u, v);
   if (std::abs(sine) < kLeastSine) return false;
   const Eigen::Vector2d p = a.last ? s.end : s.start, q = b.last ? t.end : t.start, w = q - p;
-  const double along_a = (w.x() * v.y() - w.y() * v.x()) / sine;
-  const double along_b = (w.x() * u.y() - w.y() * u.x()) / sine;
+  const double along_a = cross(w, v) / sine;
+  const double along_b = cross(w, u) / sine;
   if (std::abs(along_a) > reach || std::abs(along_b) > reach) return false;
   const double cut_a = a.last ? -along_a : along_a, cut_b = b.last ? -along_b : along_b;
   if (cut_a > kMostCut * s.length() || cut_b > kMostCut * t.length()) return false;

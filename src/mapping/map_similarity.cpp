@@ -11,8 +11,6 @@ namespace {
 constexpr double kOneFreedom = 10.83;  // 99.9 % quantiles of chi-square
 constexpr double kTwoFreedoms = 13.82;
 
-double bell(double evidence, double gate) { return gate / (gate + evidence); }
-
 /// Squared distance of b's centroid from a's line, which is extended that far, over its variance.
 double offsetEvidence(const LineSegment& a, const Eigen::Vector2d& u, const LineSegment& b) {
   const Eigen::Vector2d between = b.moments.mean - a.moments.mean;

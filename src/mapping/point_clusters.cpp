@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "cca_mrpt/mapping/cross.hpp"
+#include "cca_mrpt/mapping/k_means.hpp"
 
 namespace cca {
 namespace {
@@ -107,20 +108,6 @@ class CentroidRing {
   std::vector<Member> ring_;
   std::vector<int> place_;
 };
-
-/// Moves each centroid to the mean of its points; one without points stays.
-void moveToMeans(const std::vector<Eigen::Vector2d>& positions, const std::vector<int>& cluster,
-                 std::vector<Eigen::Vector2d>* centroids) {
-  std::vector<Eigen::Vector2d> sum(centroids->size(), Eigen::Vector2d::Zero());
-  std::vector<int> count(centroids->size(), 0);
-  for (std::size_t i = 0; i < positions.size(); ++i) {
-    sum[cluster[i]] += positions[i];
-    ++count[cluster[i]];
-  }
-  for (std::size_t k = 0; k < sum.size(); ++k) {
-    if (count[k] > 0) (*centroids)[k] = sum[k] / count[k];
-  }
-}
 
 bool isLinear(const ScanPoints& points, const FittedRun& run) {
   if (run.size() <= 2) return true;

@@ -6,6 +6,7 @@
 #include <limits>
 #include <numeric>
 
+#include "cca_mrpt/mapping/cross.hpp"
 #include "cca_mrpt/mapping/k_means.hpp"
 #include "cca_mrpt/mapping/range_noise.hpp"
 #include "cca_mrpt/mapping/rank_order_clustering.hpp"
@@ -59,7 +60,7 @@ bool isOneRun(const std::vector<SpatialPoint>& points, const Candidate& c) {
   std::vector<double> along;
   for (const int i : c.members) {
     const Eigen::Vector2d off = points[i].position - c.fit.line.centroid;
-    if (std::abs(u.x() * off.y() - u.y() * off.x()) > kResidualGate * std::sqrt(c.fit.variance)) {
+    if (std::abs(cross(u, off)) > kResidualGate * std::sqrt(c.fit.variance)) {
       return false;
     }
     along.push_back(u.dot(off));
@@ -184,7 +185,7 @@ Nearest nearestLine(const SpatialPoint& point, const std::vector<Candidate>& lin
     const Candidate& c = lines[k];
     const Eigen::Vector2d off = point.position - c.fit.line.centroid;
     const Eigen::Vector2d& u = c.fit.line.direction;
-    const double along = u.dot(off), across = u.x() * off.y() - u.y() * off.x();
+    const double along = u.dot(off), across = cross(u, off);
     const double margin = point.spacing + kResidualGate * point.sigma;
     if (along < c.low - margin || along > c.high + margin) continue;
     const double z_sq = across * across / (point.sigma * point.sigma);
@@ -236,10 +237,10 @@ LineSegment segmentOf(const Candidate& c) {
 /// Pulls an end of each of two lines to their intersection, where both lie within reach of it.
 void joinEnds(const Candidate& a, const Candidate& b, LineSegment* s, LineSegment* t) {
   const Eigen::Vector2d &u = a.fit.line.direction, &v = b.fit.line.direction;
-  const double sine = u.x() * v.y() - u.y() * v.x();
+  const double sine = cross(u, v);
   if (std::abs(sine) < std::sin(kGrazing)) return;
   const Eigen::Vector2d w = b.fit.line.centroid - a.fit.line.centroid;
-  const Eigen::Vector2d corner = a.fit.line.centroid + u * ((w.x() * v.y() - w.y() * v.x()) / sine);
+  const Eigen::Vector2d corner = a.fit.line.centroid + u * (cross(w, v) / sine);
   const double deviation = std::sqrt(std::max(a.fit.variance, b.fit.variance));
   const double within = std::max(a.reach, b.reach) * std::sin(kGrazing) + kResidualGate * deviation;
   const auto nearEnd = [&](LineSegment* l) -> Eigen::Vector2d* {

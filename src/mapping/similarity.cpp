@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cca_mrpt/mapping/cross.hpp"
+
 namespace cca {
 namespace {
 
@@ -12,15 +14,13 @@ constexpr double kLineGate = 2.0 * kLinePrice;
 /// 99.9 % quantile of chi-square, one degree of freedom.
 constexpr double kSideBySideGate = 10.83;
 
-double bell(double evidence, double gate) { return gate / (gate + evidence); }  // 0 for infinity
-
 /// z^2 of the distance of b's centroid from a's line, extended that far; in units of the variance
 /// of one point.
 /// @param centroids  variances of the two centroids, likewise.
 double offsetStatistic(const FittedSegment& a, const FittedSegment& b, double centroids) {
   const Eigen::Vector2d between = b.line.centroid - a.line.centroid;
   const Eigen::Vector2d& u = a.line.direction;
-  const double along = u.dot(between), across = u.x() * between.y() - u.y() * between.x();
+  const double along = u.dot(between), across = cross(u, between);
   if (a.line.spread_sum_sq <= 0.0) return 0.0;  // a has no direction at all
   return across * across / (centroids + along * along / a.line.spread_sum_sq);
 }
@@ -30,7 +30,7 @@ double orientationStatistic(const FittedSegment& a, const FittedSegment& b) {
   const double spread_a = a.line.spread_sum_sq, spread_b = b.line.spread_sum_sq;
   if (spread_a <= 0.0 || spread_b <= 0.0) return 0.0;
   const Eigen::Vector2d &u = a.line.direction, &v = b.line.direction;
-  const double sine = u.x() * v.y() - u.y() * v.x();
+  const double sine = cross(u, v);
   return sine * sine * spread_a * spread_b / (spread_a + spread_b);
 }
 

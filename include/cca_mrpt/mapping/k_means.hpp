@@ -17,4 +17,9 @@ namespace cca {
 std::vector<int> kMeans(const std::vector<Eigen::Vector2d>& points,
                         std::vector<Eigen::Vector2d> seeds, int sweeps);
 
+/// Lloyd's other half: moves each centroid to the mean of its points; one without points stays.
+/// @param cluster  of each point, an index of *centroids.
+void moveToMeans(const std::vector<Eigen::Vector2d>& points, const std::vector<int>& cluster,
+                 std::vector<Eigen::Vector2d>* centroids);
+
 }  // namespace cca

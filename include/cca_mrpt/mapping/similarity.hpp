@@ -11,10 +11,15 @@ namespace cca {
 /// Rays that speak against a wall, at which mu_3 is one half: one is as much as a wall can bear.
 inline constexpr double kGapGate = 1.0;
 
+/// A membership of the bell shape, 1 / (1 + evidence / gate): 1 without evidence against, 1/2 at
+/// the gate, 0 for infinite evidence.
+/// @param evidence  at least 0. @param gate  positive.
+inline double bell(double evidence, double gate) { return gate / (gate + evidence); }
+
 /// How far two segments are of one wall: five fuzzy memberships, each in [0, 1].
 ///
-/// Each is a bell 1 / (1 + x / gate), 1 for a perfect match and 1/2 where the evidence x against
-/// one wall equals what one line less saves: at similarity_cut = 1/2 two segments are alike where
+/// Each is a bell(), 1 for a perfect match and 1/2 where the evidence against one wall equals what
+/// one line less saves: at similarity_cut = 1/2 two segments are alike where
 /// one line tells them more briefly than two. No width is set: all come from the noise of this
 /// scan.
 struct Memberships {

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "cca_mrpt/mapping/cross.hpp"
 #include "cca_mrpt/mapping/line_segment.hpp"
 #include "cca_mrpt/mapping/map_noise.hpp"
 #include "cca_mrpt/mapping/support_profile.hpp"
@@ -43,7 +44,7 @@ struct Wall {
   /// (t, d) of a point of the map frame.
   Eigen::Vector2d toWall(const Eigen::Vector2d& p_map) const {
     const Eigen::Vector2d v = p_map - origin;
-    return {direction.dot(v), direction.x() * v.y() - direction.y() * v.x()};
+    return {direction.dot(v), cross(direction, v)};
   }
   Eigen::Vector2d toMap(double t, double d) const { return origin + t * direction + d * normal(); }
   /// The point of the fitted line at t.
