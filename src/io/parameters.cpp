@@ -122,6 +122,12 @@ void loadParameters(const std::string& ini_path, Parameters& p) {
   for (const auto& section : sections) {
     ini.getAllKeys(section, keys);
     if (section.empty() && keys.empty()) continue;
+    const bool known = std::any_of(fields.begin(), fields.end(),
+                                   [&](const auto& field) { return field.section == section; });
+    if (!known && !section.empty()) {
+      throw std::runtime_error(ini_path + ": [" + section +
+                               "]: unknown section (see --dump-config)");
+    }
     std::set<std::string> seen;
     for (const auto& key : keys) {
       const std::string where = ini_path + ": [" + section + "] " + key;

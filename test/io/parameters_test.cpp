@@ -57,7 +57,8 @@ TEST_F(ParametersFile, NamesFileKeyValueAndRangeOfABadValue) {
 
 TEST_F(ParametersFile, RefusesUnknownKeysAndSections) {
   EXPECT_THAT(errorOf("[mapping]\npoint_per_cluster = 7\n"), HasSubstr("unknown key"));
-  EXPECT_THAT(errorOf("[maping]\npoints_per_cluster = 7\n"), HasSubstr("unknown key"));
+  EXPECT_THAT(errorOf("[maping]\npoints_per_cluster = 7\n"), HasSubstr("unknown section"));
+  EXPECT_THAT(errorOf("[maping]\n"), HasSubstr("unknown section"));
   EXPECT_THAT(errorOf("points_per_cluster = 7\n"), HasSubstr("points_per_cluster"));
 }
 
