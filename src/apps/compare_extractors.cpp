@@ -195,7 +195,9 @@ void addCompareExtractorsCommand(CLI::App& program) {
   command->add_option("--extractors", options->extractors, "only these, separated by commas")
       ->delimiter(',')
       ->check(CLI::IsMember(allNames()));
-  command->add_option("--seed", options->seed, "of places, noise and draws")->capture_default_str();
+  command->add_option("--seed", options->seed, "of places, noise and draws")
+      ->check(CLI::NonNegativeNumber)
+      ->capture_default_str();
   command
       ->add_option("--fit", options->fit,
                    "draw so many parameter sets for each baseline and print the best")

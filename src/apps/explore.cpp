@@ -154,8 +154,15 @@ std::unique_ptr<ExplorationWindow> openWindow(const World& world) {
   return std::unique_ptr<ExplorationWindow>(open(world));
 }
 
+void requireBeams(const Parameters& parameters) {
+  if (parameters.laser.beams > 1) return;
+  if (parameters.run.pose != "icp" && parameters.laser.caster != "mrpt") return;
+  throw CLI::ValidationError("--laser.beams", "MRPT's ICP and its caster need two beams at least");
+}
+
 void explore(const ExploreOptions& options, const Parameters& parameters) {
   const auto start = Clock::now();
+  requireBeams(parameters);
   Simulation simulation = makeSimulation(options, parameters);
   const std::string folder = chooseFolder(options, simulation.world().name);
   const FolderLock lock = prepareMapFolder(folder, options.force);

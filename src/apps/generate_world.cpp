@@ -41,6 +41,7 @@ void addGenerateWorldCommand(CLI::App& program) {
       ->required()
       ->check(CLI::IsMember(floorPlanKinds()));
   command->add_option("--seed", options->seed, "varies furniture and random buildings")
+      ->check(CLI::NonNegativeNumber)
       ->capture_default_str();
   command->add_option("--name", options->name, "name of the files, if not KIND");
   command->add_option("--out", options->out, "folder")->capture_default_str();

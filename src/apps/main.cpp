@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <cstdio>
 #include <exception>
+#include <string>
 
 #ifdef CCA_ROS
 #include "cca_mrpt/ros/bag_log.hpp"
@@ -10,6 +11,19 @@
 namespace {
 
 constexpr int kDone = 0, kRunFailed = 1, kUsage = 2;
+
+/// MRPT's own errors are pages with a call stack; the cause stands behind "Message:".
+std::string withoutCallStack(const std::string& error) {
+  const std::string key = "Message:";
+  const std::size_t found = error.find(key);
+  if (error.rfind("==== MRPT", 0) != 0 || found == std::string::npos) return error;
+  const std::size_t begin = error.find_first_not_of(' ', found + key.size());
+  return error.substr(begin, error.find('\n', begin) - begin);
+}
+
+bool isCommand(const CLI::App& program, const std::string& name) {
+  return !program.get_subcommands([&](const CLI::App* c) { return c->get_name() == name; }).empty();
+}
 
 /// What was printed may not have arrived: a full disk behind `> FILE` is told at the end only.
 int withOutput(int status) {
@@ -36,12 +50,16 @@ int main(int argc, char** argv) {
   cca::apps::addCompareStrategiesCommand(program);
   cca::apps::addTuneCommand(program);
   cca::apps::addEvaluateCommand(program);
+  if (argc > 1 && argv[1][0] != '-' && !isCommand(program, argv[1])) {
+    std::fprintf(stderr, "%s is no command of cca-mrpt; see cca-mrpt --help\n", argv[1]);
+    return kUsage;
+  }
   try {
     program.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     return withOutput(program.exit(error) == 0 ? kDone : kUsage);
   } catch (const std::exception& error) {
-    std::fprintf(stderr, "cca-mrpt: %s\n", error.what());
+    std::fprintf(stderr, "cca-mrpt: %s\n", withoutCallStack(error.what()).c_str());
     return kRunFailed;
   }
   return withOutput(kDone);
