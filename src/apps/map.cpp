@@ -120,8 +120,17 @@ void makeMap(const MapOptions& options, const Parameters& parameters) {
   const Interruption interruption;
   const auto log = openLog(options.log);
   if (interruption.requested()) throw std::runtime_error("interrupted; no map was begun");
+  const bool is_new = !std::filesystem::exists(options.out);
   const FolderLock folder = prepareMapFolder(options.out, options.force);
-  const MappedLog mapped = mapLog(options, *log, parameters, interruption);
+  const MappedLog mapped = [&] {
+    try {
+      return mapLog(options, *log, parameters, interruption);
+    } catch (...) {  // a pose that the log lacks: nothing remains
+      std::error_code holds_files;
+      if (is_new) std::filesystem::remove(options.out, holds_files);
+      throw;
+    }
+  }();
   tellWarnings(options.log, *log);
   MapProducts map = products(options, mapped, *log);
   const std::chrono::duration<double> mapping = std::chrono::steady_clock::now() - begin;

@@ -165,7 +165,7 @@ void addRenderCommand(CLI::App& program) {
   command->add_option("--view", options->view, "X0,Y0,X1,Y1: what to show, m; default: all")
       ->delimiter(',')
       ->expected(4)
-      ->check(within(-1e6, 1e6));
+      ->check(within(-1e7, 1e7));
   command->add_flag("--no-background", options->no_background, "lines alone");
   command->add_flag("--no-trajectory", options->no_trajectory, "without the robot's way");
   command->add_flag("--no-caption", options->no_caption, "without title and numbers");

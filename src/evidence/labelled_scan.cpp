@@ -17,7 +17,8 @@ namespace cca::evidence {
 namespace {
 
 constexpr std::uint64_t kPlaces = 0x9e3779b97f4a7c15u;  // tells the streams of one seed apart
-constexpr double kFarthest = 1e5;  // m; what is scored is sampled every few centimetres
+constexpr double kFarthest = 1e7;                       // m; as in a line map
+constexpr double kLongest = 1e5;  // m; what is scored is sampled every few centimetres
 constexpr int kMostTrials = 200000;
 constexpr double kFewestReturns = 0.25;  // of the beams; less: the place lies outside the building
 
@@ -134,9 +135,10 @@ std::vector<Segment2> loadSegments(const std::string& csv_path) {
     if (is_header) continue;
     const double farthest =
         std::max(s.start.lpNorm<Eigen::Infinity>(), s.end.lpNorm<Eigen::Infinity>());
-    if (!numbers || !(farthest <= kFarthest)) {
+    if (!numbers || !(farthest <= kFarthest && s.length() <= kLongest)) {
       throw std::runtime_error(csv_path + ":" + std::to_string(number) +
-                               ": needs four numbers x1,y1,x2,y2 in [-1e5, 1e5] m");
+                               ": needs four numbers x1,y1,x2,y2 in [-1e7, 1e7] m, a segment of "
+                               "1e5 m at most");
     }
     segments.push_back(s);
   }

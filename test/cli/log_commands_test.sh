@@ -89,6 +89,7 @@ check "poses by odometry" "$program" map room.log --pose odometry --out odometry
 check "poses by ICP" "$program" map room.log --pose icp --out icp
 grep -q pose_error icp/summary.json || { echo "FAILED: no pose error told"; failed=1; }
 refuses 1 "holds no true poses" "$program" map room.log --pose truth --out truth
+[ ! -e truth ] || { echo "FAILED: a folder was left for poses that the log lacks"; failed=1; }
 refuses 2 "pose" "$program" map room.log --pose gps --out gps
 
 check "extract writes segments" "$program" extract room.log --out lines.csv
