@@ -53,7 +53,7 @@ std::string joined(const std::vector<std::string>& words) {
 }  // namespace
 
 YamlNode YamlNode::load(const std::string& path) {
-  if (!std::filesystem::is_regular_file(path)) throw std::runtime_error(path + ": cannot be read");
+  if (std::filesystem::is_directory(path)) throw std::runtime_error(path + ": cannot be read");
   std::ifstream file(path);
   const std::string text{std::istreambuf_iterator<char>(file), {}};
   if (!file) throw std::runtime_error(path + ": cannot be read");
