@@ -81,7 +81,8 @@ done
 
 # Ctrl-C keeps what was mapped, and tells so.
 "$program" explore "$maps/office.yaml" --out e >/dev/null 2>e.txt &
-sleep 1.5
+while [ -z "$(ls -A e 2>/dev/null)" ] && kill -0 $!; do sleep 0.1; done
+sleep 1
 kill -INT $!
 wait $!
 [ $? -eq 1 ] || fail "an interrupted run did not end with status 1"
