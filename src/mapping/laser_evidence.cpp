@@ -97,12 +97,7 @@ void depositReturns(const Scan& scan, const std::vector<Eigen::Vector2d>& beams,
       const Slot known = walls.hitBy(p, viewpoint, on_wall);
       if (known >= 0) slot = known;
     }
-    if (slot < 0) continue;
-    Wall& wall = walls[slot];
-    const Eigen::Vector2d td = wall.toWall(p);
-    wall.profile.hit(td.x(), td.y());
-    wall.hits += 1.0;
-    walls.touch(slot);
+    if (slot >= 0) walls.hit(slot, p);
   }
 }
 

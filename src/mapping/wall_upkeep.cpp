@@ -178,8 +178,7 @@ void seeToTouched(Walls& walls, const MapNoise& noise, std::uint64_t& next_id) {
     const Slot slot = touched[i];
     walls[slot].touched = false;
     if (!walls[slot].alive) continue;
-    walls[slot].profile.prune();
-    if (walls[slot].profile.empty()) {
+    if (!walls.prune(slot)) {
       walls.remove(slot);
       continue;
     }
@@ -188,12 +187,11 @@ void seeToTouched(Walls& walls, const MapNoise& noise, std::uint64_t& next_id) {
     if (cuts_left > 0 && splitWhereBent(slot, walls, noise)) --cuts_left;
     if (changed) {
       mergeWithNeighbours(slot, walls, noise);
-      Wall& wall = walls[slot];
-      wall.profile.prune();
-      if (wall.profile.empty()) {
+      if (!walls.prune(slot)) {
         walls.remove(slot);
         continue;
       }
+      Wall& wall = walls[slot];
       refit(wall);
       wall.hits_at_check = wall.hits;
       wall.length_at_check = wall.profile.last() - wall.profile.first();

@@ -9,6 +9,9 @@ namespace {
 
 constexpr double kReach = 0.3;  // m, a wall is found from this far away
 constexpr int kSlack = 10;      // bins that a wall may grow before it is indexed anew
+// Against what comes to stand where something was refuted: as many as do not refute it by
+// themselves, or no return of it would ever count.
+constexpr double kRaysOfFreed = 4.0;
 
 }  // namespace
 
@@ -83,6 +86,30 @@ Walls::Slot Walls::hitBy(const Eigen::Vector2d& p, const Eigen::Vector2d& viewpo
     best = slot;
   }
   return best;
+}
+
+void Walls::hit(Slot slot, const Eigen::Vector2d& p) {
+  Wall& wall = (*this)[slot];
+  const Eigen::Vector2d td = wall.toWall(p);
+  wall.profile.hit(td.x(), td.y());
+  wall.hits += 1.0;
+  touch(slot);
+  const SupportBin& bin = wall.profile.bin(SupportProfile::binOf(td.x()));
+  const bool is_new = bin.hits == 1.0 && bin.passed == 0.0;
+  if (is_new && freed_.contains(p)) wall.profile.pass(td.x(), kRaysOfFreed);
+}
+
+bool Walls::prune(Slot slot) {
+  Wall& wall = (*this)[slot];
+  if (wall.profile.mayBeRefuted()) {
+    for (int i = wall.profile.first(); i < wall.profile.last(); ++i) {
+      const SupportBin& bin = wall.profile.bin(i);
+      const double middle = (i + 0.5) * SupportProfile::kBinLength;
+      if (bin.isRefuted()) freed_.add(wall.onLine(middle));
+    }
+  }
+  wall.profile.prune();
+  return !wall.profile.empty();
 }
 
 void Walls::touch(Slot slot) {

@@ -5,71 +5,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "cca_mrpt/mapping/line_extraction.hpp"
-#include "segment_world.hpp"
+#include "mapped_world.hpp"
 
 namespace cca {
 namespace {
-
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
-/// Points every 5 cm along the lines of the map.
-std::vector<Eigen::Vector2d> pointsOn(const std::vector<MapLine>& lines) {
-  std::vector<Eigen::Vector2d> points;
-  for (const MapLine& line : lines) {
-    const LineSegment& s = line.segment;
-    const int n = 1 + static_cast<int>(s.length() / 0.05);
-    for (int i = 0; i <= n; ++i) points.push_back(s.start + (s.end - s.start) * i / double(n));
-  }
-  return points;
-}
-
-/// Share of the world's wall length within `gate` of a map line.
-double recall(const SegmentWorld& world, const std::vector<MapLine>& lines, double gate) {
-  SegmentWorld map;
-  for (const MapLine& line : lines) map.walls.push_back({line.segment.start, line.segment.end});
-  int found = 0, all = 0;
-  for (const SegmentWorld::Wall& wall : world.walls) {
-    const int n = static_cast<int>((wall.to - wall.from).norm() / 0.05);
-    for (int i = 0; i < n; ++i) {
-      const Eigen::Vector2d p = wall.from + (wall.to - wall.from) * ((i + 0.5) / n);
-      found += !map.walls.empty() && map.distance(p) <= gate ? 1 : 0;
-      ++all;
-    }
-  }
-  return double(found) / all;
-}
-
-double precision(const SegmentWorld& world, const std::vector<MapLine>& lines, double gate) {
-  int near = 0;
-  const auto points = pointsOn(lines);
-  for (const Eigen::Vector2d& p : points) near += world.distance(p) <= gate ? 1 : 0;
-  return points.empty() ? 0.0 : double(near) / double(points.size());
-}
-
-/// Drives a circle of `radius` around (x, y) with `steps` scans.
-void drive(LineMap& map, const SegmentWorld& world, std::mt19937& random, double sigma = 0.01,
-           int steps = 40, double radius = 1.0, double jitter = 0.0) {
-  std::normal_distribution<double> noise(0.0, 1.0);
-  for (int i = 0; i < steps; ++i) {
-    const double a = 2.0 * M_PI * i / steps;
-    const Pose2 pose{radius * std::cos(a), radius * std::sin(a), a};
-    Scan scan = world.scan(pose, sigma, random);
-    scan.T_map_sensor.x += jitter * noise(random);
-    scan.T_map_sensor.y += jitter * noise(random);
-    map.insert(scan);
-  }
-  map.finishBatch();
-}
-
-SegmentWorld room() {
-  SegmentWorld world;
-  world.box(-4.0, -3.0, 4.0, 3.0);
-  return world;
-}
 
 TEST(LineMap, ARoomIsFourLinesThatCloseOnePolyLine) {
   LineMap map;
@@ -202,55 +143,6 @@ TEST(LineMap, ADoorSetBackIntoItsWallIsALineOfItsOwn) {
   EXPECT_GT(recall(world, lines, 0.02), 0.98);
 }
 
-TEST(LineMap, ADoorThatOpensLeavesItsWallWhole) {
-  SegmentWorld shut = room(), open = room();
-  shut.walls.push_back({{-4.0, 2.0}, {4.0, 2.0}});
-  open.walls.push_back({{-4.0, 2.0}, {0.0, 2.0}});
-  open.walls.push_back({{1.0, 2.0}, {4.0, 2.0}});
-  LineMap map;
-  std::mt19937 random(4);
-  drive(map, shut, random);
-  drive(map, open, random, 0.01, 80);
-  for (const Eigen::Vector2d& p : pointsOn(map.lines())) {
-    EXPECT_FALSE(p.x() > 0.1 && p.x() < 0.9 && std::abs(p.y() - 2.0) < 0.2) << p.transpose();
-  }
-  SegmentWorld jambs;
-  jambs.walls.push_back({{-3.8, 2.0}, {-0.1, 2.0}});
-  jambs.walls.push_back({{1.1, 2.0}, {3.8, 2.0}});
-  EXPECT_GT(recall(jambs, map.lines(), 0.03), 0.97);
-}
-
-TEST(LineMap, NothingIsLeftOfMoversAndNoWallIsLost) {
-  LineMap map;
-  std::mt19937 random(5);
-  for (int i = 0; i < 60; ++i) {
-    SegmentWorld world = room();
-    const double x = -3.0 + 0.1 * i, y = -2.0 + 0.05 * i;  // a crate and a door leaf on their way
-    world.box(x, 1.5, x + 0.5, 2.0);
-    world.walls.push_back({{y, -2.0}, {y + 0.4, -1.4}});
-    map.insert(world.scan({0.0, 0.0, 0.1 * i}, 0.01, random));
-  }
-  drive(map, room(), random);
-  for (const Eigen::Vector2d& p : pointsOn(map.lines())) {
-    EXPECT_LT(room().distance(p), 0.05) << p.transpose();
-  }
-  EXPECT_GT(recall(room(), map.lines(), 0.02), 0.99);
-}
-
-TEST(LineMap, IdsStayWhileTheWallIsSeenAgain) {
-  LineMap map;
-  std::mt19937 random(6);
-  drive(map, room(), random);
-  const std::vector<MapLine> before = map.lines();
-  drive(map, room(), random);
-  const std::vector<MapLine> after = map.lines();
-  ASSERT_EQ(before.size(), after.size());
-  for (std::size_t i = 0; i < before.size(); ++i) {
-    EXPECT_EQ(before[i].id, after[i].id);
-    EXPECT_LT((before[i].segment.start - after[i].segment.start).norm(), 0.05);
-  }
-}
-
 TEST(LineMap, ARoundRoomHasNoLongChords) {
   SegmentWorld world;
   for (int i = 0; i < 360; ++i) {
@@ -266,120 +158,6 @@ TEST(LineMap, ARoundRoomHasNoLongChords) {
   // two thirds of that off the circle.
   for (const Eigen::Vector2d& p : pointsOn(map.lines())) EXPECT_LT(world.distance(p), 0.105);
   EXPECT_GT(recall(world, map.lines(), 0.06), 0.97);
-}
-
-TEST(LineMap, LearnsThePoseErrorOfItsScans) {
-  for (const double jitter : {0.01, 0.03}) {
-    LineMap map;
-    std::mt19937 random(8);
-    drive(map, room(), random, 0.005, 400, 1.0, jitter);
-    const double learned = std::sqrt(map.noise().offsetVariance());
-    EXPECT_GT(learned, 0.6 * jitter);
-    EXPECT_LT(learned, 1.6 * jitter);
-  }
-}
-
-TEST(LineMap, DegradesSmoothlyWithRangeNoise) {
-  SegmentWorld world = room();
-  world.walls.push_back({{1.5, -2.0}, {1.5, -1.0}});
-  world.walls.push_back({{-2.5, 1.5}, {-1.5, 1.8}});
-  for (const double sigma : {0.0, 0.01, 0.03, 0.1, 0.2, 0.3}) {
-    LineMap map;
-    std::mt19937 random(9);
-    drive(map, world, random, sigma, 120);
-    const double gate = 0.03 + sigma;
-    EXPECT_GT(recall(world, map.lines(), gate), sigma > 0.15 ? 0.7 : 0.9) << sigma;
-    EXPECT_GT(precision(world, map.lines(), gate), sigma > 0.15 ? 0.7 : 0.95) << sigma;
-  }
-}
-
-TEST(LineMap, RefusesAPoseThatIsNotFinite) {
-  LineMap map;
-  std::mt19937 random(10);
-  drive(map, room(), random);
-  const std::size_t before = map.lines().size();
-  for (const Pose2& pose :
-       {Pose2{kNaN, 0.0, 0.0}, Pose2{0.0, kInfinity, 0.0}, Pose2{0.0, 0.0, kNaN}}) {
-    Scan scan = room().scan({}, 0.01, random);
-    scan.T_map_sensor = pose;
-    EXPECT_FALSE(map.insert(scan));
-  }
-  EXPECT_EQ(map.lines().size(), before);
-}
-
-TEST(LineMap, BadScansDoNotHarmTheMap) {
-  LineMap map;
-  std::mt19937 random(11);
-  drive(map, room(), random);
-  for (const double bad : {kNaN, -kInfinity, 0.0, -1.0, 1e300, 1e9}) {
-    for (const std::size_t beams : {0u, 1u, 2u, 3u, 360u}) {
-      Scan scan = room().scan({}, 0.01, random);
-      scan.ranges.assign(beams, bad);
-      map.insert(scan);
-      scan = room().scan({}, 0.01, random);
-      for (std::size_t i = 0; i < scan.size(); i += 7) scan.ranges[i] = bad;
-      map.insert(scan);
-    }
-  }
-  Scan far = room().scan({}, 0.01, random);
-  far.T_map_sensor = {1e12, -1e12, 1.0};
-  map.insert(far);
-  for (const MapLine& line : map.lines()) {
-    EXPECT_TRUE(line.segment.start.allFinite() && line.segment.end.allFinite());
-    EXPECT_TRUE(line.segment.covariance.allFinite());
-  }
-  EXPECT_GT(recall(room(), map.lines(), 0.02), 0.99);
-}
-
-TEST(LineMap, ASensorInsideAWallDoesNoHarm) {
-  LineMap map;
-  std::mt19937 random(12);
-  drive(map, room(), random);
-  SegmentWorld world = room();
-  for (int i = 0; i < 20; ++i) map.insert(world.scan({4.0, 0.1 * i, 0.0}, 0.01, random));
-  EXPECT_GT(recall(world, map.lines(), 0.02), 0.99);
-  EXPECT_GT(precision(world, map.lines(), 0.05), 0.99);
-}
-
-TEST(LineMap, SameScansGiveTheSameBytes) {
-  std::vector<MapLine> first;
-  for (int run = 0; run < 2; ++run) {
-    LineMap map;
-    std::mt19937 random(13);
-    SegmentWorld world = room();
-    world.box(2.0, 1.0, 3.0, 2.0);
-    drive(map, world, random, 0.02, 60, 1.0, 0.02);
-    if (run == 0) {
-      first = map.lines();
-      ASSERT_GE(first.size(), 6U);  // four walls, two sides of the box
-      continue;
-    }
-    const std::vector<MapLine> again = map.lines();
-    ASSERT_EQ(first.size(), again.size());
-    for (std::size_t i = 0; i < first.size(); ++i) {
-      EXPECT_EQ(first[i].id, again[i].id);
-      EXPECT_EQ(first[i].segment.start, again[i].segment.start);
-      EXPECT_EQ(first[i].segment.end, again[i].segment.end);
-      EXPECT_EQ(first[i].support, again[i].support);
-    }
-  }
-}
-
-TEST(LineMap, AWorldSeenForeverNeedsNoMoreMemory) {
-  LineMap map;
-  std::mt19937 random(14);
-  const auto size = [&map] {
-    std::size_t bins = 0, cells = 0;
-    for (const Wall& wall : map.walls().all()) {
-      bins += static_cast<std::size_t>(wall.profile.last() - wall.profile.first());
-      cells += wall.cells.size();
-    }
-    return map.walls().all().size() + bins + cells;
-  };
-  drive(map, room(), random, 0.01, 100);
-  const std::size_t early = size();
-  for (int lap = 0; lap < 20; ++lap) drive(map, room(), random, 0.01, 100, 1.0, 0.01);
-  EXPECT_LE(size(), early + early / 2);
 }
 
 TEST(LineMap, ScansMayBeMergedInBatches) {

@@ -43,6 +43,8 @@ class SupportProfile {
   SupportBin take(int i);
   /// Cuts [from, last()) off and returns it.
   SupportProfile cutFrom(int from);
+  /// Whether rays may have refuted a bin since the last prune().
+  bool mayBeRefuted() const { return refuted_; }
   /// Forgets bins that rays have refuted, and empty ends. True where something went.
   bool prune();
 

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "cca_mrpt/mapping/freed_places.hpp"
 #include "cca_mrpt/mapping/wall.hpp"
 #include "cca_mrpt/mapping/wall_index.hpp"
 
@@ -34,6 +35,13 @@ class Walls {
   /// none.
   Slot hitBy(const Eigen::Vector2d& p, const Eigen::Vector2d& viewpoint, double gate) const;
 
+  /// Enters a return at `p` as a hit of a wall. Where something was refuted before, four rays speak
+  /// against what is new: more than eight returns are needed to believe it, two elsewhere.
+  void hit(Slot slot, const Eigen::Vector2d& p);
+  /// Forgets the bins of a wall that rays have refuted, and remembers where they were.
+  /// @return false where nothing is left of the wall.
+  bool prune(Slot slot);
+
   /// Walls that changed since they were last seen to, in order of their first change.
   void touch(Slot slot);
   std::vector<Slot>& touched() { return touched_; }
@@ -44,6 +52,7 @@ class Walls {
   std::vector<Wall> walls_;
   std::vector<Slot> free_, dead_, touched_;
   WallIndex index_;
+  FreedPlaces freed_;
   std::uint64_t visit_ = 0;
 };
 
