@@ -4,6 +4,7 @@
 #include <geometry_msgs/Twist.h>
 #include <tf2_msgs/TFMessage.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "cca_mrpt/ros/pose_message.hpp"
@@ -70,7 +71,8 @@ void RobotDriver::use(const PlacedScan& placed) {
   const Observation observation{placed.scan, placed.T_map_robot, measuredVelocity(),
                                 placed.stamp.toSec()};
   command(exploration_.step(observation, placed.stamp));
-  last_step_ = placed.stamp;
+  // The clock of the laser's computer may be ahead of ours: that is no clock set back.
+  last_step_ = std::min(placed.stamp, ros::Time::now());
   diagnostics_.scanUsed((ros::WallTime::now() - begin).toSec());
 }
 

@@ -27,6 +27,8 @@ class SimulatedRobot {
 
   /// Drives for one tick towards the command, then tells the time and where the robot is.
   void tick(const Velocity& command);
+  /// s, what a tick takes.
+  double tickPeriod() const { return tick_; }
   bool scanIsDue() const { return ticks_ % ticks_per_scan_ == 0; }
   /// Takes a scan here and now, and publishes it after the transforms that place it.
   Observation scan();

@@ -55,7 +55,7 @@ void simulate() {
       "cmd_vel", 1, take, ros::VoidConstPtr(), ros::TransportHints().tcpNoDelay());
   Pace pace(settings.simulator.speed);
   int collisions = 0;
-  while (pace.wait(robot.simulation().time())) {
+  while (pace.wait(robot.simulation().time() + robot.tickPeriod())) {
     robot.skip(pace.forgive(robot.simulation().time()));
     const bool heard = robot.simulation().time() - commanded_at < kCommandHolds;
     robot.tick(heard ? command : Velocity{});

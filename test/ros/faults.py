@@ -139,6 +139,16 @@ class Faults(unittest.TestCase):
         self.assertLess(self.robot.seconds_until_told_to_stop(), 0.5)
         self.assertTrue(self.robot.wait_until_moves(5.0), "should go on at the new place")
 
+    def test_14_a_clock_ahead_of_ours_does_not_make_it_stutter(self):
+        self.robot.delay = -0.2
+        rospy.sleep(0.5)
+        self.assertTrue(self.robot.wait_until_moves())
+        begin = time.time()
+        rospy.sleep(3.0)
+        commands = [(v, w) for t, v, w in self.robot.commands if t > begin]
+        self.assertGreater(len(commands), 20)
+        self.assertLess(commands.count((0.0, 0.0)), 5, "the watchdog stops it after each scan")
+
 
 if __name__ == "__main__":
     rostest.rosrun("cca_mrpt", "faults", Faults)
