@@ -6,11 +6,13 @@ export PATH=/usr/bin:/bin:/usr/sbin:/sbin:$PATH
 cd "$(dirname "$0")/.."
 build=${1:-build}
 [ -f "$build/CMakeCache.txt" ] || cmake -S . -B "$build" -DPYTHON_EXECUTABLE=/usr/bin/python3
-for benchmark in test/benchmark/*_benchmark.cpp; do
-  name=$(basename "$benchmark" .cpp)
+for what in line_extraction line_map; do
+  name=${what}_benchmark
   cmake --build "$build" --target "$name" -j"$(nproc)"
-  "$build/test/benchmark/$name" --benchmark_min_time=0.1 --benchmark_out="$build/$name.json" \
+  # With ROS in the build, catkin gathers the programs in one folder.
+  program=$(find "$build" -name "$name" -type f -perm -u+x | head -n 1)
+  "$program" --benchmark_min_time=0.1 --benchmark_out="$build/$name.json" \
     --benchmark_out_format=json
   /usr/bin/python3 launch_scripts/plot_complexity.py "$build/$name.json" \
-    "docs/images/complexity_${name%_benchmark}.svg"
+    "docs/images/complexity_$what.svg"
 done
