@@ -26,7 +26,7 @@ void SupportProfile::grow(int i) {
   if (i >= last()) bins_.resize(static_cast<std::size_t>(i - first_ + 1));
 }
 
-void SupportProfile::hit(double t, double d) {
+const SupportBin& SupportProfile::hit(double t, double d) {
   const int i = binOf(t);
   if (!open_ || i != open_bin_) {
     settle();
@@ -41,6 +41,7 @@ void SupportProfile::hit(double t, double d) {
   if (bin.hits + 1.0 > SupportBin::kMostHits && bin.passed > 0.0) parted_ = false;  // both scaled
   bin.hit(t, d);
   refuted_ = refuted_ || bin.isRefuted();  // where rays had gone before
+  return bin;
 }
 
 void SupportProfile::settle() const {

@@ -91,10 +91,9 @@ Walls::Slot Walls::hitBy(const Eigen::Vector2d& p, const Eigen::Vector2d& viewpo
 void Walls::hit(Slot slot, const Eigen::Vector2d& p) {
   Wall& wall = (*this)[slot];
   const Eigen::Vector2d td = wall.toWall(p);
-  wall.profile.hit(td.x(), td.y());
+  const SupportBin& bin = wall.profile.hit(td.x(), td.y());
   wall.hits += 1.0;
   touch(slot);
-  const SupportBin& bin = wall.profile.bin(SupportProfile::binOf(td.x()));
   const bool is_new = bin.hits == 1.0 && bin.passed == 0.0;
   if (is_new && freed_.contains(p)) wall.profile.pass(td.x(), kRaysOfFreed);
 }

@@ -32,8 +32,8 @@ class SupportProfile {
   const SupportBin& bin(int i) const { return bins_[static_cast<std::size_t>(i - first_)]; }
   bool contains(int i) const { return i >= first() && i < last(); }
 
-  /// A return at (t, d); the profile grows to hold it.
-  void hit(double t, double d);
+  /// A return at (t, d); the profile grows to hold it. @return its bin, until the next change.
+  const SupportBin& hit(double t, double d);
   /// A ray went through at t; outside the profile this says nothing and costs nothing. True where
   /// prune() or stretches() may have another result now.
   bool pass(double t, double rays = 1.0);
