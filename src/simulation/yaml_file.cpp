@@ -2,6 +2,7 @@
 #include "yaml_file.hpp"
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
@@ -50,6 +51,41 @@ std::string joined(const std::vector<std::string>& words) {
   return all;
 }
 
+/// Whether nothing but one colon, white space and comments stands from the end of a key to the
+/// first letter of its value, or the quotes of both.
+bool isOnePair(const std::string& between) {
+  bool after_colon = false;
+  for (std::size_t i = 0; i < between.size(); ++i) {
+    const char c = between[i];
+    if (i > 0 && c == '#' && std::isspace(static_cast<unsigned char>(between[i - 1])))
+      i = std::min(between.find('\n', i), between.size());
+    const bool is_quote = c == '"' || c == '\'';
+    if (after_colon && (c == ':' || (is_quote && i + 1 < between.size()))) return false;
+    after_colon = after_colon || c == ':';
+  }
+  return true;
+}
+
+/// MRPT keeps of a key that is given twice where it stood first, and the value that came last: then
+/// more stands between the two than in a pair.
+void refuseRepeatedKeys(const std::string& path, const std::string& text,
+                        const yaml::node_t& node) {
+  if (node.isSequence()) {
+    for (const auto& entry : node.asSequence()) refuseRepeatedKeys(path, text, entry);
+  }
+  if (!node.isMap()) return;
+  for (const auto& [key, value] : node.asMap()) {
+    const auto name = key.as<std::string>();
+    const std::size_t begin = std::min(key.marks.input_pos + name.size(), text.size());
+    const std::size_t end = std::max(begin, value.marks.input_pos);
+    if (!isOnePair(text.substr(begin, end - begin))) {
+      throw std::runtime_error(path + ": " + name + ": is given twice, first in line " +
+                               std::to_string(key.marks.line + 1));
+    }
+    refuseRepeatedKeys(path, text, value);
+  }
+}
+
 }  // namespace
 
 YamlNode YamlNode::load(const std::string& path) {
@@ -73,6 +109,7 @@ YamlNode YamlNode::load(const std::string& path) {
   if (node.isNullNode() || !node.isMap()) {
     throw std::runtime_error(path + ": holds no 'key: value' lines");
   }
+  refuseRepeatedKeys(path, text, node.node());
   return YamlNode(path, node.asMap());
 }
 

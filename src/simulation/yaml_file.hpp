@@ -12,7 +12,7 @@ namespace cca {
 /// found and what is allowed.
 class YamlNode {
  public:
-  /// @throws std::runtime_error where the file is missing or no YAML mapping.
+  /// @throws std::runtime_error where the file is missing or no YAML mapping, or gives a key twice.
   static YamlNode load(const std::string& path);
 
   bool has(const std::string& key) const;

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <fstream>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "cca_mrpt/simulation/world.hpp"
 
@@ -108,6 +110,32 @@ TEST(WorldFile, ErrorsNameFileKeyAndWhatIsAllowed) {
   expect("image: black.pgm\n" + kRest, "has no free cell");
   writePgm(testing::TempDir() + "one.pgm", 1, 1, std::string(1, '\xFE'));
   expect("image: one.pgm\n" + kRest, "has no free cell");
+}
+
+TEST(WorldFile, RefusesAKeyThatIsGivenTwiceAndNamesItsLine) {
+  const std::string image = smallWorld(), refused = "is given twice, first in line ";
+  for (const auto& [yaml, complaint] : std::vector<std::pair<std::string, std::string>>{
+           {image + kRest + "resolution: 0.2\n", "resolution: " + refused + "2"},
+           {image + "# \xC3\xBC\nresolution: 0.1 # m\n\"resolution\": '0.1'\n",
+            "resolution: " + refused + "3"},
+           {image + "origin: [1, 2, 0]\n" + kRest, "origin: " + refused + "2"},
+           {image + kRest + "start: ' #'\nstart: [0, 0, 0]\n", "start: " + refused + "7"},
+           {"{image: a#b, image: small.pgm}\n", "image: " + refused + "1"},
+           {"{image: ' # ', image: small.pgm}\n", "image: " + refused + "1"},
+           {kRest + "more: {x: 1, y: 2, x: 3}\n", "x: " + refused + "6"},
+           {kRest + "more:\n  - {x: 1}\n  - y: 1\n    y: 1\n", "y: " + refused + "8"}}) {
+    EXPECT_NE(complaintAbout(yaml).find("world_under_test.yaml: " + complaint), std::string::npos)
+        << complaintAbout(yaml);
+  }
+}
+
+TEST(WorldFile, TakesEveryWayToWriteAPair) {
+  const std::string rest =
+      "origin:   # of the image: its corner\n  - -1.0\n  - 2.0\n  - 0.0\n\n"
+      "'occupied_thresh':\n  # more: than this\n  \"0.65\"\n? free_thresh\n: 0.196\n";
+  const World world = loadWorld(write(smallWorld() + "\"resolution\" : '0.1'\n" + rest));
+  EXPECT_EQ(world.resolution(), 0.1);
+  EXPECT_EQ(world.origin(), Eigen::Vector2d(-1.0, 2.0));
 }
 
 TEST(WorldFile, RefusesAMonsterByItsHeaderBeforeUnpackingIt) {
