@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "cca_mrpt/io/parameters.hpp"
 
-#include <mrpt/config/CConfigFile.h>
-#include <mrpt/system/filesystem.h>
-
 #include <algorithm>
 #include <charconv>
 #include <cmath>
@@ -11,6 +8,8 @@
 #include <initializer_list>
 #include <set>
 #include <stdexcept>
+
+#include "ini_file.hpp"
 
 namespace cca {
 namespace {
@@ -94,54 +93,28 @@ std::vector<ParameterField> listParameters(Parameters& p) {
   return fields;
 }
 
-namespace {
-
-mrpt::config::CConfigFile openIni(const std::string& path) {
-  try {
-    return mrpt::config::CConfigFile(path);
-  } catch (const std::exception& error) {
-    // MRPT's message is several lines with a call stack; one begins with the number of the line.
-    const std::string text = error.what();
-    const std::size_t at = std::min(text.find("Line "), text.size());
-    throw std::runtime_error(
-        path + ": cannot be read as an .ini file: " + text.substr(at, text.find('\n', at) - at));
-  }
-}
-
-}  // namespace
-
 void loadParameters(const std::string& ini_path, Parameters& p) {
-  if (!mrpt::system::fileExists(ini_path) || mrpt::system::directoryExists(ini_path)) {
-    throw std::runtime_error(ini_path + ": no such file");
-  }
-  const mrpt::config::CConfigFile ini = openIni(ini_path);
   Parameters changed = p;
   const auto fields = listParameters(changed);
-  std::vector<std::string> sections, keys;
-  ini.getAllSections(sections);
-  for (const auto& section : sections) {
-    ini.getAllKeys(section, keys);
-    if (section.empty() && keys.empty()) continue;
-    const bool known = std::any_of(fields.begin(), fields.end(),
-                                   [&](const auto& field) { return field.section == section; });
-    if (!known && !section.empty()) {
-      throw std::runtime_error(ini_path + ": [" + section +
-                               "]: unknown section (see --dump-config)");
+  for (const IniLine& line : readIniFile(ini_path)) {
+    const std::string where = ini_path + ": " + line.place();
+    if (line.key.empty()) {
+      const bool known = std::any_of(fields.begin(), fields.end(), [&](const auto& field) {
+        return field.section == line.section;
+      });
+      if (!known) throw std::runtime_error(where + ": unknown section (see --dump-config)");
+      continue;
     }
-    std::set<std::string> seen;
-    for (const auto& key : keys) {
-      const std::string where = ini_path + ": [" + section + "] " + key;
-      if (!seen.insert(key).second) throw std::runtime_error(where + ": given twice");
-      const ParameterField* field = nullptr;
-      for (const auto& f : fields) {
-        if (f.section == section && f.name == key) field = &f;
-      }
-      if (!field) throw std::runtime_error(where + ": unknown key (see --dump-config)");
-      try {
-        field->set(ini.read_string(section, key, ""));
-      } catch (const std::runtime_error& error) {
-        throw std::runtime_error(where + " = " + error.what());
-      }
+    const auto field = std::find_if(fields.begin(), fields.end(), [&](const auto& f) {
+      return f.section == line.section && f.name == line.key;
+    });
+    if (field == fields.end()) {
+      throw std::runtime_error(where + ": unknown key (see --dump-config)");
+    }
+    try {
+      field->set(line.value);
+    } catch (const std::runtime_error& error) {
+      throw std::runtime_error(where + " = " + error.what());
     }
   }
   p = changed;

@@ -62,14 +62,50 @@ TEST_F(ParametersFile, RefusesUnknownKeysAndSections) {
   EXPECT_THAT(errorOf("points_per_cluster = 7\n"), HasSubstr("points_per_cluster"));
 }
 
+TEST_F(ParametersFile, NamesTheLineThatIsNoneOfAnIniFile) {
+  for (const char* line :
+       {"garbage", "radius 0.3", "= 0.3", "[robot", "[robot] radius = 0.3", "\x1F\x8B", "{}"}) {
+    EXPECT_THAT(errorOf(std::string("[robot]\r\n# a comment\r\n") + line + "\r\n"),
+                HasSubstr(path_ + ": line 3: must be [section], key = value or a comment"))
+        << line;
+  }
+  EXPECT_THAT(errorOf("@define WIDE 0.3\n[robot]\nradius = \\\n${WIDE}\nlast"),
+              HasSubstr(path_ + ": line 5: "));
+  EXPECT_THAT(errorOf(std::string("[robot]\nradius = 0.3\0 and on\n", 30)), HasSubstr("line 2: "));
+}
+
+TEST_F(ParametersFile, RefusesAKeyThatIsGivenTwice) {
+  for (const char* between : {"", "[mapping]\n[robot]\n"}) {
+    EXPECT_THAT(
+        errorOf(std::string("[robot]\nradius = 0.3\n") + between + "radius = 0.3\n"),
+        AllOf(HasSubstr(path_), HasSubstr("[robot] radius: is given twice, first in line 2")));
+  }
+}
+
+TEST_F(ParametersFile, PassesOverCommentsAndEmptyLines) {
+  EXPECT_EQ(errorOf(""), "");
+  EXPECT_EQ(errorOf("\n  \n"), "");
+  EXPECT_EQ(dumpParameters(parameters_), dumpParameters(Parameters()));
+  EXPECT_EQ(errorOf("\xEF\xBB\xBF; one\n// radius = 9\n [ robot ] # two\n  radius=0.3\n\n"), "");
+  EXPECT_DOUBLE_EQ(parameters_.robot.radius, 0.3);
+  EXPECT_EQ(errorOf("[robot]\rradius = \\\r0.4\r"), "");
+  EXPECT_DOUBLE_EQ(parameters_.robot.radius, 0.4);
+}
+
 TEST_F(ParametersFile, StaysUnchangedAfterAnError) {
   EXPECT_NE(errorOf("[mapping]\npoints_per_cluster = 7\nsimilarity_cut = 2\n"), "");
   EXPECT_EQ(parameters_.mapping.points_per_cluster, Parameters().mapping.points_per_cluster);
 }
 
-TEST_F(ParametersFile, RefusesAFileThatDoesNotExist) {
-  EXPECT_THROW(loadParameters("/no/such/file.ini", parameters_), std::runtime_error);
-  EXPECT_THROW(loadParameters(::testing::TempDir(), parameters_), std::runtime_error);
+TEST_F(ParametersFile, NamesAFileThatDoesNotExistAndAFolder) {
+  for (const std::string& path : {std::string("/no/such/file.ini"), ::testing::TempDir()}) {
+    try {
+      loadParameters(path, parameters_);
+      ADD_FAILURE() << path;
+    } catch (const std::runtime_error& error) {
+      EXPECT_EQ(error.what(), path + ": cannot be read");
+    }
+  }
 }
 
 TEST_F(ParametersFile, ReadsBackWhatIsDumped) {

@@ -56,10 +56,10 @@ struct ParameterField {
 /// @return  every parameter, bound to p, which must outlive the list.
 std::vector<ParameterField> listParameters(Parameters& p);
 
-/// Sets what an MRPT .ini file names; the rest stays as it is.
-/// @throws std::runtime_error naming file, key, value and what is allowed: for a file that cannot
-/// be
-///         read, an unknown section or key, a key given twice, or a bad value. p is then unchanged.
+/// Sets what an MRPT .ini file names; the rest stays as it is, all of it where the file is empty.
+/// @throws std::runtime_error naming file, line or key, value and what is allowed: for a file that
+///         cannot be read, a line that is none of an .ini file, an unknown section or key, a key
+///         given twice, or a bad value. p is then unchanged.
 void loadParameters(const std::string& ini_path, Parameters& p);
 
 /// An .ini text with every key at its present value, its unit, range and meaning as comments;
