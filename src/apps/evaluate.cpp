@@ -34,7 +34,7 @@ LogScore evaluateLog(const std::string& log, const std::vector<Segment2>& map) {
   auto reader = openLog(log);
   std::vector<Scan> scans;
   while (auto record = reader->next()) scans.push_back(std::move(record->scan));
-  tellWarnings(log, *reader);
+  tellWarnings(log, reader->warnings());
   return scoreAgainstLog(scans, map);
 }
 

@@ -44,7 +44,7 @@ void addExtractCommand(CLI::App& program) {
         csv += row(id, line);
       }
     }
-    tellWarnings(*log, *reader);
+    tellWarnings(*log, reader->warnings());
     writeFile(*out, csv);
   });
 }

@@ -4,13 +4,10 @@
 #include <cstdio>
 #include <string>
 
-#include "cca_mrpt/io/log_reader.hpp"
-
 namespace cca::apps {
 
 /// Tells on the terminal what of a log could not be read, once it has been read.
-inline void tellWarnings(const std::string& path, const LogReader& log) {
-  const std::string warnings = log.warnings();
+inline void tellWarnings(const std::string& path, const std::string& warnings) {
   if (warnings.empty()) return;
   std::fprintf(stderr, "cca-mrpt: %s: %s\n", path.c_str(), warnings.c_str());
 }

@@ -33,6 +33,7 @@ struct MappedLog {
   std::vector<Pose2> trajectory;
   std::vector<Pose2> judged, reference;  ///< poses for which a reference is known, and these
   std::size_t beams = 0;
+  std::string warnings;  ///< what of the log could not be read, or was missed
   bool interrupted = false;
 };
 
@@ -51,7 +52,7 @@ void insert(MappedLog& mapped, LogRecord record, const Pose2& T_map_robot) {
 MappedLog mapLog(const MapOptions& options, LogReader& log, const Parameters& parameters,
                  const Interruption& interruption) try {
   PoseSource poses(poseKind(options.pose), parameters.icp);
-  MappedLog mapped{LineMap(parameters.mapping), {}, {}, {}, {}, 0, false};
+  MappedLog mapped{LineMap(parameters.mapping), {}, {}, {}, {}, 0, {}, false};
   Progress progress("map");
   while (auto record = log.next()) {
     const Pose2 T_map_robot = poses.locate(*record);
@@ -61,6 +62,8 @@ MappedLog mapLog(const MapOptions& options, LogReader& log, const Parameters& pa
     if (mapped.interrupted) break;
   }
   mapped.map.finishBatch();
+  const std::string of_log = log.warnings(), of_poses = poses.warnings();
+  mapped.warnings = of_log + (of_log.empty() || of_poses.empty() ? "" : "; ") + of_poses;
   return mapped;
 } catch (const std::runtime_error& error) {
   throw std::runtime_error(options.log + ": " + error.what());
@@ -74,7 +77,7 @@ double pathLength(const std::vector<Pose2>& trajectory) {
   return length;
 }
 
-MapProducts products(const MapOptions& options, const MappedLog& mapped, const LogReader& log) {
+MapProducts products(const MapOptions& options, const MappedLog& mapped) {
   MapProducts products;
   products.title = std::filesystem::path(options.log).filename().string();
   products.lines = mapped.map.lines();
@@ -88,8 +91,7 @@ MapProducts products(const MapOptions& options, const MappedLog& mapped, const L
   summary["scans"] = mapped.trajectory.size();
   summary["beams"] = mapped.beams;
   summary["distance_m"] = pathLength(mapped.trajectory);
-  if (const std::string warnings = log.warnings(); !warnings.empty())
-    summary["warnings"] = warnings;
+  if (!mapped.warnings.empty()) summary["warnings"] = mapped.warnings;
   // Poses taken from the log are their own reference, and would be called perfect.
   if (options.pose != "log" && options.pose != "truth" && !mapped.reference.empty()) {
     const TrajectoryError error = compareTrajectories(mapped.judged, mapped.reference);
@@ -131,8 +133,8 @@ void makeMap(const MapOptions& options, const Parameters& parameters) {
       throw;
     }
   }();
-  tellWarnings(options.log, *log);
-  MapProducts map = products(options, mapped, *log);
+  tellWarnings(options.log, mapped.warnings);
+  MapProducts map = products(options, mapped);
   const std::chrono::duration<double> mapping = std::chrono::steady_clock::now() - begin;
   map.summary["mapping_s"] = mapping.count();
   writeMapFolder(options.out, map);

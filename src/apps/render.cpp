@@ -54,7 +54,7 @@ void addLog(const std::string& path, MapProducts& products) {
     products.trajectory.push_back(record->scan.T_map_sensor * record->T_robot_sensor.inverse());
   }
   products.grid = grid.grid();
-  tellWarnings(path, *log);
+  tellWarnings(path, log->warnings());
 }
 
 /// What lies beside a map of our own: its poly-lines, and without a log its grid and trajectory.

@@ -18,7 +18,7 @@ IcpLocalizer::IcpLocalizer(IcpLocalizer&&) noexcept = default;
 IcpLocalizer& IcpLocalizer::operator=(IcpLocalizer&&) noexcept = default;
 
 Pose2 IcpLocalizer::locate(const Scan& scan, const Pose2& T_robot_sensor,
-                           const Pose2& T_odom_robot) {
+                           const std::optional<Pose2>& T_odom_robot) {
   return T_map_start_ * matcher_->locate(scan, T_robot_sensor, T_odom_robot);
 }
 

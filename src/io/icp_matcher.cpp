@@ -54,8 +54,10 @@ class MrptIcpMatcher : public IcpMatcher {
     icp_.initialize();
   }
 
-  Pose2 locate(const Scan& scan, const Pose2& T_robot_sensor, const Pose2& T_odom_robot) override {
-    const Pose2 moved = last_odometry_ ? last_odometry_->inverse() * T_odom_robot : Pose2();
+  Pose2 locate(const Scan& scan, const Pose2& T_robot_sensor,
+               const std::optional<Pose2>& T_odom_robot) override {
+    const bool is_guided = last_odometry_ && T_odom_robot;
+    const Pose2 moved = is_guided ? last_odometry_->inverse() * *T_odom_robot : Pose2();
     last_odometry_ = T_odom_robot;
     mrpt::obs::CActionRobotMovement2D movement;
     time_ += 0.1;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <optional>
+
 #include "cca_mrpt/io/icp_localizer.hpp"
 
 namespace cca {
@@ -11,7 +13,7 @@ class IcpMatcher {
   virtual ~IcpMatcher() = default;
   /// T_start_robot: the first one is the identity.
   virtual Pose2 locate(const Scan& scan, const Pose2& T_robot_sensor,
-                       const Pose2& T_odom_robot) = 0;
+                       const std::optional<Pose2>& T_odom_robot) = 0;
 };
 
 using MakeIcpMatcher = IcpMatcher*(const IcpParameters&);

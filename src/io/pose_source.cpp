@@ -40,8 +40,14 @@ Pose2 PoseSource::locate(const LogRecord& record) {
     return *T_map_odom_ * T_odom_robot;
   }
   if (!localizer_) localizer_.emplace(start, icp_);
-  // Without odometry the robot is looked for where it was.
-  return localizer_->locate(record.scan, record.T_robot_sensor, record.odometry.value_or(Pose2()));
+  unguided_ += !record.odometry;
+  return localizer_->locate(record.scan, record.T_robot_sensor, record.odometry);
+}
+
+std::string PoseSource::warnings() const {
+  if (unguided_ == 0) return "";
+  return std::to_string(unguided_) +
+         " scan(s) without odometry, which ICP looked for where the one before was";
 }
 
 }  // namespace cca

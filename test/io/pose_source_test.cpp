@@ -54,6 +54,27 @@ TEST(PoseSource, IcpUndoesWhatTheWheelsGetWrong) {
   EXPECT_LT(compareTrajectories(icp, truth).at_end_m, 0.2 * odometry_error);
 }
 
+TEST(PoseSource, IcpLooksForAScanWithoutOdometryWhereTheOneBeforeWas) {
+  const Pose2 T_far_odom{100.0, -50.0, 1.0};  // odometry need not begin at its origin
+  std::vector<Pose2> icp, truth;
+  PoseSource from_icp(PoseKind::kIcp);
+  for (int k = 0; k < 60; ++k) {
+    LogRecord record = onCircle(k);
+    record.odometry = T_far_odom * *record.odometry;
+    if (k < 3 || k == 20 || (k >= 30 && k < 40)) record.odometry.reset();
+    icp.push_back(from_icp.locate(record));
+    truth.push_back(*record.truth);
+  }
+  EXPECT_LT(compareTrajectories(icp, truth).max_m, 0.1);
+  EXPECT_EQ(from_icp.warnings().rfind("14 scan(s) without odometry", 0), 0U);
+}
+
+TEST(PoseSource, NothingIsSaidWhereAllScansHaveOdometry) {
+  PoseSource from_icp(PoseKind::kIcp);
+  for (int k = 0; k < 2; ++k) from_icp.locate(onCircle(k));
+  EXPECT_EQ(from_icp.warnings(), "");
+}
+
 TEST(PoseSource, WhatTheLogDoesNotHoldIsNamed) {
   LogRecord record = onCircle(0);
   record.odometry.reset();

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 
 #include "cca_mrpt/mapping/scan.hpp"
 
@@ -51,9 +52,11 @@ class IcpLocalizer {
   IcpLocalizer& operator=(IcpLocalizer&&) noexcept;
 
   /// @param scan          T_map_sensor is not used.
-  /// @param T_odom_robot  in any frame that stays.
+  /// @param T_odom_robot  in any frame that stays; nothing: the robot is looked for where it was at
+  ///                      the last scan, and so it is at the scan that follows.
   /// @return              T_map_robot. Cost: linear in the points of the map.
-  Pose2 locate(const Scan& scan, const Pose2& T_robot_sensor, const Pose2& T_odom_robot);
+  Pose2 locate(const Scan& scan, const Pose2& T_robot_sensor,
+               const std::optional<Pose2>& T_odom_robot);
 
  private:
   Pose2 T_map_start_;

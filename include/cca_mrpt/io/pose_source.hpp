@@ -26,15 +26,20 @@ class PoseSource {
  public:
   explicit PoseSource(PoseKind kind, const IcpParameters& icp = {}) : kind_(kind), icp_(icp) {}
 
-  /// @return  T_map_robot; odometry and ICP start where the log's own poses do.
+  /// @return  T_map_robot; odometry and ICP start where the log's own poses do. Where a scan has no
+  ///          odometry, ICP takes it that the robot has stood still.
   /// @throws std::runtime_error where the log does not hold what is asked for.
   Pose2 locate(const LogRecord& record);
+
+  /// What had to be done without, for people; empty where all was well.
+  std::string warnings() const;
 
  private:
   PoseKind kind_;
   IcpParameters icp_;
   std::optional<Pose2> T_map_odom_;
   std::optional<IcpLocalizer> localizer_;
+  std::size_t unguided_ = 0;  ///< scans that ICP had no odometry for
 };
 
 /// The pose that a run can be judged by: the truth, else what a SLAM system had stored.
