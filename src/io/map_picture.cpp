@@ -5,6 +5,8 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <utility>
+#include <vector>
 
 #include "canvas.hpp"
 #include "cca_mrpt/io/line_formats.hpp"
@@ -16,6 +18,8 @@ using Box = Eigen::AlignedBox2d;
 
 constexpr double kMargin = 1.0;        // m around the map
 constexpr double kSmallestView = 2.0;  // m
+constexpr double kWidestGap = 200.0;   // m, more than a laser looks over
+constexpr double kStrayShare = 0.05;   // of the poses: fewer, beyond such a gap, have gone astray
 constexpr int kHeader = 64;            // pixels of a sheet of 1600
 constexpr double kThinnest = 0.5;      // of the strokes on a sheet of 1600 pixels
 
@@ -145,13 +149,47 @@ void extendByKnownCells(Box& box, const mrpt::maps::COccupancyGridMap2D& grid) {
   }
 }
 
+/// A line or a pose.
+struct Piece {
+  Box box;
+  double weight;
+};
+
+/// Leaves out what lies beyond a wide gap along an axis, where it is light.
+std::vector<Piece> withoutStrays(std::vector<Piece> pieces, Eigen::Index axis) {
+  std::sort(pieces.begin(), pieces.end(), [axis](const Piece& a, const Piece& b) {
+    return a.box.min()[axis] < b.box.min()[axis];
+  });
+  double all = 0.0;
+  for (const Piece& piece : pieces) all += piece.weight;
+  std::vector<Piece> kept;
+  for (auto first = pieces.begin(); first != pieces.end();) {
+    auto last = first;
+    double weight = 0.0, reach = first->box.max()[axis];
+    for (; last != pieces.end() && last->box.min()[axis] - reach <= kWidestGap; ++last) {
+      weight += last->weight;
+      reach = std::max(reach, last->box.max()[axis]);
+    }
+    if (weight >= kStrayShare * all) kept.insert(kept.end(), first, last);
+    first = last;
+  }
+  return kept;
+}
+
 }  // namespace
 
 Box wholeView(const MapProducts& products) {
+  std::vector<Piece> pieces;
+  const bool has_poses = !products.trajectory.empty();
+  for (const MapLine& line : products.lines) {
+    const Box box = Box(line.segment.start).extend(line.segment.end);
+    pieces.push_back({box, has_poses ? 0.0 : line.segment.length()});
+  }
+  for (const Pose2& pose : products.trajectory) pieces.push_back({Box(pose.position()), 1.0});
   Box box;
-  for (const MapLine& line : products.lines)
-    box.extend(line.segment.start).extend(line.segment.end);
-  for (const Pose2& pose : products.trajectory) box.extend(pose.position());
+  for (const Piece& piece : withoutStrays(withoutStrays(std::move(pieces), 0), 1)) {
+    box.extend(piece.box);
+  }
   if (products.lines.empty() && products.grid) extendByKnownCells(box, *products.grid);
   if (box.isEmpty()) box.extend(Eigen::Vector2d::Zero());
   const Eigen::Vector2d half =

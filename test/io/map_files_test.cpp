@@ -296,6 +296,39 @@ TEST(Picture, ShowsTheWallsWhereTheyAre) {
   EXPECT_GT(brightness(2.0, 2.5), 200);  // nothing
 }
 
+TEST(WholeView, ShowsAllLinesAndPoses) {
+  MapProducts products = corner();
+  products.lines.push_back(line(8, 150, 0, 150, 1));  // no pose near it, but no wide gap either
+  products.trajectory.push_back({-90, 0, 0});
+  const auto view = wholeView(products);
+  for (const MapLine& l : products.lines) {
+    EXPECT_TRUE(view.contains(l.segment.start) && view.contains(l.segment.end));
+  }
+  for (const Pose2& pose : products.trajectory) EXPECT_TRUE(view.contains(pose.position()));
+  EXPECT_NEAR(view.sizes().x(), 242.0, 1e-9);
+}
+
+TEST(WholeView, LeavesOutAPoseThatHasGoneAstrayAndWhatWasSeenFromIt) {
+  MapProducts products = corner();
+  for (int k = 0; k < 40; ++k) products.trajectory.push_back({0.05 * k, 1.0, 0.0});
+  const auto ordinary = wholeView(products);
+  products.trajectory.insert(products.trajectory.begin() + 20, Pose2{3.0, 1e4, 0.0});
+  products.lines.push_back(line(9, 0, 1.001e4, 9, 1.001e4));
+  products.trajectory.insert(products.trajectory.begin() + 10, Pose2{-1e4, 2.0, 0.0});
+  EXPECT_TRUE(wholeView(products).isApprox(ordinary));
+  products.trajectory.clear();
+  products.lines = {line(1, 0, 0, 90, 0), line(2, 0, 0, 0, 90), line(3, 5000, 0, 5001, 0)};
+  EXPECT_NEAR(wholeView(products).sizes().x(), 92.0, 1e-9);
+}
+
+TEST(WholeView, ShowsBothOfTwoPlacesFarApart) {
+  MapProducts products = corner();
+  products.lines.push_back(line(8, 5000, 0, 5009, 0));
+  EXPECT_TRUE(wholeView(products).contains(Eigen::Vector2d(0, 0)));
+  products.trajectory.push_back({5001, 1, 0});
+  EXPECT_TRUE(wholeView(products).contains(Eigen::Vector2d(5009, 0)));
+}
+
 TEST(Picture, GrowsWithItsSize) {
   const TemporaryFolder folder;
   PictureOptions options;
