@@ -79,7 +79,8 @@ void renderPicture(const RenderOptions& options) {
   addWhatLiesBeside(options.map, !options.log.empty(), products);
   if (!options.log.empty()) addLog(options.log, products);
   if (options.solid) {
-    writeSolidPicture(options.out, products, options.picture.longest_side);
+    if (options.no_trajectory) products.trajectory.clear();
+    writeSolidPicture(options.out, products, options.picture.longest_side, options.picture.view);
   } else {
     writePicture(options.out, products, options.picture);
   }
@@ -129,6 +130,10 @@ void renderVideo(const RenderOptions& options, const Parameters& parameters) {
 
 void render(RenderOptions options, const Parameters& parameters) {
   options.picture.longest_side = options.size > 0 ? options.size : options.video ? 800 : 1600;
+  if (options.solid && options.picture.longest_side > kLargestSolidPicture) {
+    throw CLI::ValidationError("--size", "a picture in 3-D has at most " +
+                                             std::to_string(kLargestSolidPicture) + " pixels");
+  }
   options.picture.background = !options.no_background;
   options.picture.trajectory = !options.no_trajectory;
   options.picture.caption = !options.no_caption;
@@ -156,7 +161,8 @@ void render(RenderOptions options, const Parameters& parameters) {
 void addRenderCommand(CLI::App& program) {
   auto* command = program.add_subcommand("render", "picture of a line map, or video of its making");
   auto options = std::make_shared<RenderOptions>();
-  command->add_option("MAP", options->map, "lines.csv of a map, or any CSV with x1,y1,x2,y2");
+  auto* map =
+      command->add_option("MAP", options->map, "lines.csv of a map, or any CSV with x1,y1,x2,y2");
   command->add_option("--log", options->log, "scans and poses to draw below the map");
   command->add_option("--out", options->out, "PNG to write; with --video a .gif or .mp4")
       ->required();
@@ -169,10 +175,14 @@ void addRenderCommand(CLI::App& program) {
   command->add_flag("--no-background", options->no_background, "lines alone");
   command->add_flag("--no-trajectory", options->no_trajectory, "without the robot's way");
   command->add_flag("--no-caption", options->no_caption, "without title and numbers");
-  command->add_flag("--3d", options->solid, "walls raised, seen from above and aside");
-  command->add_flag("--video", options->video, "the map of --log as it is built (needs ffmpeg)");
+  auto* solid =
+      command->add_flag("--3d", options->solid, "walls raised, seen from above and aside");
+  auto* video = command->add_flag("--video", options->video,
+                                  "the map of --log as it is built (needs ffmpeg)");
+  video->excludes(map)->excludes(solid);
   command->add_option("--seconds", options->seconds, "length of the video")
       ->check(within(0.5, 600.0))
+      ->needs(video)
       ->capture_default_str();
   auto parameters =
       std::make_shared<ParameterOptions>(*command, std::vector<std::string>{"mapping"});

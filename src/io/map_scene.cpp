@@ -103,7 +103,8 @@ void writeScene(const std::string& path, const MapProducts& products) {
   file.commit();
 }
 
-void writeSolidPicture(const std::string& png_path, const MapProducts& products, int longest_side) {
+void writeSolidPicture(const std::string& png_path, const MapProducts& products, int longest_side,
+                       const std::optional<Eigen::AlignedBox2d>& shown) {
   const auto side =
       static_cast<unsigned>(std::clamp(longest_side, kSmallestPicture, kLargestSolidPicture));
   // Twice as large, then halved: the renderer itself does not smooth edges.
@@ -111,7 +112,7 @@ void writeSolidPicture(const std::string& png_path, const MapProducts& products,
   mrpt::opengl::CFBORender renderer(sheet);
   const auto scene = makeScene(products);
   scene->getViewport()->setCustomBackgroundColor({1.0F, 1.0F, 1.0F});
-  const auto view = wholeView(products);
+  const auto view = shown ? *shown : wholeView(products);
   auto& camera = renderer.getCamera(*scene);
   camera.setPointingAt(view.center().x(), view.center().y(), 0.0);
   camera.setAzimuthDegrees(-110.0F);

@@ -98,6 +98,11 @@ head -1 lines.csv | grep -q '^scan_id,x1,y1,x2,y2' || { echo "FAILED: header of 
 check "render draws a map over its scans" "$program" render map/lines.csv --log room.log --out a.png --size 500
 check "render draws a part" "$program" render map/lines.csv --view 0,0,3,2 --out b.png --size 300
 check "render draws it solid" "$program" render map/lines.csv --3d --out c.png --size 400
+check "render draws a part solid" "$program" render map/lines.csv --3d --view 0,0,3,2 --out part.png --size 400
+check "render draws it solid without the way" "$program" render map/lines.csv --3d --no-trajectory --out bare.png --size 400
+for picture in part.png bare.png; do
+  ! cmp -s c.png $picture || { echo "FAILED: --3d does not heed what $picture asks for"; failed=1; }
+done
 check "they are pictures" python3 - <<'END'
 import struct
 for name, size in (("a.png", 500), ("b.png", 300), ("c.png", 400)):
@@ -113,6 +118,10 @@ if command -v ffmpeg >/dev/null; then
 else
   refuses 1 "ffmpeg" "$program" render --video --log room.log --out a.gif
 fi
+refuses 2 "at most 4096 pixels" "$program" render map/lines.csv --3d --size 5000 --out d.png
+refuses 2 "excludes" "$program" render --video --3d --log room.log --out a.gif
+refuses 2 "excludes" "$program" render map/lines.csv --video --log room.log --out a.gif
+refuses 2 "requires --video" "$program" render map/lines.csv --seconds 3 --out d.png
 refuses 2 "must end in .png" "$program" render map/lines.csv --out d.foo
 refuses 2 "inf" "$program" render map/lines.csv --view 0,0,inf,1 --out d.png
 refuses 1 "written as .gif or .mp4" "$program" render --video --log room.log --out a.avi

@@ -3,6 +3,8 @@
 
 #include <mrpt/opengl/COpenGLScene.h>
 
+#include <Eigen/Geometry>
+#include <optional>
 #include <string>
 
 #include "cca_mrpt/io/map_products.hpp"
@@ -19,8 +21,10 @@ void writeScene(const std::string& path, const MapProducts& products);
 
 /// Draws makeScene() from above and aside, off-screen (EGL: no display is needed).
 /// @param longest_side  pixels, clamped to [kSmallestPicture, kLargestSolidPicture].
+/// @param shown         m, map frame, not empty: what the camera looks at; nothing: wholeView().
 /// @throws std::runtime_error where it cannot be drawn or written.
-void writeSolidPicture(const std::string& png_path, const MapProducts& products, int longest_side);
+void writeSolidPicture(const std::string& png_path, const MapProducts& products, int longest_side,
+                       const std::optional<Eigen::AlignedBox2d>& shown = std::nullopt);
 
 constexpr int kLargestSolidPicture = 4096;
 
