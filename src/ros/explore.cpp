@@ -31,18 +31,28 @@ Settings readSettings() {
   Settings s;
   s.simulator.world = "two_rooms";
   PrivateParameters parameters{ros::NodeHandle("~")};
-  readParameters(parameters, s.simulator);
+  parameters.text("world", s.simulator.world);
+  std::vector<std::string> sections{"mapping", "exploration", "robot"};
+  if (s.simulator.world == kNoWorld) {
+    parameters.number("scan_timeout", s.driver.scan_timeout, 0.05, 5.0, "s");
+    parameters.choice("pose", s.pose, {"tf", "odometry"});
+    for (const char* simulated : {"start_pose", "speed", "scan_rate", "seed", "record"}) {
+      parameters.withoutEffect(simulated);
+    }
+  } else {
+    readParameters(parameters, s.simulator);
+    sections.insert(sections.end(), {"laser", "odometry"});
+    for (const char* robots : {"scan_timeout", "pose"}) parameters.withoutEffect(robots);
+  }
   parameters.text("map_frame", s.driver.frames.map);
   parameters.text("odom_frame", s.driver.frames.odom);
   parameters.text("base_frame", s.driver.frames.base);
   parameters.text("laser_frame", s.driver.frames.laser);
-  parameters.number("scan_timeout", s.driver.scan_timeout, 0.05, 5.0, "s");
-  parameters.choice("pose", s.pose, {"tf", "odometry"});
   parameters.text("out", s.exploration.out);
   parameters.flag("autostart", s.exploration.autostart);
   parameters.flag("save_at_end", s.exploration.save_at_end);
   parameters.flag("exit_at_end", s.exit_at_end);
-  parameters.program(s.program);
+  parameters.program(s.program, sections);
   parameters.refuseUnknown();
   s.exploration.map_frame = s.driver.frames.map;
   s.driver.publish_map_to_odom = s.pose == "odometry";

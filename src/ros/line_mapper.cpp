@@ -27,7 +27,7 @@ LineMapperParameters readParameters(const ros::NodeHandle& private_node) {
   parameters.text("map_frame", p.map_frame);
   parameters.text("out", p.out);
   parameters.flag("save_at_end", p.save_at_end);
-  parameters.program(p.program);
+  parameters.program(p.program, {"mapping"});
   parameters.refuseUnknown();
   return p;
 }

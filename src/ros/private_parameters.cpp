@@ -28,6 +28,10 @@ std::string textOf(XmlRpc::XmlRpcValue value) {
   }
 }
 
+bool contains(const std::vector<std::string>& words, const std::string& word) {
+  return std::find(words.begin(), words.end(), word) != words.end();
+}
+
 }  // namespace
 
 void PrivateParameters::refuse(const std::string& name, const std::string& value,
@@ -75,20 +79,27 @@ void PrivateParameters::choice(const std::string& name, std::string& value,
   std::string chosen = value, list = "one of";
   text(name, chosen);
   for (const auto& word : allowed) list += " " + word;
-  if (std::find(allowed.begin(), allowed.end(), chosen) == allowed.end()) {
-    refuse(name, chosen, list);
-  }
+  if (!contains(allowed, chosen)) refuse(name, chosen, list);
   value = chosen;
 }
 
-void PrivateParameters::program(Parameters& p) {
+void PrivateParameters::withoutEffect(const std::string& name) {
+  unused_.push_back(name);
+  if (node_.hasParam(name)) {
+    ROS_WARN("parameter %s has no effect in this node", node_.resolveName(name).c_str());
+  }
+}
+
+void PrivateParameters::program(Parameters& p, const std::vector<std::string>& sections) {
   std::string config;
   text("config", config);
   if (!config.empty()) loadParameters(config, p);
   const auto fields = listParameters(p);
-  const auto own = known_;  // the node's: `pose` is its own, and the program's is run/pose
-  const auto set = [this](const ParameterField& field, const std::string& name) {
+  auto own = known_;  // the node's: `pose` is its own, and the program's is run/pose
+  own.insert(own.end(), unused_.begin(), unused_.end());
+  const auto set = [&](const ParameterField& field, const std::string& name) {
     XmlRpc::XmlRpcValue parameter;
+    if (!contains(sections, field.section)) return withoutEffect(name);
     if (!given(name, parameter)) return;
     try {
       field.set(textOf(parameter));
@@ -100,8 +111,7 @@ void PrivateParameters::program(Parameters& p) {
     const auto namesakes = std::count_if(fields.begin(), fields.end(), [&field](const auto& other) {
       return other.name == field.name;
     });
-    const bool is_own = std::find(own.begin(), own.end(), field.name) != own.end();
-    if (namesakes == 1 && !is_own) set(field, field.name);
+    if (namesakes == 1 && !contains(own, field.name)) set(field, field.name);
     set(field, field.section + "/" + field.name);
   }
 }
@@ -114,7 +124,7 @@ void PrivateParameters::refuseUnknown() const {
     if (name.compare(0, prefix.size(), prefix) != 0) continue;
     const std::string own = name.substr(prefix.size());
     if (own == "diagnostic_period") continue;  // diagnostic_updater's
-    if (std::find(known_.begin(), known_.end(), own) != known_.end()) continue;
+    if (contains(known_, own) || contains(unused_, own)) continue;
     std::string list;
     for (const auto& known : known_) list += (list.empty() ? "" : " ") + known;
     throw std::runtime_error("parameter " + name + " is unknown; known are: " + list);

@@ -24,9 +24,12 @@ class PrivateParameters {
   void number(const std::string& name, double& value, double lowest, double highest,
               const std::string& unit);
   void choice(const std::string& name, std::string& value, const std::vector<std::string>& allowed);
-  /// The program's parameters; those of the .ini file that `~config` names come first. To be called
-  /// after the node's own were read: a short name that is one of these is not the program's.
-  void program(Parameters& p);
+  /// Warns where a parameter is given that is the node's own, but is not used this time.
+  void withoutEffect(const std::string& name);
+  /// The program's parameters of these sections; those of the .ini file that `~config` names come
+  /// first. Of the other sections' it is told that they have no effect. To be called after the
+  /// node's own were read: a short name that is one of these is not the program's.
+  void program(Parameters& p, const std::vector<std::string>& sections);
 
   /// @throws std::runtime_error naming what nobody asked for, and all that there is.
   void refuseUnknown() const;
@@ -37,7 +40,7 @@ class PrivateParameters {
                            const std::string& allowed) const;
 
   ros::NodeHandle node_;
-  std::vector<std::string> known_;
+  std::vector<std::string> known_, unused_;
 };
 
 }  // namespace cca

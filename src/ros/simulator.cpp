@@ -26,12 +26,13 @@ struct Settings {
 Settings readSettings() {
   Settings s;
   PrivateParameters parameters{ros::NodeHandle("~")};
+  parameters.text("world", s.simulator.world);
   readParameters(parameters, s.simulator);
   parameters.text("map_frame", s.frames.map);
   parameters.text("odom_frame", s.frames.odom);
   parameters.text("base_frame", s.frames.base);
   parameters.text("laser_frame", s.frames.laser);
-  parameters.program(s.program);
+  parameters.program(s.program, {"robot", "laser", "odometry"});
   parameters.refuseUnknown();
   return s;
 }

@@ -39,7 +39,6 @@ Pose2 parseStart(const std::string& text) {
 }  // namespace
 
 void readParameters(PrivateParameters& parameters, SimulatorParameters& p) {
-  parameters.text("world", p.world);
   parameters.text("start_pose", p.start_pose);
   parameters.number("speed", p.speed, 0.01, 1000.0, "times real time");
   parameters.number("scan_rate", p.scan_rate, 1.0, 100.0, "Hz");

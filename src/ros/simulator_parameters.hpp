@@ -20,7 +20,7 @@ struct SimulatorParameters {
   std::string record;  ///< bag to write; empty: none
 };
 
-/// Reads them from the node's private parameters.
+/// Reads them from the node's private parameters, but for the world.
 void readParameters(PrivateParameters& parameters, SimulatorParameters& p);
 
 /// @throws std::runtime_error for a world or start that cannot be, and for a speed other than 1

@@ -88,6 +88,18 @@ class NodeEnds(OwnMaster):
         self.ask("rosparam", "delete", "/simulator")
         self.expect_refusal("simulator", ["_start_pose:=-50,-50,0", "_world:=two_rooms"], ["-50"])
 
+    def test_parameters_without_effect_are_told(self):
+        for node, arguments, idle in [
+                ("explore", ["_run/seed:=3", "_longest_time:=9"], ["run/seed", "longest_time"]),
+                ("explore", ["_icp/iterations:=3", "_pose:=tf"], ["icp/iterations", "pose"]),
+                ("explore", ["_world:=none", "_speed:=2", "_laser/range:=9"], ["speed", "laser/range"]),
+                ("simulator", ["_world:=two_rooms", "_strategy:=greedy"], ["strategy"]),
+                ("line_mapper", ["_robot/radius:=0.3"], ["robot/radius"])]:
+            with self.subTest(arguments):
+                self.ask("rosparam", "delete", "/" + node)
+                told = ["/%s/%s has no effect in this node" % (node, name) for name in idle]
+                self.expect_refusal(node, arguments + ["_typo:=1"], told + ["typo is unknown"])
+
     def test_a_restarted_master_finds_the_node_again(self):
         node = self.exploring()
         self.master.kill()
