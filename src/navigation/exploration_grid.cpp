@@ -173,6 +173,10 @@ void ExplorationGrid::write(Cell cell, Evidence& evidence, Evidence value) {
   evidence = value;
 }
 
+bool ExplorationGrid::covers(const Eigen::Vector2d& p_map) const {
+  return p_map.allFinite() && p_map.cwiseAbs().maxCoeff() < resolution_ * kFarthestCell;
+}
+
 Cell ExplorationGrid::cellOf(const Eigen::Vector2d& p_map) const {
   return {static_cast<int>(std::floor(p_map.x() / resolution_)),
           static_cast<int>(std::floor(p_map.y() / resolution_))};

@@ -39,8 +39,8 @@ bool seesAllAround(const Scan& scan) {
 std::vector<Eigen::Vector2d> obstaclesAround(const ExplorationGrid& grid,
                                              const Eigen::Vector2d& p_map) {
   std::vector<Eigen::Vector2d> obstacles;
+  if (!grid.covers(p_map)) return obstacles;
   const double side = grid.resolution();
-  if (!p_map.allFinite() || p_map.cwiseAbs().maxCoeff() > side * kFarthestCell) return obstacles;
   const int reach = static_cast<int>(std::ceil(kAround / side));
   const Cell here = grid.cellOf(p_map);
   for (int y = here.y - reach; y <= here.y + reach; ++y) {

@@ -61,6 +61,8 @@ class ExplorationGrid {
   std::size_t revealed() const { return revealed_; }
 
   double resolution() const { return resolution_; }
+  /// Whether a place (m, map frame) is finite and within what a grid can hold.
+  bool covers(const Eigen::Vector2d& p_map) const;
   /// The cell that holds a point. @param p_map  m, finite.
   Cell cellOf(const Eigen::Vector2d& p_map) const;
   /// m, map frame.
