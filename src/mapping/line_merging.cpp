@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "cca_mrpt/mapping/cross.hpp"
+#include "cca_mrpt/mapping/gates.hpp"
 #include "cca_mrpt/mapping/rank_order_clustering.hpp"
 #include "cca_mrpt/mapping/similarity.hpp"
 
@@ -15,8 +16,6 @@ namespace {
 
 /// Each run is compared with this many that follow it. Rounds join longer walls.
 constexpr int kNeighbours = 3;
-/// 99.9 % of normal residuals lie within this many deviations.
-constexpr double kResidualGate = 3.29;
 
 /// Whether two neighbours may be one wall: every beam between them returned, and a step in depth
 /// lies between two lines at least, for points across a step are soon in line with the beam.
@@ -86,7 +85,7 @@ double raysAgainst(const ScanPoints& points, const FittedSegment& joint, const R
                              : points.silentBetween(runs[i].last - 1, runs[j].first);
   const Eigen::Vector2d normal(-joint.line.direction.y(), joint.line.direction.x());
   const double distance = normal.dot(joint.line.centroid);
-  const double gate = kResidualGate * std::sqrt(joint.variance);
+  const double gate = kNormalGate * std::sqrt(joint.variance);
   const int n = static_cast<int>(runs.size());
   for (int k = (i + 1) % n; k != j && against <= most; k = (k + 1) % n) {
     for (int p = runs[k].first; p < runs[k].last; ++p) {

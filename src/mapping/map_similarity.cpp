@@ -4,12 +4,10 @@
 #include <algorithm>
 
 #include "cca_mrpt/mapping/cross.hpp"
+#include "cca_mrpt/mapping/gates.hpp"
 
 namespace cca {
 namespace {
-
-constexpr double kOneFreedom = 10.83;  // 99.9 % quantiles of chi-square
-constexpr double kTwoFreedoms = 13.82;
 
 /// Squared distance of b's centroid from a's line, which is extended that far, over its variance.
 double offsetEvidence(const LineSegment& a, const Eigen::Vector2d& u, const LineSegment& b) {
@@ -28,10 +26,10 @@ Memberships mapMemberships(const LineSegment& a, const LineSegment& b, double ga
   Memberships mu;
   const double sine = cross(line_a.direction, line_b.direction);
   const double angle_variance = a.covariance(1, 1) + b.covariance(1, 1);
-  mu.orientation = angle_variance > 0.0 ? bell(sine * sine / angle_variance, kOneFreedom) : 1.0;
+  mu.orientation = angle_variance > 0.0 ? bell(sine * sine / angle_variance, kChiSquareGate1) : 1.0;
   mu.offset =
       bell(std::max(offsetEvidence(a, line_a.direction, b), offsetEvidence(b, line_b.direction, a)),
-           kOneFreedom);
+           kChiSquareGate1);
   mu.gap = bell(gap * gap, 1.0);
 
   PointMoments joint = a.moments;
@@ -40,7 +38,7 @@ Memberships mapMemberships(const LineSegment& a, const LineSegment& b, double ga
       fitLine(joint).residual_sum_sq - line_a.residual_sum_sq - line_b.residual_sum_sq;
   const double variance =
       0.5 * (a.covariance(0, 0) * a.moments.weight + b.covariance(0, 0) * b.moments.weight);
-  mu.fit = variance > 0.0 ? bell(std::max(0.0, growth) / variance, kTwoFreedoms) : 1.0;
+  mu.fit = variance > 0.0 ? bell(std::max(0.0, growth) / variance, kChiSquareGate2) : 1.0;
   mu.overlap = same_facing ? 1.0 : 0.0;
   return mu;
 }

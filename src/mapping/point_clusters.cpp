@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "cca_mrpt/mapping/cross.hpp"
+#include "cca_mrpt/mapping/gates.hpp"
 #include "cca_mrpt/mapping/k_means.hpp"
 
 namespace cca {
@@ -14,8 +15,6 @@ namespace {
 
 /// K-means serves as a first cut that later steps refine: it need not have converged.
 constexpr int kLloydSweeps = 2;
-/// Two-sided 99.9 % quantile of the normal distribution: gate of a single residual.
-constexpr double kResidualGate = 3.29;
 
 /// Centroids in cyclic order of bearing.
 class CentroidRing {
@@ -111,7 +110,7 @@ class CentroidRing {
 
 bool isLinear(const ScanPoints& points, const FittedRun& run) {
   if (run.size() <= 2) return true;
-  const double gate_sq = kResidualGate * kResidualGate * run.variance;
+  const double gate_sq = kNormalGate * kNormalGate * run.variance;
   if (run.line.residual_sum_sq <= gate_sq) return true;
   const Eigen::Vector2d normal(-run.line.direction.y(), run.line.direction.x());
   for (int i = run.first; i < run.last; ++i) {

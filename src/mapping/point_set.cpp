@@ -3,11 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <numeric>
 
 #include "cca_mrpt/mapping/cross.hpp"
-#include "cca_mrpt/mapping/k_means.hpp"
+#include "cca_mrpt/mapping/gates.hpp"
+#include "cca_mrpt/mapping/planar_clusters.hpp"
 #include "cca_mrpt/mapping/range_noise.hpp"
 #include "cca_mrpt/mapping/rank_order_clustering.hpp"
 #include "cca_mrpt/mapping/similarity.hpp"
@@ -15,117 +14,20 @@
 namespace cca {
 namespace {
 
-constexpr int kLloydSweeps = 5;
-constexpr double kResidualGate = 3.29;           // 99.9 % of normal residuals lie within
-constexpr double kGrazing = 4.0 * M_PI / 180.0;  // no wall is seen at less
-constexpr double kOdds[] = {0.1, 0.4, 1.0};      // as for a scan, and the cut itself
+constexpr double kOdds[] = {0.1, 0.4, 1.0};  // as for a scan, and the cut itself
 constexpr int kReassignments = 3;
-
-/// Points of one line, by index.
-struct Candidate {
-  std::vector<int> members;
-  FittedSegment fit;
-  double low = 0.0, high = 0.0;  // extent along the line, from its centroid
-  double reach = 0.0;            // longest step between neighbours on one wall
-
-  Eigen::Vector2d at(double along) const { return fit.line.centroid + along * fit.line.direction; }
-};
-
-FittedSegment fitTo(const PointMoments& moments, double variance) {
-  return {moments, fitLine(moments), {variance, variance}};
-}
-
-Candidate candidateOf(const std::vector<SpatialPoint>& points, std::vector<int> members) {
-  Candidate c;
-  c.members = std::move(members);
-  PointMoments moments;
-  double variance = 0.0;
-  for (const int i : c.members) {
-    moments.add(points[i].position);
-    variance += points[i].sigma * points[i].sigma;
-    c.reach = std::max(c.reach, points[i].spacing / std::sin(kGrazing));
-  }
-  c.fit = fitTo(moments, variance / moments.weight);
-  for (const int i : c.members) {
-    const double along = c.fit.line.direction.dot(points[i].position - c.fit.line.centroid);
-    c.low = std::min(c.low, along);
-    c.high = std::max(c.high, along);
-  }
-  return c;
-}
-
-/// On one line within the noise, and without a step longer than a wall would show.
-bool isOneRun(const std::vector<SpatialPoint>& points, const Candidate& c) {
-  const Eigen::Vector2d& u = c.fit.line.direction;
-  std::vector<double> along;
-  for (const int i : c.members) {
-    const Eigen::Vector2d off = points[i].position - c.fit.line.centroid;
-    if (std::abs(cross(u, off)) > kResidualGate * std::sqrt(c.fit.variance)) {
-      return false;
-    }
-    along.push_back(u.dot(off));
-  }
-  std::sort(along.begin(), along.end());
-  for (std::size_t i = 1; i < along.size(); ++i) {
-    if (along[i] - along[i - 1] > c.reach) return false;
-  }
-  return true;
-}
-
-void prune(const std::vector<SpatialPoint>& points, std::vector<int> members,
-           std::vector<Candidate>* kept) {
-  if (members.empty()) return;
-  Candidate c = candidateOf(points, std::move(members));
-  if (c.members.size() < 2 || c.high <= c.low || isOneRun(points, c)) {
-    kept->push_back(std::move(c));
-    return;
-  }
-  std::vector<Eigen::Vector2d> positions;
-  for (const int i : c.members) positions.push_back(points[i].position);
-  const std::vector<int> side = kMeans(positions, {c.at(c.low), c.at(c.high)}, kLloydSweeps);
-  std::vector<int> parts[2];
-  for (std::size_t i = 0; i < side.size(); ++i) parts[side[i]].push_back(c.members[i]);
-  if (parts[0].empty() || parts[1].empty()) {
-    kept->push_back(std::move(c));
-    return;
-  }
-  for (std::vector<int>& part : parts) prune(points, std::move(part), kept);
-}
-
-std::vector<Candidate> clusters(const std::vector<SpatialPoint>& points, int points_per_cluster) {
-  std::vector<Eigen::Vector2d> positions, seeds;
-  for (const SpatialPoint& p : points) positions.push_back(p.position);
-  // Along x, then y: what stands in for the order of a scan.
-  std::vector<int> order(points.size());
-  std::iota(order.begin(), order.end(), 0);
-  std::sort(order.begin(), order.end(), [&](int a, int b) {
-    const Eigen::Vector2d &p = positions[a], &q = positions[b];
-    return p.x() != q.x() ? p.x() < q.x() : p.y() != q.y() ? p.y() < q.y() : a < b;
-  });
-  for (std::size_t i = points_per_cluster / 2; i < order.size(); i += points_per_cluster) {
-    seeds.push_back(positions[order[i]]);
-  }
-  if (seeds.empty() && !positions.empty()) seeds.push_back(positions[0]);
-  const std::vector<int> cluster = kMeans(positions, seeds, kLloydSweeps);
-  std::vector<std::vector<int>> members(seeds.size());
-  for (std::size_t i = 0; i < cluster.size(); ++i)
-    members[cluster[i]].push_back(static_cast<int>(i));
-  std::vector<Candidate> kept;
-  for (std::vector<int>& m : members) prune(points, std::move(m), &kept);
-  return kept;
-}
 
 struct Interval {
   double low, high;
 };
 
-Interval extentAlong(const Candidate& c, const FittedLine& line) {
+Interval extentAlong(const PlanarCluster& c, const FittedLine& line) {
   const double a = line.direction.dot(c.at(c.low) - line.centroid);
   const double b = line.direction.dot(c.at(c.high) - line.centroid);
   return {std::min(a, b), std::max(a, b)};
 }
 
-double similarityOf(const Candidate& a, const Candidate& b, double cut) {
+double similarityOf(const PlanarCluster& a, const PlanarCluster& b, double cut) {
   const double reach = std::max(a.reach, b.reach);
   const double apart = (a.fit.line.centroid - b.fit.line.centroid).norm();
   if (apart > a.high - a.low + b.high - b.low + 2.0 * reach) return 0.0;
@@ -147,7 +49,8 @@ double similarityOf(const Candidate& a, const Candidate& b, double cut) {
   return memberships(a.fit, b.fit, joint, missing, overlap).similarity();
 }
 
-bool mergeOnce(const std::vector<SpatialPoint>& points, double cut, std::vector<Candidate>* all) {
+bool mergeOnce(const std::vector<SpatialPoint>& points, double cut,
+               std::vector<PlanarCluster>* all) {
   const int n = static_cast<int>(all->size());
   SimilarityMatrix s(n);
   for (int i = 0; i < n; ++i) {
@@ -164,9 +67,9 @@ bool mergeOnce(const std::vector<SpatialPoint>& points, double cut, std::vector<
     std::vector<int>& group = members[group_of[k]];
     group.insert(group.end(), own.begin(), own.end());
   }
-  std::vector<Candidate> merged;
+  std::vector<PlanarCluster> merged;
   for (std::vector<int>& m : members) {
-    if (!m.empty()) merged.push_back(candidateOf(points, std::move(m)));
+    if (!m.empty()) merged.push_back(planarCluster(points, std::move(m)));
   }
   all->swap(merged);
   return true;
@@ -178,15 +81,16 @@ struct Nearest {
   double z_sq = 2.0 * kPointPrice;  // farther, a point is told alone
 };
 
-Nearest nearestLine(const SpatialPoint& point, const std::vector<Candidate>& lines, int without) {
+Nearest nearestLine(const SpatialPoint& point, const std::vector<PlanarCluster>& lines,
+                    int without) {
   Nearest best;
   for (int k = 0; k < static_cast<int>(lines.size()); ++k) {
     if (k == without) continue;
-    const Candidate& c = lines[k];
+    const PlanarCluster& c = lines[k];
     const Eigen::Vector2d off = point.position - c.fit.line.centroid;
     const Eigen::Vector2d& u = c.fit.line.direction;
     const double along = u.dot(off), across = cross(u, off);
-    const double margin = point.spacing + kResidualGate * point.sigma;
+    const double margin = point.spacing + kNormalGate * point.sigma;
     if (along < c.low - margin || along > c.high + margin) continue;
     const double z_sq = across * across / (point.sigma * point.sigma);
     if (z_sq < best.z_sq) best = {k, z_sq};
@@ -195,12 +99,13 @@ Nearest nearestLine(const SpatialPoint& point, const std::vector<Candidate>& lin
 }
 
 /// Drops lines, the lightest first, whose points the others tell as briefly.
-void dropExplained(const std::vector<SpatialPoint>& points, std::vector<Candidate>* lines) {
-  std::stable_sort(lines->begin(), lines->end(), [](const Candidate& a, const Candidate& b) {
-    return a.members.size() > b.members.size();
-  });
+void dropExplained(const std::vector<SpatialPoint>& points, std::vector<PlanarCluster>* lines) {
+  std::stable_sort(lines->begin(), lines->end(),
+                   [](const PlanarCluster& a, const PlanarCluster& b) {
+                     return a.members.size() > b.members.size();
+                   });
   for (int k = static_cast<int>(lines->size()) - 1; k >= 0; --k) {
-    const Candidate& c = (*lines)[k];
+    const PlanarCluster& c = (*lines)[k];
     double told_by_others = 0.0;
     for (const int i : c.members) {
       told_by_others += 0.5 * nearestLine(points[i], *lines, k).z_sq;
@@ -211,20 +116,20 @@ void dropExplained(const std::vector<SpatialPoint>& points, std::vector<Candidat
 }
 
 /// Each point goes to its nearest line, and all are refitted.
-void reassign(const std::vector<SpatialPoint>& points, std::vector<Candidate>* lines) {
+void reassign(const std::vector<SpatialPoint>& points, std::vector<PlanarCluster>* lines) {
   std::vector<std::vector<int>> members(lines->size());
   for (std::size_t p = 0; p < points.size(); ++p) {
     const int line = nearestLine(points[p], *lines, -1).line;
     if (line >= 0) members[line].push_back(static_cast<int>(p));
   }
-  std::vector<Candidate> next;
+  std::vector<PlanarCluster> next;
   for (std::vector<int>& m : members) {
-    if (m.size() >= kFewestPoints) next.push_back(candidateOf(points, std::move(m)));
+    if (m.size() >= kFewestPoints) next.push_back(planarCluster(points, std::move(m)));
   }
   lines->swap(next);
 }
 
-LineSegment segmentOf(const Candidate& c) {
+LineSegment segmentOf(const PlanarCluster& c) {
   LineSegment s;
   s.start = c.at(c.low);
   s.end = c.at(c.high);
@@ -235,14 +140,14 @@ LineSegment segmentOf(const Candidate& c) {
 }
 
 /// Pulls an end of each of two lines to their intersection, where both lie within reach of it.
-void joinEnds(const Candidate& a, const Candidate& b, LineSegment* s, LineSegment* t) {
+void joinEnds(const PlanarCluster& a, const PlanarCluster& b, LineSegment* s, LineSegment* t) {
   const Eigen::Vector2d &u = a.fit.line.direction, &v = b.fit.line.direction;
   const double sine = cross(u, v);
   if (std::abs(sine) < std::sin(kGrazing)) return;
   const Eigen::Vector2d w = b.fit.line.centroid - a.fit.line.centroid;
   const Eigen::Vector2d corner = a.fit.line.centroid + u * (cross(w, v) / sine);
   const double deviation = std::sqrt(std::max(a.fit.variance, b.fit.variance));
-  const double within = std::max(a.reach, b.reach) * std::sin(kGrazing) + kResidualGate * deviation;
+  const double within = std::max(a.reach, b.reach) * std::sin(kGrazing) + kNormalGate * deviation;
   const auto nearEnd = [&](LineSegment* l) -> Eigen::Vector2d* {
     Eigen::Vector2d* end =
         (l->start - corner).norm() < (l->end - corner).norm() ? &l->start : &l->end;
@@ -269,7 +174,7 @@ std::vector<LineSegment> extractLines(const std::vector<SpatialPoint>& points,
   for (const SpatialPoint& p : points) {
     if (p.position.allFinite() && p.sigma > 0.0 && p.spacing > 0.0) finite.push_back(p);
   }
-  std::vector<Candidate> lines = clusters(finite, parameters.points_per_cluster);
+  std::vector<PlanarCluster> lines = planarClusters(finite, parameters.points_per_cluster);
   for (const double share : kOdds) {
     const double cut = 1.0 / (1.0 + share * (1.0 / parameters.similarity_cut - 1.0));
     while (mergeOnce(finite, cut, &lines)) {
@@ -277,7 +182,7 @@ std::vector<LineSegment> extractLines(const std::vector<SpatialPoint>& points,
   }
   const auto dropLoose = [&] {
     lines.erase(std::remove_if(lines.begin(), lines.end(),
-                               [](const Candidate& c) { return !c.fit.is_line; }),
+                               [](const PlanarCluster& c) { return !c.fit.is_line; }),
                 lines.end());
   };
   dropLoose();
@@ -288,12 +193,12 @@ std::vector<LineSegment> extractLines(const std::vector<SpatialPoint>& points,
     }
     dropLoose();
   }
-  std::sort(lines.begin(), lines.end(), [](const Candidate& a, const Candidate& b) {
+  std::sort(lines.begin(), lines.end(), [](const PlanarCluster& a, const PlanarCluster& b) {
     const Eigen::Vector2d p = a.at(a.low), q = b.at(b.low);
     return p.x() != q.x() ? p.x() < q.x() : p.y() < q.y();
   });
   std::vector<LineSegment> segments;
-  for (const Candidate& c : lines) segments.push_back(segmentOf(c));
+  for (const PlanarCluster& c : lines) segments.push_back(segmentOf(c));
   for (std::size_t i = 0; i < lines.size(); ++i) {
     for (std::size_t j = i + 1; j < lines.size(); ++j) {
       joinEnds(lines[i], lines[j], &segments[i], &segments[j]);

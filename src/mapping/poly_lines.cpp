@@ -5,14 +5,13 @@
 #include <optional>
 
 #include "cca_mrpt/mapping/cross.hpp"
+#include "cca_mrpt/mapping/gates.hpp"
 
 namespace cca {
 namespace {
 
 /// sin 3 deg: directions nearer than this do not fix where line and beam meet.
 constexpr double kAlongTheLine = 0.05;
-/// 99.9 % of normal residuals lie within this many deviations.
-constexpr double kResidualGate = 3.29;
 /// A corner takes this many beams at most from the line that they were fitted with.
 constexpr int kMostTaken = 5;
 
@@ -37,7 +36,7 @@ LineSegment segmentOf(const ScanPoints& points, const FittedSegment& fit, int fi
 
 bool liesOn(const FittedSegment& line, const Eigen::Vector2d& p) {
   const double off = cross(line.line.direction, p - line.line.centroid);
-  return off * off <= kResidualGate * kResidualGate * line.variance;
+  return off * off <= kNormalGate * kNormalGate * line.variance;
 }
 
 /// A line of the scan, and the run of points at that end of it which is looked at.

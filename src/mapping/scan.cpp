@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "cca_mrpt/mapping/gates.hpp"
+
 namespace cca {
 namespace {
 
@@ -38,18 +40,12 @@ std::size_t cutOfCircle(const std::vector<double>& ranges) {
   return cut;
 }
 
-/// A wall seen at less than this angle cannot be told from a step in depth [Borges & Aldon 2004].
-constexpr double kGrazing = 4.0 * M_PI / 180.0;
-
-/// 99.9 % of normal differences lie within this many deviations.
-constexpr double kNoiseGate = 3.29;
-
 /// Tells a step in depth: neighbours that lie farther apart than any wall would place them.
 class StepGate {
  public:
   explicit StepGate(const ScanPoints& points)
       : widest_(std::sin(points.beam_spacing) / std::sin(kGrazing)),
-        noise_(kNoiseGate * std::sqrt(2.0) * points.point_sigma) {}
+        noise_(kNormalGate * std::sqrt(2.0) * points.point_sigma) {}
 
   /// @param beams  how many of them farther q is.
   bool isStep(const Eigen::Vector2d& p, const Eigen::Vector2d& q, double beams) const {

@@ -5,14 +5,13 @@
 #include <cmath>
 
 #include "cca_mrpt/mapping/cross.hpp"
+#include "cca_mrpt/mapping/gates.hpp"
 
 namespace cca {
 namespace {
 
 /// Twice a price in nats is a chi-square: where mu_1 and mu_2 stand at one half.
 constexpr double kLineGate = 2.0 * kLinePrice;
-/// 99.9 % quantile of chi-square, one degree of freedom.
-constexpr double kSideBySideGate = 10.83;
 
 /// z^2 of the distance of b's centroid from a's line, extended that far; in units of the variance
 /// of one point.
@@ -65,7 +64,7 @@ Memberships memberships(const FittedSegment& a, const FittedSegment& b, const Jo
   mu.orientation = bell(orientationStatistic(a, b) / joint.variance, kLineGate);
   mu.offset = bell(offset, kLineGate);
   mu.gap = bell(gap_evidence, kGapGate);
-  mu.overlap = bell(overlap * offset, kSideBySideGate);
+  mu.overlap = bell(overlap * offset, kChiSquareGate1);
   return mu;
 }
 

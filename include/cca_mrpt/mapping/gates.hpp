@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cmath>
+
+namespace cca {
+
+/// Two-sided 99.9 % quantile of the normal distribution: a residual beyond so many of its
+/// deviations is no noise.
+constexpr double kNormalGate = 3.29;
+
+/// 99.9 % quantiles of chi-square with one and with two degrees of freedom: the same for squares
+/// over their variance.
+constexpr double kChiSquareGate1 = 10.83, kChiSquareGate2 = 13.82;
+
+/// rad; a wall seen at less cannot be told from a step in depth [Borges & Aldon 2004].
+constexpr double kGrazing = 4.0 * M_PI / 180.0;
+
+}  // namespace cca
