@@ -88,4 +88,24 @@ double shareWithin(const std::vector<double>& values, double limit);
 /// Distance of a scan's beam that counts as a return here.
 inline bool counts(double range) { return isReturn(range) && range >= 0.05; }
 
+inline double count(std::size_t n) { return static_cast<double>(n); }
+
+constexpr double kNatsPerCell = 4.5;  ///< a linear cell that no segment tells: three deviations
+
+// The groups of figures, named as docs/evaluation.md has them.
+ScoreGroup scorePoints(const EndPoints& ends, const SegmentIndex& index,
+                       const LogScoreParameters& p);
+/// Also gives the description length of the linear cells, without the segments' part.
+ScoreGroup scoreCells(const std::vector<Eigen::Vector2d>& keyframe_points, std::size_t keyframes,
+                      const SegmentIndex& index, const LogScoreParameters& p, double& cell_nats);
+/// Also tells which samples have no end point within 10 cm.
+ScoreGroup scorePhantoms(const MapSamples& samples, const std::vector<Eigen::Vector2d>& all,
+                         const std::vector<Eigen::Vector2d>& keyframe_points, double step,
+                         const LogScoreParameters& p, std::vector<bool>& unsupported);
+ScoreGroup scoreMap(const std::vector<Segment2>& map, double total);
+ScoreGroup scoreBias(const LateralBias& bias);
+ScoreGroup scoreRedundancy(const Redundancy& redundant, double length);
+ScoreGroup scoreFreeSpace(const FreeSpace& rays, const MapSamples& samples, double length);
+ScoreGroup scoreSize(const EndPoints& ends, std::size_t segments, const LogScoreParameters& p);
+
 }  // namespace cca::log_score
