@@ -118,11 +118,12 @@ void SupportProfile::add(const SupportBin& other) {
   if (i == j) {
     at(i).add(other);
   } else {
-    // The hits straddle two bins: they are shared out as if they were spread evenly.
+    // The hits straddle two bins: they are shared out as if they were spread evenly. A last hit on
+    // the border may lie before it by a rounding error, and no bin may hold less than nothing.
     const double border = j * kBinLength;
-    const double share = (border - other.t_min) / (other.t_max - other.t_min);
+    const double share = std::min((border - other.t_min) / (other.t_max - other.t_min), 1.0);
     at(i).add(other.part(share, other.t_min, border));
-    at(j).add(other.part(1.0 - share, border, other.t_max));
+    if (share < 1.0) at(j).add(other.part(1.0 - share, border, other.t_max));
   }
   refuted_ = refuted_ || at(i).isRefuted() || at(j).isRefuted();
 }

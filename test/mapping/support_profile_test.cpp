@@ -50,6 +50,20 @@ TEST(SupportProfile, CountsStayBoundedForever) {
   EXPECT_EQ(profile.last() - profile.first(), 1);
 }
 
+TEST(SupportProfile, NoBinHoldsLessThanNothingWhereAnotherEndsOnItsBorder) {
+  for (int j = 1; j < 400; ++j) {
+    const double border = j * SupportProfile::kBinLength;
+    for (const double last : {std::nextafter(border, 0.0), border, std::nextafter(border, 99.0)}) {
+      SupportBin bin;
+      for (const double t : {border - 0.02, last}) bin.hit(t, 0.0);
+      SupportProfile profile;
+      profile.add(bin);
+      EXPECT_NEAR(profile.tally().returns.w, 2.0, 1e-9);
+      for (int i = profile.first(); i < profile.last(); ++i) EXPECT_GE(profile.bin(i).hits, 0.0);
+    }
+  }
+}
+
 TEST(SupportProfile, ForgetsWhatRaysHaveRefuted) {
   SupportProfile profile = straight(0.0, 1.0);
   for (double t = 0.0; t < 1.0; t += 0.002) profile.pass(t);
