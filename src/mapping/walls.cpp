@@ -12,6 +12,7 @@ constexpr int kSlack = 10;      // bins that a wall may grow before it is indexe
 // Against what comes to stand where something was refuted: as many as do not refute it by
 // themselves, or no return of it would ever count.
 constexpr double kRaysOfFreed = 4.0;
+constexpr double kBeside = 0.1;  // m, within which walls with one front are merged
 
 }  // namespace
 
@@ -95,7 +96,20 @@ void Walls::hit(Slot slot, const Eigen::Vector2d& p) {
   wall.hits += 1.0;
   touch(slot);
   const bool is_new = bin.hits == 1.0 && bin.passed == 0.0;
-  if (is_new && freed_.contains(p)) wall.profile.pass(td.x(), kRaysOfFreed);
+  if (is_new && freed_.contains(p) && !standsBeside(slot, p)) {
+    wall.profile.pass(td.x(), kRaysOfFreed);
+  }
+}
+
+bool Walls::standsBeside(Slot slot, const Eigen::Vector2d& p) const {
+  const std::vector<Slot>& near = index_.at(WallIndex::cellOf(p));
+  return std::any_of(near.begin(), near.end(), [&](Slot other) {
+    const Wall& wall = (*this)[other];
+    const Eigen::Vector2d td = wall.toWall(p);
+    const int i = SupportProfile::binOf(td.x());
+    return other != slot && std::abs(wall.offLine(td)) <= kBeside && wall.profile.contains(i) &&
+           wall.profile.occupied(i);
+  });
 }
 
 bool Walls::prune(Slot slot) {

@@ -36,7 +36,9 @@ class Walls {
   Slot hitBy(const Eigen::Vector2d& p, const Eigen::Vector2d& viewpoint, double gate) const;
 
   /// Enters a return at `p` as a hit of a wall. Where something was refuted before, four rays speak
-  /// against what is new: more than eight returns are needed to believe it, two elsewhere.
+  /// against what is new: more than eight returns are needed to believe it, two elsewhere. What
+  /// lies beside another wall that stands is not new: the two may be merged, scan after scan, and
+  /// the rays would add up.
   void hit(Slot slot, const Eigen::Vector2d& p);
   /// Forgets the bins of a wall that rays have refuted, and remembers where they were.
   /// @return false where nothing is left of the wall.
@@ -49,6 +51,8 @@ class Walls {
   std::uint64_t nextVisit() { return ++visit_; }
 
  private:
+  bool standsBeside(Slot slot, const Eigen::Vector2d& p) const;
+
   std::vector<Wall> walls_;
   std::vector<Slot> free_, dead_, touched_;
   WallIndex index_;

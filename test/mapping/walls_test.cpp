@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "cca_mrpt/mapping/walls.hpp"
+
+#include <gtest/gtest.h>
+
+namespace cca {
+namespace {
+
+constexpr double kBin = SupportProfile::kBinLength;
+
+class PlaceThatWasFreed : public testing::Test {
+ protected:
+  /// Two returns at kPlace that many rays refuted.
+  void SetUp() override {
+    const Walls::Slot slot = wallAt(kPlace.y());
+    for (int k = 0; k < 2; ++k) walls_.hit(slot, kPlace);
+    walls_[slot].profile.pass(kPlace.x(), 9.0);
+    ASSERT_FALSE(walls_.prune(slot));
+    walls_.remove(slot);
+    walls_.recycle();
+  }
+  /// A wall along x.
+  Walls::Slot wallAt(double y) {
+    const Walls::Slot slot = walls_.create();
+    walls_[slot].origin = {0.0, y};
+    return slot;
+  }
+  /// The same with returns on each bin before x = 1 m.
+  Walls::Slot standingWallAt(double y, int returns) {
+    const Walls::Slot slot = wallAt(y);
+    for (int i = 0; i < 20; ++i) {
+      for (int k = 0; k < returns; ++k) walls_.hit(slot, {(i + 0.5) * kBin, y});
+    }
+    walls_.place(slot);
+    return slot;
+  }
+  /// Rays that speak against the first return of a wall at y.
+  double raysAgainstNewcomer(double y) {
+    const Walls::Slot slot = wallAt(y);
+    const Eigen::Vector2d p(kPlace.x(), y);
+    walls_.hit(slot, p);
+    return walls_[slot].profile.bin(SupportProfile::binOf(p.x())).passed;
+  }
+
+  const Eigen::Vector2d kPlace{0.52, 0.1};
+  Walls walls_;
+};
+
+TEST_F(PlaceThatWasFreed, SpeaksAgainstWhatIsNewThereAndNowhereElse) {
+  EXPECT_EQ(raysAgainstNewcomer(kPlace.y()), 4.0);
+  EXPECT_EQ(raysAgainstNewcomer(0.5), 0.0);
+}
+
+TEST_F(PlaceThatWasFreed, SpeaksOnceAgainstEachBin) {
+  const Walls::Slot slot = wallAt(kPlace.y());
+  for (int k = 0; k < 5; ++k) walls_.hit(slot, kPlace);
+  EXPECT_EQ(walls_[slot].profile.bin(SupportProfile::binOf(kPlace.x())).passed, 4.0);
+}
+
+TEST_F(PlaceThatWasFreed, DoesNotSpeakAgainstWhatLiesBesideAWallThatStands) {
+  standingWallAt(kPlace.y() + 0.04, 10);
+  EXPECT_EQ(raysAgainstNewcomer(kPlace.y()), 0.0);
+}
+
+TEST_F(PlaceThatWasFreed, SpeaksAgainstWhatLiesBesideAWallThatDoesNotStandYet) {
+  standingWallAt(kPlace.y() + 0.04, 1);
+  EXPECT_EQ(raysAgainstNewcomer(kPlace.y()), 4.0);
+}
+
+TEST_F(PlaceThatWasFreed, SpeaksAgainstWhatLiesFurtherOffThanWhatIsMerged) {
+  standingWallAt(kPlace.y() + 0.15, 10);
+  EXPECT_EQ(raysAgainstNewcomer(kPlace.y()), 4.0);
+}
+
+}  // namespace
+}  // namespace cca
