@@ -2,12 +2,18 @@
 #include "cca_mrpt/evidence/labelled_scan.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <limits>
+#include <optional>
 #include <sstream>
 #include <stdexcept>
+#include <string>
+#include <utility>
 
 #include "cca_mrpt/io/log_reader.hpp"
 #include "cca_mrpt/mapping/cross.hpp"
@@ -114,6 +120,43 @@ std::vector<Segment2> randomPolygon(Random& random) {
   return edges;
 }
 
+using Row = std::vector<std::string>;
+
+/// The cells of a row, by comma, semicolon or blank; none of a comment.
+Row cellsOf(std::string line) {
+  for (char& c : line) c = c == ',' || c == ';' || c == '\r' ? ' ' : c;
+  if (line[0] == '#') return {};
+  std::istringstream text(line);
+  return {std::istream_iterator<std::string>(text), {}};
+}
+
+/// Which cell of a row holds x1, y1, x2, y2, by the names of a header.
+using Columns = std::array<std::size_t, 4>;
+std::optional<Columns> columnsOf(const Row& header) {
+  Columns columns{};
+  for (std::size_t k = 0; k < columns.size(); ++k) {
+    const char* const names[] = {"x1", "y1", "x2", "y2"};
+    const auto found = std::find(header.begin(), header.end(), names[k]);
+    if (found == header.end()) return std::nullopt;
+    columns[k] = static_cast<std::size_t>(found - header.begin());
+  }
+  return columns;
+}
+
+/// Nothing where a cell is missing, no number, or where no building reaches.
+std::optional<Segment2> segmentOf(const Row& row, const Columns& columns) {
+  double value[4] = {};
+  for (std::size_t k = 0; k < columns.size(); ++k) {
+    if (columns[k] >= row.size()) return std::nullopt;
+    char* end = nullptr;
+    value[k] = std::strtod(row[columns[k]].c_str(), &end);
+    if (*end != '\0' || !(std::abs(value[k]) <= kFarthest)) return std::nullopt;
+  }
+  const Segment2 segment{{value[0], value[1]}, {value[2], value[3]}};
+  if (segment.length() > kLongest) return std::nullopt;
+  return segment;
+}
+
 }  // namespace
 
 std::vector<Segment2> loadSegments(const std::string& csv_path) {
@@ -122,26 +165,24 @@ std::vector<Segment2> loadSegments(const std::string& csv_path) {
     throw std::runtime_error(csv_path + ": cannot be read");
   }
   std::vector<Segment2> segments;
+  Columns columns{0, 1, 2, 3};
+  bool is_first = true;
   std::string line;
-  bool first = true;
   for (int number = 1; std::getline(file, line); ++number) {
-    for (char& c : line) c = c == ',' || c == ';' || c == '\r' ? ' ' : c;
-    if (line.find_first_not_of(' ') == std::string::npos || line[0] == '#') continue;
-    std::istringstream row(line);
-    Segment2 s;
-    row >> s.start.x() >> s.start.y() >> s.end.x() >> s.end.y();
-    const bool numbers = static_cast<bool>(row), is_header = first && !numbers;
-    first = false;
-    if (is_header) continue;
-    const double farthest =
-        std::max(s.start.lpNorm<Eigen::Infinity>(), s.end.lpNorm<Eigen::Infinity>());
-    if (!numbers || !(farthest <= kFarthest && s.length() <= kLongest)) {
+    const Row row = cellsOf(line);
+    if (row.empty()) continue;
+    const bool may_be_header = std::exchange(is_first, false);
+    if (const auto segment = segmentOf(row, columns)) {
+      segments.push_back(*segment);
+    } else if (const auto named = columnsOf(row); may_be_header && named) {
+      columns = *named;
+    } else {
       throw std::runtime_error(csv_path + ":" + std::to_string(number) +
                                ": needs four numbers x1,y1,x2,y2 in [-1e7, 1e7] m, a segment of "
-                               "1e5 m at most");
+                               "1e5 m at most, or a header with these names before all");
     }
-    segments.push_back(s);
   }
+  if (is_first) throw std::runtime_error(csv_path + ": is empty");
   return segments;
 }
 

@@ -131,6 +131,7 @@ refuses 1 "not a line map" "$program" render room.log --out d.png
 # What is scored: comments and a header are passed over, what is no place in a building is refused.
 printf '# a comment\nx1,y1,x2,y2\n0,3,6,3\n' >one.csv
 check "evaluate takes a comment before the header" "$program" evaluate one.csv --log room.log
+refuses 1 "/dev/null: is empty" "$program" evaluate /dev/null --log room.log
 printf 'x1,y1,x2,y2\n0,0,1e9,0\n' >far.csv
 refuses 1 "far.csv:2" "$program" evaluate far.csv --log room.log
 
