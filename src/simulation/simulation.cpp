@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <cstdio>
 #include <stdexcept>
 
 namespace cca {
@@ -34,6 +35,13 @@ Simulation::Simulation(World world, const Pose2& T_map_start,
       laser_random_(seedOf(parameters.seed, kLaserStream)) {
   const double radius = parameters.robot.radius;
   requireStandable(world_, T_map_start, radius);
+  if (parameters.laser.range <= radius) {
+    char text[120];
+    std::snprintf(text, sizeof text,
+                  "a laser of range %g m sees nothing beyond the robot's radius, %g m",
+                  parameters.laser.range, radius);
+    throw std::runtime_error(world_.name + ": " + text);
+  }
   if (clearance(T_map_start.position(), radius) < radius) {
     throw std::runtime_error(world_.name + ": a mover stands at the robot's start");
   }

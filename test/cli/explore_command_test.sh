@@ -56,6 +56,7 @@ expect_error 1 "nowhere.yaml: cannot be read" explore nowhere.yaml --out d
 expect_error 1 "touches an obstacle" explore "$maps/two_rooms.yaml" --start 5,1,0 --out d
 expect_error 1 "outside the world" explore "$maps/two_rooms.yaml" --start=-5,1,0 --out d
 expect_error 1 "outside the world" explore "$maps/two_rooms.yaml" --start=1e6,1,0 --out d
+expect_error 1 "nothing beyond the robot's radius" explore "$maps/two_rooms.yaml" --laser-range 0.2 --out d
 expect_error 2 "start" explore "$maps/two_rooms.yaml" --start=nan,1,0 --out d
 expect_error 2 "beams" explore "$maps/two_rooms.yaml" --laser.beams 1 --laser.caster mrpt --out d
 expect_error 2 "explroe is no command" explroe "$maps/two_rooms.yaml"

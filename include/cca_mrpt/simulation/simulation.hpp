@@ -31,7 +31,9 @@ struct TimedPose {
 /// give equal results, bit by bit.
 class Simulation {
  public:
-  /// @throws std::runtime_error where the robot cannot stand at the start.
+  /// @throws std::runtime_error where the robot cannot stand at the start, or its laser sees
+  /// nothing
+  ///         beyond it.
   Simulation(World world, const Pose2& T_map_start, const SimulationParameters& parameters,
              const std::vector<Mover>& movers = {});
 
