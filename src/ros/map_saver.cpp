@@ -12,6 +12,7 @@ MapSaver::MapSaver(const ros::NodeHandle& private_node, std::string folder, Snap
       node_(private_node),
       spinner_(1, &queue_) {
   node_.setCallbackQueue(&queue_);
+  tellIfNothingCanBeWritten();
   service_ = node_.advertiseService("save", &MapSaver::onSave, this);
   spinner_.start();
 }
@@ -25,6 +26,14 @@ void MapSaver::save() {
   const FolderLock lock = prepareMapFolder(folder_, true);
   writeMapFolder(folder_, products);
   ROS_INFO("map saved to %s", folder_.c_str());
+}
+
+void MapSaver::tellIfNothingCanBeWritten() const try {
+  const bool is_new = !std::filesystem::exists(folder_);
+  static_cast<void>(prepareMapFolder(folder_, true));
+  if (is_new) std::filesystem::remove(folder_);
+} catch (const std::exception& error) {
+  ROS_ERROR("no map can be saved: %s", error.what());
 }
 
 void MapSaver::saveOrTell() {

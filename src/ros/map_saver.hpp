@@ -21,6 +21,7 @@ class MapSaver {
   /// @throws std::runtime_error where there is nothing yet.
   using Snapshot = std::function<MapProducts()>;
 
+  /// Tells on the console, before the work, where the folder cannot be written.
   MapSaver(const ros::NodeHandle& private_node, std::string folder, Snapshot snapshot);
 
   /// To be held wherever what the snapshot reads is changed.
@@ -33,6 +34,7 @@ class MapSaver {
   void saveSoon();
 
  private:
+  void tellIfNothingCanBeWritten() const;
   bool onSave(std_srvs::Trigger::Request&, std_srvs::Trigger::Response& response);
 
   std::string folder_;

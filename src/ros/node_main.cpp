@@ -7,12 +7,15 @@
 
 #include <atomic>
 #include <csignal>
+#include <cstdio>
 #include <exception>
 
 #include "master_watch.hpp"
 
 namespace cca {
 namespace {
+
+constexpr int kUsage = 2;
 
 std::atomic<bool> asked_to_end{false};
 static_assert(std::atomic<bool>::is_always_lock_free, "set in a signal handler");
@@ -29,19 +32,28 @@ void onShutdownRequest(XmlRpc::XmlRpcValue& /*request*/, XmlRpc::XmlRpcValue& re
 
 int runNode(int argc, char** argv, const std::string& name, const std::function<void()>& body) {
   ros::init(argc, argv, name, ros::init_options::NoSigintHandler);
-  std::signal(SIGINT, onSignal);
-  std::signal(SIGTERM, onSignal);
+  if (argc > 1) {  // ROS has taken its own out
+    std::fprintf(stderr, "%s: '%s' is not expected; parameters are given as _name:=value\n",
+                 name.c_str(), argv[1]);
+    return kUsage;
+  }
   const auto& requests = ros::XMLRPCManager::instance();
   requests->unbind("shutdown");
   requests->bind("shutdown", onShutdownRequest);
-  const ros::NodeHandle keeps_console_alive;  // with the last handle the console goes, too
+  // Waits for the master, which a signal ends as it ends any program: there is nothing to save yet.
+  // It also keeps the console alive, which goes with the last handle.
+  const ros::NodeHandle first_handle;
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+    const bool ignored = std::signal(signal, onSignal) == SIG_IGN;
+    if (ignored && signal == SIGHUP) std::signal(signal, SIG_IGN);  // nohup
+  }
   int status = 0;
   try {
     const MasterWatch watch;
     body();
   } catch (const std::exception& error) {
     ROS_FATAL("%s", error.what());
-    status = 2;
+    status = kUsage;
   }
   ros::shutdown();
   return status;

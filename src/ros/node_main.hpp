@@ -8,9 +8,10 @@ namespace cca {
 
 /// The main() of every node: init, body, and one place for errors.
 ///
-/// Ctrl-C, SIGTERM and `rosnode kill` do not tear the node down where it stands: keepRunning()
-/// turns false, and the body may still save its map and stop the robot over live connections.
-/// @return  0; 2 after a fatal message where the body threw.
+/// Ctrl-C, SIGTERM, SIGHUP and `rosnode kill` do not tear the node down where it stands:
+/// keepRunning() turns false, and the body may still save its map and stop the robot over live
+/// connections. While it waits for a master, a signal ends it at once.
+/// @return  0; 2 after a fatal message where the body threw, and for arguments that are not ROS's.
 int runNode(int argc, char** argv, const std::string& name, const std::function<void()>& body);
 
 /// Serves callbacks as they come, for at most this long in wall time.

@@ -5,6 +5,7 @@
 #include <charconv>
 #include <sstream>
 #include <stdexcept>
+#include <type_traits>
 
 namespace cca {
 namespace {
@@ -58,20 +59,32 @@ void PrivateParameters::flag(const std::string& name, bool& value) {
   value = text == "true";
 }
 
-void PrivateParameters::number(const std::string& name, double& value, double lowest,
-                               double highest, const std::string& unit) {
+template <class Number>
+void PrivateParameters::parse(const std::string& name, Number& value, Number lowest, Number highest,
+                              const std::string& unit) {
   XmlRpc::XmlRpcValue parameter;
   if (!given(name, parameter)) return;
   const std::string text = textOf(parameter);
   const char* last = text.data() + text.size();
-  double number = 0.0;
+  Number number{};
   const auto [end, error] = std::from_chars(text.data(), last, number);
   if (error != std::errc() || end != last || !(number >= lowest && number <= highest)) {
     std::ostringstream allowed;
-    allowed << "a number in [" << lowest << ", " << highest << "] " << unit;
+    allowed << (std::is_integral_v<Number> ? "a whole number" : "a number") << " in [" << lowest
+            << ", " << highest << "]" << (unit.empty() ? "" : " ") << unit;
     refuse(name, text, allowed.str());
   }
   value = number;
+}
+
+void PrivateParameters::number(const std::string& name, double& value, double lowest,
+                               double highest, const std::string& unit) {
+  parse(name, value, lowest, highest, unit);
+}
+
+void PrivateParameters::number(const std::string& name, int& value, int lowest, int highest,
+                               const std::string& unit) {
+  parse(name, value, lowest, highest, unit);
 }
 
 void PrivateParameters::choice(const std::string& name, std::string& value,

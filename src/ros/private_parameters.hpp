@@ -23,6 +23,8 @@ class PrivateParameters {
   void flag(const std::string& name, bool& value);
   void number(const std::string& name, double& value, double lowest, double highest,
               const std::string& unit);
+  void number(const std::string& name, int& value, int lowest, int highest,
+              const std::string& unit);
   void choice(const std::string& name, std::string& value, const std::vector<std::string>& allowed);
   /// Warns where a parameter is given that is the node's own, but is not used this time.
   void withoutEffect(const std::string& name);
@@ -35,6 +37,9 @@ class PrivateParameters {
   void refuseUnknown() const;
 
  private:
+  template <class Number>
+  void parse(const std::string& name, Number& value, Number lowest, Number highest,
+             const std::string& unit);
   bool given(const std::string& name, XmlRpc::XmlRpcValue& value);
   [[noreturn]] void refuse(const std::string& name, const std::string& value,
                            const std::string& allowed) const;

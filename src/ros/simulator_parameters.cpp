@@ -42,7 +42,7 @@ void readParameters(PrivateParameters& parameters, SimulatorParameters& p) {
   parameters.text("start_pose", p.start_pose);
   parameters.number("speed", p.speed, 0.01, 1000.0, "times real time");
   parameters.number("scan_rate", p.scan_rate, 1.0, 100.0, "Hz");
-  parameters.number("seed", p.seed, 0.0, 1e9, "");
+  parameters.number("seed", p.seed, 0, 1000000000, "");
   parameters.text("record", p.record);
 }
 

@@ -16,7 +16,7 @@ struct SimulatorParameters {
   std::string start_pose;   ///< "X,Y,DEG"; empty: the world's own, else the widest place
   double speed = 1.0;       ///< simulated seconds a second of the wall
   double scan_rate = 10.0;  ///< Hz
-  double seed = 1.0;
+  int seed = 1;
   std::string record;  ///< bag to write; empty: none
 };
 

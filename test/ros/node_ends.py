@@ -27,13 +27,34 @@ class NodeEnds(OwnMaster):
             self.assertTrue(os.path.exists(os.path.join(self.out, name)), name)
 
     def test_ctrl_c_saves_the_map(self):
-        for sign in (signal.SIGINT, signal.SIGTERM):
+        for sign in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
             with self.subTest(sign):
                 node = self.exploring()
                 node.send_signal(sign)
                 self.assertEqual(node.wait(timeout=90), 0)
                 self.expect_saved()
                 self.ask("rm", "-r", self.out)
+
+    def test_ctrl_c_ends_a_node_that_waits_for_its_master(self):
+        self.master.kill()
+        self.master.wait()
+        for name in ("explore", "line_mapper", "simulator"):
+            for sign in (signal.SIGINT, signal.SIGTERM):
+                with self.subTest((name, sign)):
+                    node = self.node(name)
+                    time.sleep(1.5)
+                    self.assertIsNone(node.poll(), "it waits")
+                    node.send_signal(sign)
+                    self.assertEqual(node.wait(timeout=10), -sign)
+
+    def test_a_folder_that_cannot_be_written_is_told_before_the_work(self):
+        with open(self.out, "w"):
+            pass
+        node = self.node("explore", "_world:=none", "_out:=" + self.out)
+        self.assertTrue(self.says("/status", "waiting"))
+        node.send_signal(signal.SIGINT)
+        output, _ = node.communicate(timeout=90)
+        self.assertIn("no map can be saved: %s: cannot be made a folder" % self.out, output)
 
     def test_rosnode_kill_saves_the_map(self):
         node = self.exploring()
@@ -79,6 +100,8 @@ class NodeEnds(OwnMaster):
                 ("explore", "_speed:=3", ["speed", "use_sim_time"]),
                 ("explore", "_autostart:=maybe", ["/explore/autostart", "maybe", "true or false"]),
                 ("explore", "_start_pose:=here", ["start_pose", "here", "X,Y,DEG"]),
+                ("explore", "_seed:=1.5", ["/explore/seed", "1.5", "whole number in [0, 1000000000]"]),
+                ("explore", "office", ["'office' is not expected", "_name:=value"]),
                 ("explore", "_config:=/no/such.ini", ["/no/such.ini"]),
                 ("simulator", "_scan_rate:=0", ["/simulator/scan_rate", "[1, 100] Hz"]),
                 ("line_mapper", "_similarity_cut:=7", ["/line_mapper/similarity_cut", "[0.01, 1]"])]:
