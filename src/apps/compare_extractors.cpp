@@ -133,7 +133,9 @@ class Results {
 
 void compare(const Options& options, const Parameters& parameters) {
   Results results;
-  for (const ScanGroup& group : gather(options, parameters.laser)) {
+  const auto groups = gather(options, parameters.laser);
+  if (!options.out.empty()) makeFolder(options.out);
+  for (const ScanGroup& group : groups) {
     std::printf("\n### %s\n\n%s\n", title(group).c_str(), tableHead().c_str());
     std::vector<Trial> ours;
     for (const Contender& contender : contenders(parameters.mapping)) {
@@ -155,7 +157,6 @@ void compare(const Options& options, const Parameters& parameters) {
     }
   }
   if (options.out.empty()) return;
-  std::filesystem::create_directories(options.out);
   writeFile(options.out + "/comparison.csv", results.text());
 }
 
@@ -196,7 +197,7 @@ void addCompareExtractorsCommand(CLI::App& program) {
       ->delimiter(',')
       ->check(CLI::IsMember(allNames()));
   command->add_option("--seed", options->seed, "of places, noise and draws")
-      ->check(CLI::NonNegativeNumber)
+      ->check(valueOf("run.seed"))
       ->capture_default_str();
   command
       ->add_option("--fit", options->fit,

@@ -3,7 +3,6 @@
 #include <atomic>
 #include <cstdio>
 #include <exception>
-#include <filesystem>
 #include <map>
 #include <memory>
 #include <mutex>
@@ -235,7 +234,7 @@ void compare(const CompareOptions& options, const Parameters& parameters) {
     }
     worlds.push_back(std::move(world));
   }
-  std::filesystem::create_directories(options.out);
+  makeFolder(options.out);
   const std::vector<Result> results = performAll(runs, worlds, parameters);
   writeFile(options.out + "/runs.csv", table(runs, results));
   writeFile(options.out + "/curves.csv", curves(runs, results));

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "background_work.hpp"
+#include "cca_mrpt/io/atomic_file.hpp"
 #include "cca_mrpt/io/icp_localizer.hpp"
 #include "cca_mrpt/io/late_library.hpp"
 #include "cca_mrpt/io/map_products.hpp"
@@ -64,7 +65,7 @@ Simulation makeSimulation(const ExploreOptions& options, const Parameters& param
 std::string chooseFolder(const ExploreOptions& options, const std::string& world) {
   std::string folder = options.out;
   if (folder.empty()) {
-    fs::create_directories("out");
+    makeFolder("out");
     for (int number = 1; folder.empty(); ++number) {
       char name[16];
       std::snprintf(name, sizeof name, "-%03d", number);
@@ -164,12 +165,12 @@ void explore(const ExploreOptions& options, const Parameters& parameters) {
   const auto start = Clock::now();
   requireBeams(parameters);
   Simulation simulation = makeSimulation(options, parameters);
+  std::unique_ptr<ExplorationWindow> window;
+  if (options.gui) window = openWindow(simulation.world());
   const std::string folder = chooseFolder(options, simulation.world().name);
   const FolderLock lock = prepareMapFolder(folder, options.force);
   Explorer explorer(parameters.mapping, parameters.robot, parameters.exploration);
   ExplorationRecord record(simulation, folder);
-  std::unique_ptr<ExplorationWindow> window;
-  if (options.gui) window = openWindow(simulation.world());
   std::unique_ptr<Progress> progress;
   if (!options.quiet) progress = std::make_unique<Progress>("exploring");
   auto end = drive(simulation, explorer, record, parameters, progress.get(), window.get());

@@ -9,6 +9,7 @@
 #include "cca_mrpt/io/world_files.hpp"
 #include "cca_mrpt/simulation/world_generator.hpp"
 #include "commands.hpp"
+#include "parameter_options.hpp"
 
 namespace cca::apps {
 
@@ -41,7 +42,7 @@ void addGenerateWorldCommand(CLI::App& program) {
       ->required()
       ->check(CLI::IsMember(floorPlanKinds()));
   command->add_option("--seed", options->seed, "varies furniture and random buildings")
-      ->check(CLI::NonNegativeNumber)
+      ->check(valueOf("run.seed"))
       ->capture_default_str();
   command->add_option("--name", options->name, "name of the files, if not KIND");
   command->add_option("--out", options->out, "folder")->capture_default_str();

@@ -39,7 +39,9 @@ struct RenderOptions {
 
 std::string readFile(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
-  if (!file) throw std::runtime_error(path + ": cannot be read");
+  if (!file || std::filesystem::is_directory(path)) {
+    throw std::runtime_error(path + ": cannot be read");
+  }
   std::ostringstream text;
   text << file.rdbuf();
   return text.str();

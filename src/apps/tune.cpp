@@ -177,7 +177,7 @@ void tune(const Options& options) {
   requireTwoLevels("--similarity-cut", options.design.similarity_cut.size());
   requireTwoLevels("--scans-per-batch", options.design.scans_per_batch.size());
   const Shard shard = parseShard(options.shard);
-  std::filesystem::create_directories(options.out);
+  makeFolder(options.out);
   if (!options.merge) {
     TuningRows rows(rowsPath(options, shard), options.design);
     Workers(options, shard, rows).run();

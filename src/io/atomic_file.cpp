@@ -71,6 +71,15 @@ void AtomicFile::commit() {
   if (std::rename(temporary_.c_str(), target_.c_str()) != 0) throw cannotWrite(path_);
 }
 
+void makeFolder(const std::string& path) {
+  std::error_code error;
+  std::filesystem::create_directories(path, error);
+  if (error || !std::filesystem::is_directory(path)) {
+    throw std::runtime_error(path + ": cannot be made a folder" +
+                             (error ? ": " + error.message() : ""));
+  }
+}
+
 void writeFile(const std::string& path, std::string_view content) {
   if (isDevice(path)) return write(path, content, path);
   AtomicFile file(path);

@@ -24,15 +24,6 @@ std::string inFolder(const std::string& folder, const char* name) {
   return (fs::path(folder) / name).string();
 }
 
-void makeFolder(const std::string& folder) {
-  std::error_code error;
-  fs::create_directories(folder, error);
-  if (error || !fs::is_directory(folder)) {
-    throw std::runtime_error(folder + ": cannot be made a folder" +
-                             (error ? ": " + error.message() : ""));
-  }
-}
-
 nlohmann::ordered_json summarize(const MapProducts& products) {
   double length = 0.0;
   for (const MapLine& line : products.lines) length += line.segment.length();

@@ -7,7 +7,6 @@
 #include <cctype>
 #include <cmath>
 #include <cstdio>
-#include <filesystem>
 #include <stdexcept>
 
 #include "cca_mrpt/io/atomic_file.hpp"
@@ -65,8 +64,7 @@ std::string truthText(const FloorPlan& plan) {
 
 void writeWorldFiles(const FloorPlan& plan, const std::string& folder) {
   requirePlainName(plan.name);
-  std::error_code failure;
-  std::filesystem::create_directories(folder, failure);
+  makeFolder(folder);
   const std::string stem = folder + "/" + plan.name;
   writePng(picture(rasterise(plan, kWorldResolution)), stem + ".png");
   writeFile(stem + ".truth.csv", truthText(plan));

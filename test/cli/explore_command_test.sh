@@ -63,10 +63,13 @@ expect_error 2 "explroe is no command" explroe "$maps/two_rooms.yaml"
 expect_error 2 "strategy" explore "$maps/two_rooms.yaml" --strategy clairvoyance --out d
 expect_error 2 "laser-range" explore "$maps/two_rooms.yaml" --laser-range -3 --out d
 expect_error 2 "pose" explore "$maps/two_rooms.yaml" --pose guess --out d
+unset DISPLAY
+expect_error 1 "no display" explore "$maps/two_rooms.yaml" --gui --out d
 printf '[laser]\nrnage = 4\n' >typo.ini
 expect_error 2 "rnage" explore "$maps/two_rooms.yaml" --config typo.ini --out d
 printf 'movers:\n  - {start: [2, 2], speed: 50}\n' >fast.yaml
 expect_error 1 "movers[0]: speed" explore "$maps/two_rooms.yaml" --movers fast.yaml --out d
+touch two.yaml
 expect_error 2 "castle" generate-world castle
 [ ! -e d ] || fail "a run that never began left a folder"
 
@@ -97,6 +100,8 @@ for extension in yaml png truth.csv; do
 done
 expect_error 1 "exists" generate-world maze --out worlds
 
+expect_error 1 "two.yaml/maze: cannot be made a folder" generate-world maze --out two.yaml/maze
+expect_error 2 "a whole number in [0, 2147483647]" generate-world maze --seed -1
 expect_error 1 "name of a world" generate-world maze --out worlds --name ../elsewhere
 
 # compare-strategies: a robot of another size, results whole or an error.
@@ -104,6 +109,8 @@ expect_error 1 "name of a world" generate-world maze --out worlds --name ../else
   --robot.radius 0.4 --out strategies >/dev/null 2>&1 || fail "compare-strategies: status $?"
 [ "$(wc -l <strategies/runs.csv)" -eq 4 ] || fail "compare-strategies: a row a run"
 expect_error 2 "clairvoyance" compare-strategies "$maps/two_rooms.yaml" --strategies clairvoyance
+expect_error 1 "two.yaml: cannot be made a folder" compare-strategies "$maps/two_rooms.yaml" --out two.yaml
+expect_error 1 "two.yaml: cannot be made a folder" compare-extractors "$maps/two_rooms.yaml" --scans 1 --out two.yaml
 expect_error 1 "second world" compare-strategies "$maps/two_rooms.yaml" "$maps/two_rooms.yaml" --out s
 said=$(trap '' XFSZ; ulimit -f 0; "$program" compare-strategies "$maps/two_rooms.yaml" \
   --strategies nearest_frontier --starts 1 --out unwritten 2>&1) && fail "lost results, status 0"

@@ -126,6 +126,7 @@ refuses 2 "must end in .png" "$program" render map/lines.csv --out d.foo
 refuses 2 "inf" "$program" render map/lines.csv --view 0,0,inf,1 --out d.png
 refuses 1 "written as .gif or .mp4" "$program" render --video --log room.log --out a.avi
 refuses 2 "view" "$program" render map/lines.csv --view 3,0,0,2 --out d.png
+refuses 1 "map: cannot be read" "$program" render map --out d.png
 refuses 1 "not a line map" "$program" render room.log --out d.png
 
 # What is scored: comments and a header are passed over, what is no place in a building is refused.

@@ -29,6 +29,10 @@ class AtomicFile {
   std::string path_, target_, temporary_;
 };
 
+/// Makes a folder, and those that it lies in; one that is there stays as it is. @throws
+/// std::runtime_error naming the folder and the reason.
+void makeFolder(const std::string& path);
+
 /// Writes a whole file at once; into devices and pipes (/dev/stdout) directly. @throws
 /// std::runtime_error naming the file and the reason.
 void writeFile(const std::string& path, std::string_view content);
