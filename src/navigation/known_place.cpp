@@ -56,7 +56,7 @@ void KnownPlace::findWays(const Eigen::Vector2d& from_map, std::optional<Cell> u
 }
 
 bool KnownPlace::isOnGrid(const Eigen::Vector2d& p_map) const {
-  return p_map.allFinite() && p_map.cwiseAbs().maxCoeff() < grid_.resolution() * kFarthestCell;
+  return grid_.covers(p_map);
 }
 
 }  // namespace cca
