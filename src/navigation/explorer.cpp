@@ -113,7 +113,10 @@ Action Explorer::explore(const Observation& observation) {
   }
   if (plan.look_around) return lookAround(observation);
   looks_around_since_.reset();
-  if (plan.path.empty()) return {{}, {}, ExplorationStatus::kExploring, "waiting for a scan"};
+  if (plan.path.empty()) {
+    const std::string why = plan.reason.empty() ? "waiting for a scan" : plan.reason;
+    return {{}, {}, ExplorationStatus::kExploring, why};
+  }
   Action action{{}, plan.path.back(), ExplorationStatus::kExploring, plan.reason};
   const std::size_t next = parameters_.path == "paper"
                                ? plan.path.size() - 1

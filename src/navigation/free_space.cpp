@@ -3,17 +3,40 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <utility>
 
 namespace cca {
+namespace {
 
-FreeSpace::FreeSpace(double clearance, double resolution) : clearance_(clearance) {
-  const double reach = clearance / resolution;
+/// Offsets of the cells that come nearer to a cell's centre than a distance, in cells.
+std::vector<Cell> cellsWithin(double reach) {
   const int n = static_cast<int>(std::ceil(reach + 0.5));
+  std::vector<Cell> cells;
   for (int y = -n; y <= n; ++y) {
     for (int x = -n; x <= n; ++x) {
       const double gap_x = std::max(std::abs(x) - 0.5, 0.0),
                    gap_y = std::max(std::abs(y) - 0.5, 0.0);
-      if (std::hypot(gap_x, gap_y) < reach - 1e-9) disc_.push_back({x, y});
+      if (std::hypot(gap_x, gap_y) < reach - 1e-9) cells.push_back({x, y});
+    }
+  }
+  return cells;
+}
+
+}  // namespace
+
+FreeSpace::FreeSpace(double clearance, double resolution)
+    : clearance_(clearance), resolution_(resolution), disc_(cellsWithin(clearance / resolution)) {}
+
+void FreeSpace::reduceClearance(double clearance, Cell low, Cell high) {
+  clearance_ = clearance;
+  std::vector<Cell> disc = cellsWithin(clearance / resolution_), ring;
+  std::copy_if(disc_.begin(), disc_.end(), std::back_inserter(ring),
+               [&](Cell c) { return std::find(disc.begin(), disc.end(), c) == disc.end(); });
+  disc_ = std::move(disc);
+  for (int y = low.y; y <= high.y; ++y) {
+    for (int x = low.x; x <= high.x; ++x) {
+      if (cells_.at({x, y}) & kOccupied) grow({x, y}, ring, false);
     }
   }
 }
@@ -26,13 +49,13 @@ void FreeSpace::update(const ExplorationGrid& grid, const std::vector<Cell>& cha
     cell &= ~(kFree | kOccupied);
     if (state == CellState::kFree || state == CellState::kPresumedFree) cell |= kFree;
     if (is_occupied) cell |= kOccupied;
-    if (is_occupied != was_occupied) grow(c, is_occupied);
+    if (is_occupied != was_occupied) grow(c, disc_, is_occupied);
     mark(c);
   }
 }
 
-void FreeSpace::grow(Cell obstacle, bool is_growing) {
-  for (const Cell offset : disc_) {
+void FreeSpace::grow(Cell obstacle, const std::vector<Cell>& disc, bool is_growing) {
+  for (const Cell offset : disc) {
     const Cell c = obstacle + offset;
     if (!isStorable(c)) continue;
     std::uint32_t& cell = cells_[c];

@@ -7,7 +7,6 @@
 namespace cca {
 namespace {
 
-constexpr int kFrontierExtent = 40;  // cells: longer frontiers are several
 // m, into the unknown: what a view point is to see. Half a metre lets the robot peek around a
 // corner and decide anew, time and again: eight worlds took 3 % more to 90 % coverage, and no less
 // to 99 %.
@@ -37,15 +36,14 @@ double apart(Cell a, Cell b) { return std::hypot(a.x - b.x, a.y - b.y); }
 }  // namespace
 
 double FrontierViews::reach(const KnownPlace& place) const {
-  return (is_last_look_ ? 1.0 : kViewShare) * place.laserRange();
+  return kViewShare * place.laserRange();
 }
 
 bool FrontierViews::isWithinLimits(const KnownPlace& place, Cell c) const {
   return limits_.size() < 3 || isInside(limits_, place.grid().centreOf(c));
 }
 
-void FrontierViews::find(KnownPlace& place, const AsideGoals& aside, Cell here, bool is_last_look) {
-  is_last_look_ = is_last_look;
+void FrontierViews::find(KnownPlace& place, const AsideGoals& aside, Cell here) {
   view_points_.clear();
   entries_.clear();
   std::vector<ViewPoint> rests;
@@ -76,8 +74,8 @@ std::vector<Frontier> FrontierViews::nearestFrontiers(KnownPlace& place, Cell he
     Frontier frontier;
   };
   std::vector<Candidate> candidates;
-  for (Frontier& frontier : place.frontiers(kFrontierExtent)) {
-    if (frontier.cells.size() < (is_last_look_ ? kRest : smallest_frontier_)) continue;
+  for (Frontier& frontier : place.frontiers()) {
+    if (frontier.cells.size() < smallest_frontier_) continue;
     const double known_way = place.ways().distanceTo(frontier.middle);
     const double line = apart(frontier.middle, here) * place.grid().resolution();
     const double distance = known_way < DistanceField::kUnreached ? known_way : line;
@@ -98,9 +96,8 @@ std::optional<ViewPoint> FrontierViews::viewOf(const KnownPlace& place, Cell tar
   return view_point && isWithinLimits(place, view_point->cell) ? view_point : std::nullopt;
 }
 
-// What lies two metres behind a frontier may be inside a wall, or seen from nowhere. Once that has
-// been set aside, or nothing else is left to see, the frontier gets another chance with a nearer
-// target.
+// What lies two metres behind a frontier may be inside a wall. Once that has been set aside, the
+// frontier gets another chance with a nearer target.
 std::optional<ViewPoint> FrontierViews::viewOf(const KnownPlace& place, const AsideGoals& aside,
                                                const Frontier& frontier) const {
   const ExplorationGrid& grid = place.grid();
@@ -108,13 +105,10 @@ std::optional<ViewPoint> FrontierViews::viewOf(const KnownPlace& place, const As
     const Cell target = cellBehind(grid, frontier, depth);
     if (!isWithinLimits(place, target) || aside.contains(target, grid.revealed())) continue;
     const double gain = unknownAreaInView(grid, target, kGainRange);
-    if (gain >= smallest_gain_) {
-      if (auto view_point = viewOf(place, target)) {
-        view_point->gain = gain;
-        return view_point;
-      }
-    }
-    if (!is_last_look_) break;
+    if (gain < smallest_gain_) break;
+    auto view_point = viewOf(place, target);
+    if (view_point) view_point->gain = gain;
+    return view_point;
   }
   return {};
 }

@@ -9,9 +9,10 @@ namespace {
 // m^2, of gain exp(-0.2 way): a frontier that promises this is driven into. With 3 there is less
 // way to 90 % coverage and more to 99 %, with 8 the reverse.
 constexpr double kWorthEntering = 6.5;
-constexpr double kReconsiderAfter = 0.3;         // m driven
-constexpr std::size_t kWorthReconsidering = 20;  // cells newly seen
-constexpr double kPassed = 0.1;                  // m, of a corner
+constexpr double kReconsiderAfter = 0.3;            // m driven
+constexpr std::size_t kWorthReconsidering = 20;     // cells newly seen
+constexpr std::size_t kWorthAnotherLastLook = 200;  // cells newly seen: half a square metre
+constexpr double kPassed = 0.1;                     // m, of a corner
 
 }  // namespace
 
@@ -19,7 +20,8 @@ GlobalPlanner::GlobalPlanner(const GlobalPlannerParameters& parameters)
     : strategy_(strategyNamed(parameters.strategy)),
       place_(parameters.clearance),
       views_(parameters.smallest_gain, parameters.smallest_frontier),
-      view_tour_(parameters.tour) {}
+      view_tour_(parameters.tour),
+      last_look_(parameters.smallest_gain, parameters.smallest_frontier) {}
 
 const Plan& GlobalPlanner::update(const Scan& scan, const Eigen::Vector2d& robot_map) {
   place_.observe(scan, robot_map);
@@ -101,18 +103,13 @@ void GlobalPlanner::decide(const Eigen::Vector2d& robot_map) {
   decided_at_ = robot_map;
   revealed_then_ = grid().revealed();
   plan_ = {};
-  findViews();
+  if (!last_look_.isUnderWay()) findViews();
   while (const auto chosen = choose()) {
-    if (!goal_ || goal_->target != chosen->target) ++goals_;
-    goal_ = chosen;
-    plan_.look_at = grid().centreOf(chosen->target);
-    if (takeWayTo(chosen->cell, robot_map)) {
-      plan_.reason = "to see what is behind a frontier";
-      return;
-    }
-    setGoalAside();
+    is_last_look_ = false;
+    if (drivesTo(*chosen, robot_map, "to see what is behind a frontier")) return;
     views_.drop(chosen->target);
   }
+  if (lookLast(robot_map)) return;
   goal_.reset();
   if (!isScanned(robot_map)) {
     lookAround();
@@ -124,18 +121,27 @@ void GlobalPlanner::decide(const Eigen::Vector2d& robot_map) {
                      : "the robot stands where nothing around it is known to be free";
 }
 
-// Before it ends, what was given up gets another chance, and then what is hard to see.
+/// A goal that there is no way to is set aside.
+bool GlobalPlanner::drivesTo(const ViewPoint& chosen, const Eigen::Vector2d& robot_map,
+                             const char* reason) {
+  if (!goal_ || goal_->target != chosen.target) ++goals_;
+  goal_ = chosen;
+  plan_.look_at = grid().centreOf(chosen.target);
+  plan_.reason = reason;
+  if (takeWayTo(chosen.cell, robot_map)) return true;
+  setGoalAside();
+  return false;
+}
+
+// What was given up gets another chance.
 void GlobalPlanner::findViews() {
   const Cell here = grid().cellOf(decided_at_);
-  const auto present = goal_;
+  const auto present = is_last_look_ ? std::nullopt : goal_;
   place_.findWays(decided_at_);
-  for (const bool is_last_look : {false, true}) {
-    views_.find(place_, aside_, here, is_last_look);
-    goal_ = present;
-    if (!isGoalUnseen() || !views_.keep(place_, *goal_)) goal_.reset();
-    if (views_.viewPoints().empty() && recall()) views_.find(place_, aside_, here, is_last_look);
-    if (!views_.viewPoints().empty()) return;
-  }
+  views_.find(place_, aside_, here);
+  goal_ = present;
+  if (!isGoalUnseen() || !views_.keep(place_, *goal_)) goal_.reset();
+  if (views_.viewPoints().empty() && recall()) views_.find(place_, aside_, here);
 }
 
 // Goals that were set aside, and ways.
@@ -144,6 +150,33 @@ bool GlobalPlanner::recall() {
   const bool any_ways = place_.openAll();
   if (any_ways) place_.findWays(decided_at_);
   return any_goals || any_ways;
+}
+
+// From all places, and again where much was seen since; then through passages that look too narrow.
+bool GlobalPlanner::lookLast(const Eigen::Vector2d& robot_map) {
+  const auto is_open = [&](const ViewPoint& view) {
+    return !aside_.contains(view.target, grid().revealed()) &&
+           views_.isWithinLimits(place_, view.cell) && views_.isWithinLimits(place_, view.target);
+  };
+  const Strategy strategy = strategy_ == Strategy::kViewTour ? Strategy::kGainDistance : strategy_;
+  for (;;) {
+    while (const auto chosen = last_look_.next(place_, strategy, is_open)) {
+      is_last_look_ = true;
+      if (drivesTo(*chosen, robot_map, "to see what is left")) return true;
+    }
+    goal_.reset();
+    if (last_look_.isUnderWay()) {
+      plan_.reason = "to find out what is left to see";
+      return true;
+    }
+    if (revealed_at_last_look_ &&
+        grid().revealed() < *revealed_at_last_look_ + kWorthAnotherLastLook) {
+      if (!place_.openNarrowPassages()) return false;
+      place_.findWays(decided_at_);
+    }
+    revealed_at_last_look_ = grid().revealed();
+    last_look_.begin(place_);
+  }
 }
 
 void GlobalPlanner::lookAround() {
@@ -168,6 +201,7 @@ std::optional<ViewPoint> GlobalPlanner::choose() {
 
 void GlobalPlanner::setGoalAside() {
   if (goal_) aside_.add(goal_->target, grid().revealed());
+  if (goal_ && is_last_look_) last_look_.drop(goal_->cell);
   goal_.reset();
 }
 
@@ -176,7 +210,9 @@ bool GlobalPlanner::goAround(const std::vector<Eigen::Vector2d>& way) {
   if (!goal_ || !place_.lastPlace()) return false;
   place_.bar(way);
   place_.findWays(*place_.lastPlace());
-  if (!views_.viewOf(place_, goal_->target)) {
+  const bool is_in_reach = is_last_look_ ? place_.ways().isReached(goal_->cell)
+                                         : views_.viewOf(place_, goal_->target).has_value();
+  if (!is_in_reach) {
     place_.openLast();
     return false;
   }

@@ -2,6 +2,7 @@
 #include "cca_mrpt/navigation/known_place.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "cca_mrpt/navigation/beam.hpp"
 
@@ -50,13 +51,19 @@ void KnownPlace::takeChanges() {
   frontier_cells_.update(grid_, grid_.changed());
 }
 
+bool KnownPlace::openNarrowPassages() {
+  if (has_narrow_passages_) return false;
+  has_narrow_passages_ = true;
+  const double half_diagonal = std::sqrt(0.5) * grid_.resolution();
+  space_.reduceClearance(space_.clearance() - half_diagonal, grid_.lowest(), grid_.highest());
+  return true;
+}
+
 void KnownPlace::findWays(const Eigen::Vector2d& from_map, std::optional<Cell> until) {
   ways_.search(space_, grid_.resolution(), grid_.cellOf(from_map), DistanceField::kUnreached,
                until);
 }
 
-bool KnownPlace::isOnGrid(const Eigen::Vector2d& p_map) const {
-  return grid_.covers(p_map);
-}
+bool KnownPlace::isOnGrid(const Eigen::Vector2d& p_map) const { return grid_.covers(p_map); }
 
 }  // namespace cca

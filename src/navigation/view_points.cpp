@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kPi = 3.14159265358979323846;
 
-constexpr int kViewRays = 90, kGainRays = 72;
+constexpr int kViewRays = 90, kGainRays = 72, kFineRays = 360;
 
 std::vector<Eigen::Vector2d> directions(int rays) {
   std::vector<Eigen::Vector2d> unit;
@@ -27,6 +27,44 @@ bool isOpaque(CellState state) {
 }
 
 Eigen::Vector2d middle(Cell c) { return {c.x + 0.5, c.y + 0.5}; }
+
+/// Follows rays up to opaque cells.
+/// @param is_opening  bool(Cell): whether what lies behind a known cell counts.
+/// @param visit       void(direction, begin, end): for each stretch of unknown cells on a ray, with
+///                    its distances from the beginning in cells.
+template <class IsOpening, class Visit>
+void eachUnknownStretch(const ExplorationGrid& grid, Cell from,
+                        const std::vector<Eigen::Vector2d>& directions, double range,
+                        IsOpening&& is_opening, Visit&& visit) {
+  const double reach = range / grid.resolution();
+  ExplorationGrid::Reader states(grid);
+  for (const Eigen::Vector2d& direction : directions) {
+    double unknown_since = -1.0;
+    bool counts = true;
+    Cell last = from;
+    const auto close = [&](double until) {
+      if (unknown_since >= 0.0 && counts) visit(direction, unknown_since, until);
+      unknown_since = -1.0;
+    };
+    double end = reach;
+    walkBeam(middle(from), direction, reach, [&](Cell c, double entered) {
+      const CellState state = states.at(c);
+      if (isOpaque(state)) {
+        end = entered;
+        return false;
+      }
+      if (state != CellState::kUnknown) {
+        close(entered);
+      } else if (unknown_since < 0.0) {
+        unknown_since = entered;
+        counts = is_opening(last);
+      }
+      last = c;
+      return true;
+    });
+    close(end);
+  }
+}
 
 }  // namespace
 
@@ -118,29 +156,30 @@ std::optional<ViewPoint> nearestViewPoint(const ExplorationGrid& grid, const Fre
 double unknownAreaInView(const ExplorationGrid& grid, Cell from, double range) {
   static const std::vector<Eigen::Vector2d> kDirections = directions(kGainRays);
   double area = 0.0;  // in cells
-  const double reach = range / grid.resolution();
-  ExplorationGrid::Reader states(grid);
-  for (const Eigen::Vector2d& direction : kDirections) {
-    double unknown_since = -1.0;
-    const auto close = [&](double until) {
-      if (unknown_since >= 0.0)
-        area += (until * until - unknown_since * unknown_since) * kPi / kGainRays;
-      unknown_since = -1.0;
-    };
-    double end = reach;
-    walkBeam(middle(from), direction, reach, [&](Cell c, double entered) {
-      const CellState state = states.at(c);
-      if (isOpaque(state)) {
-        end = entered;
-        return false;
-      }
-      if (state != CellState::kUnknown) close(entered);
-      if (state == CellState::kUnknown && unknown_since < 0.0) unknown_since = entered;
-      return true;
-    });
-    close(end);
-  }
+  eachUnknownStretch(
+      grid, from, kDirections, range, [](Cell) { return true; },
+      [&](const Eigen::Vector2d&, double begin, double end) {
+        area += (end * end - begin * begin) * kPi / kGainRays;
+      });
   return area * grid.resolution() * grid.resolution();
+}
+
+ViewPoint viewFrom(const ExplorationGrid& grid, Cell from, double range,
+                   const std::function<bool(Cell)>& is_opening) {
+  static const std::vector<Eigen::Vector2d> kDirections = directions(kFineRays);
+  ViewPoint view{from, from, 0.0, 0.0};
+  double longest = 0.0;
+  eachUnknownStretch(
+      grid, from, kDirections, range, is_opening,
+      [&](const Eigen::Vector2d& direction, double begin, double end) {
+        view.gain += (end * end - begin * begin) * kPi / kFineRays;
+        if (end - begin <= longest) return;
+        longest = end - begin;
+        const Eigen::Vector2d p = middle(from) + 0.5 * (begin + end) * direction;
+        view.target = {static_cast<int>(std::floor(p.x())), static_cast<int>(std::floor(p.y()))};
+      });
+  view.gain *= grid.resolution() * grid.resolution();
+  return view;
 }
 
 }  // namespace cca

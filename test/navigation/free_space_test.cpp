@@ -44,6 +44,24 @@ TEST(FreeSpace, KeepsTheClearanceFromEveryOccupiedCell) {
   expectEqualsDefinition(space, grid, 60);
 }
 
+TEST(FreeSpace, WithLessClearanceIsAsIfItHadNeverHadMore) {
+  const ExplorationGrid grid = randomWorld(1, 60, 0.01).seen();
+  FreeSpace space(0.30, grid.resolution());
+  space.update(grid, grid.changed());
+  space.reduceClearance(0.23, grid.lowest(), grid.highest());
+  EXPECT_EQ(space.clearance(), 0.23);
+  expectEqualsDefinition(space, grid, 60);
+  // Also for what changes later.
+  ExplorationGrid changed = grid;
+  std::vector<Cell> cells;
+  for (int k = 0; k < 60; ++k) {
+    cells.push_back({k, 30});
+    changed.set({k, 30}, k % 2 ? CellState::kOccupied : CellState::kFree);
+  }
+  space.update(changed, cells);
+  expectEqualsDefinition(space, changed, 60);
+}
+
 // A robot of two metres in a saved map of filled walls: more obstacles within reach than 12 bits
 // count.
 TEST(FreeSpace, CountsThousandsOfObstaclesWithinItsClearance) {

@@ -25,7 +25,7 @@ struct View {
     place.observe(kRoomWithTwoDoors.scanFrom({kMiddle.x(), kMiddle.y(), 0.0}), kMiddle);
     place.findWays(kMiddle);
   }
-  void find() { views.find(place, aside, place.grid().cellOf(kMiddle), false); }
+  void find() { views.find(place, aside, place.grid().cellOf(kMiddle)); }
   double x(const ViewPoint& v) const { return place.grid().centreOf(v.target).x(); }
 };
 

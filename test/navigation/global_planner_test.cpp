@@ -17,6 +17,14 @@ const KnownWorld kTwoRooms{{"####################", "#........#.........#", "#..
                             "#........#.........#", "#........#.........#", "####################"},
                            10};
 
+/// A step with a scan; calls until it is found out what is left to see.
+const Plan& update(GlobalPlanner& planner, const Scan& scan, const Eigen::Vector2d& robot) {
+  const Plan* plan = &planner.update(scan, robot);
+  for (int k = 0; k < 100 && plan->path.empty() && !plan->finished; ++k)
+    plan = &planner.update(scan, robot);
+  return *plan;
+}
+
 struct Drive {
   double distance = 0.0;
   Plan last;
@@ -28,7 +36,7 @@ Drive drive(GlobalPlanner& planner, const KnownWorld& world, Eigen::Vector2d rob
             double longest = 300.0) {
   Drive drive;
   while (drive.distance < longest) {
-    drive.last = planner.update(world.scanFrom({robot.x(), robot.y(), 0.0}, 4.0), robot);
+    drive.last = update(planner, world.scanFrom({robot.x(), robot.y(), 0.0}, 4.0), robot);
     if (drive.last.finished) break;
     if (drive.last.path.size() < 2) {
       ADD_FAILURE() << "neither a path nor finished";
@@ -94,6 +102,31 @@ TEST(GlobalPlanner, LooksAtLastAsFarAsItCanWhereItCannotGo) {
   EXPECT_EQ(planner.grid().at(planner.grid().cellOf({6.3, 1.376})), CellState::kFree);
 }
 
+/// Squares of a quarter of a metre: a hall, a room behind a passage of half a metre, which holds no
+/// cell whose centre is a quarter of a metre from both its sides.
+const KnownWorld kNarrowPassage{{"##############################", "#............##..............#",
+                                 "#............##..............#", "#............##..............#",
+                                 "#............##..............#", "#............................#",
+                                 "#............................#", "#............##..............#",
+                                 "#............##.............##", "#............##.............##",
+                                 "##############################"},
+                                5};
+
+TEST(GlobalPlanner, TriesAPassageOfItsOwnWidthWhenNothingElseIsLeft) {
+  GlobalPlannerParameters parameters;
+  parameters.clearance = 0.25;
+  GlobalPlanner planner(parameters);
+  const Eigen::Vector2d start(1.0, 1.0);
+  update(planner, kNarrowPassage.scanFrom({start.x(), start.y(), 0.0}, 4.0), start);
+  EXPECT_FALSE(planner.space().isTraversable(planner.grid().cellOf({3.5, 1.4})));
+  const Drive d = drive(planner, kNarrowPassage, start);
+  EXPECT_TRUE(d.last.finished);
+  double farthest = 0.0;
+  for (const Eigen::Vector2d& goal : d.goals) farthest = std::max(farthest, goal.x());
+  EXPECT_GT(farthest, 3.75) << "beyond the passage";
+  EXPECT_EQ(planner.grid().at(planner.grid().cellOf({3.9, 2.4})), CellState::kFree);
+}
+
 // What stands beside the robot at the start is in nobody's memory.
 TEST(GlobalPlanner, ANarrowLaserLooksAroundBeforeItFirstDrives) {
   GlobalPlanner planner;
@@ -131,7 +164,7 @@ TEST(GlobalPlanner, GoalsThatItGetsStuckOnTheWayToRunOut) {
     GlobalPlanner planner;
     const Scan scan = kTwoRooms.scanFrom({1.0, 1.0, 0.0}, 4.0);
     std::vector<Eigen::Vector2d> goals;
-    for (int i = 0; i < 100 && !planner.update(scan, {1.0, 1.0}).finished; ++i) {
+    for (int i = 0; i < 100 && !update(planner, scan, {1.0, 1.0}).finished; ++i) {
       goals.push_back(planner.plan().path.back());
       if (!goes_around || !planner.goAround(planner.plan().path)) planner.setGoalAside();
     }
@@ -189,7 +222,7 @@ TEST(GlobalPlanner, LeavesAGoalWhoseWayIsLostTwice) {
   const Scan scan = kTwoRooms.scanFrom({robot.x(), robot.y(), 0.0}, 4.0);
   GlobalPlanner planner;
   int goals = 0;
-  for (; goals < 100 && !planner.update(scan, robot).finished; ++goals) {
+  for (; goals < 100 && !update(planner, scan, robot).finished; ++goals) {
     const Eigen::Vector2d goal_map = planner.plan().path.back();
     if ((goal_map - robot).norm() < 0.6) {  // shut, it would shut in the robot
       planner.noteArrival();
@@ -228,7 +261,7 @@ TEST(GlobalPlanner, HasNothingToDoInAPlaceKnownFromASavedMap) {
   }
   planner.seed(free, CellState::kFree);
   planner.seed(occupied, CellState::kOccupied);
-  EXPECT_TRUE(planner.update(kTwoRooms.scanFrom({1.0, 1.0, 0.0}, 4.0), {1.0, 1.0}).finished);
+  EXPECT_TRUE(update(planner, kTwoRooms.scanFrom({1.0, 1.0, 0.0}, 4.0), {1.0, 1.0}).finished);
 }
 
 TEST(GlobalPlanner, IsDeterministic) {

@@ -41,6 +41,11 @@ class FreeSpace {
   /// it has been in stays open.
   void bar(Cell c, bool is_barred);
 
+  /// Asks for less clearance from now on: `clearance`, m, up to the present one. All that is known
+  /// lies in the cells from `low` to `high`. Cost: O(these cells), and the occupied ones times the
+  /// cells of the disc.
+  void reduceClearance(double clearance, Cell low, Cell high);
+
   bool isTraversable(Cell c) const { return isTraversable(cells_.at(c)); }
   /// Like isTraversable, for each cell of a block: bit 4 (y mod 4) + (x mod 4).
   unsigned traversableCells(Cell block) const { return blocks_.at(block); }
@@ -55,10 +60,10 @@ class FreeSpace {
   static bool isTraversable(std::uint32_t cell) {
     return cell == kFree || (cell & (kPassed | kOccupied)) == kPassed;
   }
-  void grow(Cell obstacle, bool is_growing);
+  void grow(Cell obstacle, const std::vector<Cell>& disc, bool is_growing);
   void mark(Cell c);
 
-  double clearance_;
+  double clearance_, resolution_;
   std::vector<Cell> disc_;
   TiledGrid<std::uint32_t> cells_;   ///< state bits, and the number of obstacles within clearance
   TiledGrid<std::uint16_t> blocks_;  ///< traversable cells, a bit each

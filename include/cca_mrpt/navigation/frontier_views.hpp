@@ -28,12 +28,12 @@ class FrontierViews {
   /// Only what lies inside a polygon (m, map frame) counts. Fewer than three corners: no limit.
   void limitTo(std::vector<Eigen::Vector2d> polygon) { limits_ = std::move(polygon); }
 
+  bool isWithinLimits(const KnownPlace& place, Cell c) const;
+
   /// Looks at all frontiers anew, by the ways last found; the sixty nearest to `here` where there
   /// are more.
-  /// @param is_last_look  whether to take what is hard to see, too: frontiers that are seen only
-  ///                      from the end of the laser's range, or whose far side is inside a wall.
   /// Cost: O(frontier cells), and a bounded number of view points.
-  void find(KnownPlace& place, const AsideGoals& aside, Cell here, bool is_last_look);
+  void find(KnownPlace& place, const AsideGoals& aside, Cell here);
 
   /// Where to see a target from, without its gain; empty where no reached place inside the limits
   /// sees it.
@@ -60,12 +60,10 @@ class FrontierViews {
   std::optional<ViewPoint> viewOf(const KnownPlace& place, const AsideGoals& aside,
                                   const Frontier& frontier) const;
   std::optional<Cell> entryAt(const KnownPlace& place, Cell middle) const;
-  bool isWithinLimits(const KnownPlace& place, Cell c) const;
 
   double smallest_gain_;
   std::size_t smallest_frontier_;
   std::vector<Eigen::Vector2d> limits_;
-  bool is_last_look_ = false;
   std::vector<ViewPoint> view_points_, entries_;
   bool only_rests_ = false;
 };

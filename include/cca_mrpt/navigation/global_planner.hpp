@@ -10,6 +10,7 @@
 #include "cca_mrpt/navigation/frontier_views.hpp"
 #include "cca_mrpt/navigation/goal_selection.hpp"
 #include "cca_mrpt/navigation/known_place.hpp"
+#include "cca_mrpt/navigation/last_look.hpp"
 #include "cca_mrpt/navigation/view_tour.hpp"
 
 namespace cca {
@@ -26,7 +27,8 @@ struct GlobalPlannerParameters {
 struct Plan {
   bool finished = false;
   /// m, map frame, from the robot to the goal: corner points, two at least. Empty where finished,
-  /// and before the first scan that shows something.
+  /// before the first scan that shows something, and where it takes some more calls to find out
+  /// what is left to see.
   std::vector<Eigen::Vector2d> path;
   Eigen::Vector2d look_at = Eigen::Vector2d::Zero();  ///< m, map frame: what the goal is to show
   /// At the start, and where no goal is known, not all directions have been looked into from here
@@ -43,7 +45,8 @@ struct Plan {
 /// where that promises much. A goal is given up as soon as that point has been seen, or the way to
 /// it is blocked. Small frontiers wait until no other is left, or one comes by. Places from which
 /// all directions have been looked into are never goals again; a goal that showed nothing new is
-/// set aside until the map has changed.
+/// set aside until the map has changed. When no frontier is left, all reached places are asked what
+/// is in view from there (LastLook), and then passages that look just too narrow are tried.
 class GlobalPlanner {
  public:
   /// @throws std::runtime_error for an unknown strategy.
@@ -109,16 +112,22 @@ class GlobalPlanner {
   bool recall();
   std::optional<ViewPoint> choose();
   void lookAround();
+  bool lookLast(const Eigen::Vector2d& robot_map);
+  bool drivesTo(const ViewPoint& chosen, const Eigen::Vector2d& robot_map, const char* reason);
 
   Strategy strategy_;
   KnownPlace place_;
   FrontierViews views_;
   ViewTour view_tour_;
+  LastLook last_look_;
   AsideGoals aside_;
   bool has_looked_around_ = false;  ///< from the start
   std::optional<ViewPoint> goal_;
   Eigen::Vector2d decided_at_ = Eigen::Vector2d::Zero();
   std::size_t revealed_then_ = 0;  ///< at the last decision
+  bool is_last_look_ = false;      ///< the goal is one of last_look_
+  /// When last_look_ began.
+  std::optional<std::size_t> revealed_at_last_look_;
   int goals_ = 0;
   Plan plan_;
 };

@@ -40,6 +40,11 @@ class KnownPlace {
   /// Opens all that was barred. @return whether there was any.
   bool openAll() { return barred_.openAll(space_); }
 
+  /// Takes a cell for open from now on where the robot fits in at any point of it, not only at its
+  /// centre: passages of just the robot's width are worth a try when there is no other way.
+  /// @return whether that is new. Cost: O(cells between the corners of what is known), once.
+  bool openNarrowPassages();
+
   /// Finds the shortest ways from a place (m, map frame) anew: to everywhere, or at least to
   /// `until`. Cost: O(known blocks).
   void findWays(const Eigen::Vector2d& from_map, std::optional<Cell> until = std::nullopt);
@@ -50,8 +55,8 @@ class KnownPlace {
     return shortestPath(space_, grid_.resolution(), ways_, goal);
   }
 
-  /// See FrontierCells::frontiers().
-  std::vector<Frontier> frontiers(int extent) { return frontier_cells_.frontiers(extent); }
+  /// See FrontierCells::frontiers(); those longer than 2 m are several.
+  std::vector<Frontier> frontiers() { return frontier_cells_.frontiers(kFrontierExtent); }
 
   /// Whether a place (m, map frame) is finite and within what a grid can hold.
   bool isOnGrid(const Eigen::Vector2d& p_map) const;
@@ -66,6 +71,8 @@ class KnownPlace {
   double laserRange() const { return laser_range_; }
 
  private:
+  static constexpr int kFrontierExtent = 40;  // cells
+
   void learnRange(const Scan& scan);
   void notePassage(const Eigen::Vector2d& robot_map);
   void takeChanges();
@@ -78,6 +85,7 @@ class KnownPlace {
   DistanceField ways_;
   std::optional<Eigen::Vector2d> last_place_;
   double laser_range_ = 1.0;
+  bool has_narrow_passages_ = false;
 };
 
 }  // namespace cca

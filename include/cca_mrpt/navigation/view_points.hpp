@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -44,5 +45,15 @@ std::optional<ViewPoint> nearestViewPoint(const ExplorationGrid& grid, const Fre
 ///
 /// @return m^2; at most pi range^2.
 double unknownAreaInView(const ExplorationGrid& grid, Cell from, double range);
+
+/// What a place is good for: like unknownAreaInView, by 360 rays, as fine as a laser's beams.
+///
+/// @param from        a known cell.
+/// @param is_opening  whether what lies behind a known cell counts: a missing cell of a wall would
+///                    promise all that is behind it.
+/// @return the place with its gain; the target is the middle of the longest unknown stretch of a
+///         ray, or the place itself where nothing unknown is in view. The distance is 0.
+ViewPoint viewFrom(const ExplorationGrid& grid, Cell from, double range,
+                   const std::function<bool(Cell)>& is_opening);
 
 }  // namespace cca

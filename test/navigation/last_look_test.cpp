@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "cca_mrpt/navigation/last_look.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "known_world.hpp"
+
+namespace cca {
+namespace {
+
+/// Squares of 40 cm: a room, and another one behind a gap that no robot fits through.
+const KnownWorld kRoomBehindAGap{
+    {"###################", "#.......#.........#", "#.......#.........#", "#.......#.........#",
+     "#.................#", "#.......#.........#", "#.......#.........#", "#.......#.........#",
+     "###################"},
+    8};
+const Eigen::Vector2d kBeforeTheGap{2.6, 1.8};
+
+struct Look {
+  KnownPlace place{0.27};
+  LastLook last_look{0.1, 5};
+
+  explicit Look(const Eigen::Vector2d& robot = kBeforeTheGap) {
+    place.observe(kRoomBehindAGap.scanFrom({robot.x(), robot.y(), 0.0}), robot);
+    place.findWays(robot);
+    last_look.begin(place);
+  }
+  std::optional<ViewPoint> next(Strategy strategy, const LastLook::Filter& filter = takesAll) {
+    auto view = last_look.next(place, strategy, filter);
+    while (!view && last_look.isUnderWay()) view = last_look.next(place, strategy, filter);
+    return view;
+  }
+  static bool takesAll(const ViewPoint&) { return true; }
+  /// m^2 that a place promises behind frontiers of five cells and more.
+  double gainFrom(Cell from) {
+    std::vector<Cell> openings;
+    for (const Frontier& frontier : place.frontiers()) {
+      if (frontier.cells.size() < 5) continue;
+      openings.insert(openings.end(), frontier.cells.begin(), frontier.cells.end());
+    }
+    const auto is_opening = [&](Cell c) {
+      return std::find(openings.begin(), openings.end(), c) != openings.end();
+    };
+    return viewFrom(place.grid(), from, place.laserRange(), is_opening).gain;
+  }
+};
+
+TEST(LastLook, FindsReachedPlacesThatSeeMoreThroughAGap) {
+  Look look;
+  const auto view = look.next(Strategy::kGreedy);
+  ASSERT_TRUE(view);
+  EXPECT_TRUE(look.place.ways().isReached(view->cell));
+  EXPECT_EQ(look.place.grid().at(view->target), CellState::kUnknown);
+  EXPECT_GT(look.place.grid().centreOf(view->target).x(), 3.4) << "behind the gap";
+  // What was promised is seen from there.
+  EXPECT_NEAR(look.gainFrom(view->cell), view->gain, 1e-9);
+  const Eigen::Vector2d there = look.place.grid().centreOf(view->cell);
+  const std::size_t before = look.place.grid().revealed();
+  look.place.observe(kRoomBehindAGap.scanFrom({there.x(), there.y(), 0.0}), there);
+  EXPECT_LT(look.gainFrom(view->cell), 0.1);
+  EXPECT_GT(look.place.grid().revealed(), before + 200);
+}
+
+// A drive from place to place ends, and then no place sees more than was asked for.
+TEST(LastLook, EndsWhenNoPlaceSeesMore) {
+  Look look;
+  int looks = 0;
+  for (; const auto view = look.next(Strategy::kNearestFrontier); ++looks) {
+    ASSERT_LT(looks, 50);
+    const Eigen::Vector2d there = look.place.grid().centreOf(view->cell);
+    look.place.observe(kRoomBehindAGap.scanFrom({there.x(), there.y(), 0.0}), there);
+    look.place.findWays(there);
+  }
+  EXPECT_GT(looks, 1) << "a single place does not see it all";
+  for (const Cell c : kRoomBehindAGap.freeCells()) {
+    const Cell block = FreeSpace::blockOf(c);
+    const bool is_first = c.x % FreeSpace::kBlock == 0 && c.y % FreeSpace::kBlock == 0;
+    if (!is_first || look.place.space().traversableCells(block) != 0xFFFF) continue;
+    if (!look.place.ways().isReached(c) || look.place.scanned().contains(c)) continue;
+    EXPECT_LT(look.gainFrom(c), 0.1) << c.x << ", " << c.y;
+  }
+}
+
+TEST(LastLook, LeavesOutWhatTheFilterRefuses) {
+  Look look;
+  const auto refuses_above = [&](const ViewPoint& view) {
+    return look.place.grid().centreOf(view.cell).y() < 1.8;
+  };
+  for (int k = 0; k < 20; ++k) {
+    const auto view = look.next(Strategy::kGreedy, refuses_above);
+    ASSERT_TRUE(view);
+    EXPECT_LT(look.place.grid().centreOf(view->cell).y(), 1.8);
+  }
+  EXPECT_FALSE(look.next(Strategy::kGreedy, [](const ViewPoint&) { return false; }));
+}
+
+// What is behind a wall that lacks a few cells would be a promise that is never kept.
+TEST(LastLook, ExpectsNothingBehindASmallFrontier) {
+  KnownPlace place(0.27);
+  std::vector<Cell> walls = kRoomBehindAGap.walls(), room;
+  for (const Cell c : kRoomBehindAGap.freeCells()) {
+    if (c.x < 64) room.push_back(c);
+  }
+  for (int y = 32; y < 37; ++y) walls.push_back({64, y});  // three cells of the gap are left
+  place.seed(room, CellState::kFree);
+  place.seed(walls, CellState::kOccupied);
+  place.findWays(kBeforeTheGap);
+  for (const std::size_t smallest : {std::size_t{3}, std::size_t{5}}) {
+    LastLook last_look(0.1, smallest);
+    last_look.begin(place);
+    std::optional<ViewPoint> view;
+    do {
+      view = last_look.next(place, Strategy::kGreedy, Look::takesAll);
+    } while (!view && last_look.isUnderWay());
+    EXPECT_EQ(view.has_value(), smallest == 3);
+  }
+}
+
+TEST(LastLook, GoesThroughALargePlaceAFewAtATime) {
+  const KnownWorld hall{std::vector<std::string>(20, std::string(20, '.')), 10};
+  KnownPlace place(0.27);
+  place.seed(hall.freeCells(), CellState::kFree);  // nothing is known of what is around it
+  place.findWays({5.0, 5.0});
+  LastLook last_look(0.1, 5);
+  last_look.begin(place);
+  int calls = 0;
+  while (!last_look.next(place, Strategy::kGreedy, Look::takesAll) && last_look.isUnderWay())
+    ++calls;
+  EXPECT_GT(calls, 5) << "of 2500 places";
+  EXPECT_LT(calls, 50);
+}
+
+TEST(LastLook, DropsWhatIsAroundAPlaceThatCannotBeReached) {
+  Look look;
+  for (int k = 0; k < 40; ++k) {
+    const auto view = look.next(Strategy::kGreedy);
+    if (!view) return;
+    look.last_look.drop(view->cell);
+  }
+  ADD_FAILURE() << "the places do not run out";
+}
+
+TEST(LastLook, FindsNothingBeforeItBeginsOrWhereAllIsKnown) {
+  LastLook last_look(0.1, 5);
+  KnownPlace nowhere(0.27);
+  EXPECT_FALSE(last_look.next(nowhere, Strategy::kGreedy, Look::takesAll));
+  last_look.begin(nowhere);
+  EXPECT_FALSE(last_look.next(nowhere, Strategy::kGreedy, Look::takesAll));
+  EXPECT_FALSE(last_look.isUnderWay());
+  Look look;
+  look.place.seed(kRoomBehindAGap.freeCells(), CellState::kFree);
+  look.place.seed(kRoomBehindAGap.walls(), CellState::kOccupied);
+  EXPECT_FALSE(look.next(Strategy::kGreedy));
+}
+
+}  // namespace
+}  // namespace cca
