@@ -7,8 +7,8 @@
 namespace cca {
 namespace {
 
-constexpr int kPlacesAtATime = 60;  // some 10 ms, 30 in a wide hall
-constexpr int kAround = 10;         // cells
+constexpr int kLooksAtATime = 60;  // some 10 ms, 30 in a wide hall
+constexpr int kAround = 10;        // cells
 
 /// Cells of a block that the robot can reach: the first one, and beside obstacles, where a few
 /// centimetres count, also the last one.
@@ -27,18 +27,23 @@ std::vector<Cell> placesIn(const KnownPlace& place, Cell block) {
 
 }  // namespace
 
-void LastLook::begin(const KnownPlace& place) {
+void LastLook::begin(KnownPlace& place) {
+  openings_ = openings(place);
+  blocks_.clear();
   found_.clear();
-  first_ = block_ = FreeSpace::blockOf(place.grid().lowest());
-  last_ = FreeSpace::blockOf(place.grid().highest());
-  is_under_way_ = true;
+  ++pass_;
+  is_under_way_ = !openings_.empty();
 }
 
 std::optional<ViewPoint> LastLook::next(KnownPlace& place, Strategy strategy,
                                         const Filter& filter) {
-  places_left_ = kPlacesAtATime;
-  markFrontiers(place);
-  goThroughPlaces(place);
+  if (!is_under_way_ && found_.empty()) return {};
+  looks_left_ = kLooksAtATime;
+  ++call_;
+  for (const Cell c : openings(place)) opening_calls_[c] = call_;
+  findPlaces(place);
+  askPlaces(place);
+  is_under_way_ = !openings_.empty() || !blocks_.empty();
   return is_under_way_ ? std::nullopt : choose(place, strategy, filter);
 }
 
@@ -49,21 +54,30 @@ void LastLook::drop(Cell place) {
   found_.erase(std::remove_if(found_.begin(), found_.end(), is_around), found_.end());
 }
 
-void LastLook::markFrontiers(KnownPlace& place) {
-  ++call_;
+std::vector<Cell> LastLook::openings(KnownPlace& place) const {
+  std::vector<Cell> cells;
   for (const Frontier& frontier : place.frontiers()) {
-    if (frontier.cells.size() < smallest_frontier_) continue;
-    for (const Cell c : frontier.cells) frontier_cells_[c] = call_;
+    if (frontier.cells.size() >= smallest_frontier_)
+      cells.insert(cells.end(), frontier.cells.begin(), frontier.cells.end());
+  }
+  return cells;
+}
+
+void LastLook::findPlaces(const KnownPlace& place) {
+  for (; !openings_.empty() && looks_left_ > 0; openings_.pop_back(), --looks_left_) {
+    eachBlockInView(place.grid(), openings_.back(), place.laserRange(), [&](Cell block) {
+      if (block_passes_.at(block) == pass_) return;
+      block_passes_[block] = pass_;
+      blocks_.push_back(block);
+    });
   }
 }
 
-void LastLook::goThroughPlaces(const KnownPlace& place) {
-  for (; is_under_way_ && places_left_ > 0; ++block_.x) {
-    if (block_.x > last_.x) block_ = {first_.x, block_.y + 1};
-    is_under_way_ = block_.y <= last_.y;
-    if (!is_under_way_ || place.scanned().containsBlock(block_)) continue;
+void LastLook::askPlaces(const KnownPlace& place) {
+  for (; openings_.empty() && !blocks_.empty() && looks_left_ > 0; blocks_.pop_back()) {
+    if (place.scanned().containsBlock(blocks_.back())) continue;
     std::optional<ViewPoint> best;
-    for (const Cell c : placesIn(place, block_)) {
+    for (const Cell c : placesIn(place, blocks_.back())) {
       const ViewPoint view = lookFrom(place, c);
       if (!best || view.gain > best->gain) best = view;
     }
@@ -82,7 +96,7 @@ std::optional<ViewPoint> LastLook::choose(const KnownPlace& place, Strategy stra
                               }),
                found_.end());
   while (const auto best = selectGoal(strategy, found_)) {
-    is_under_way_ = places_left_ <= 0;
+    is_under_way_ = looks_left_ <= 0;
     if (is_under_way_) break;
     const auto view = found_.begin() + static_cast<std::ptrdiff_t>(*best);
     const ViewPoint now = lookFrom(place, view->cell);
@@ -98,9 +112,9 @@ std::optional<ViewPoint> LastLook::choose(const KnownPlace& place, Strategy stra
 }
 
 ViewPoint LastLook::lookFrom(const KnownPlace& place, Cell cell) {
-  --places_left_;
+  --looks_left_;
   ViewPoint view = viewFrom(place.grid(), cell, place.laserRange(),
-                            [&](Cell c) { return frontier_cells_.at(c) == call_; });
+                            [&](Cell c) { return opening_calls_.at(c) == call_; });
   view.distance = place.ways().distanceTo(cell);
   return view;
 }

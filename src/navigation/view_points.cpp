@@ -120,6 +120,23 @@ bool isInView(const ExplorationGrid& grid, Cell from, Cell to) {
   return clear;
 }
 
+void eachBlockInView(const ExplorationGrid& grid, Cell from, double range,
+                     const std::function<void(Cell block)>& visit) {
+  static const std::vector<Eigen::Vector2d> kDirections = directions(kFineRays);
+  ExplorationGrid::Reader states(grid);
+  for (const Eigen::Vector2d& direction : kDirections) {
+    std::optional<Cell> block;
+    walkBeam(middle(from), direction, range / grid.resolution(), [&](Cell c, double) {
+      if (isOpaque(states.at(c))) return false;
+      if (!block || FreeSpace::blockOf(c) != *block) {
+        block = FreeSpace::blockOf(c);
+        visit(*block);
+      }
+      return true;
+    });
+  }
+}
+
 std::optional<ViewPoint> nearestViewPoint(const ExplorationGrid& grid, const FreeSpace& space,
                                           const DistanceField& field, const ScannedPlaces& scanned,
                                           Cell target, double range) {

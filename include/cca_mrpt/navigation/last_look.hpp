@@ -19,8 +19,9 @@ namespace cca {
 ///
 /// A frontier asks the other way round, from where a point behind it is seen. Through a gap that
 /// the robot does not fit through, each place sees another wedge of what lies behind, and a point
-/// says little of the wedge. All places at once would be too much work for a step, so they are
-/// gone through a bounded number at a time, while the robot stands.
+/// says little of the wedge. So the frontiers say only which places have them in view. All of this
+/// at once would be too much work for a step: it is done a bounded number of looks at a time, while
+/// the robot stands.
 class LastLook {
  public:
   /// What a view point must fulfil beyond its gain.
@@ -31,15 +32,14 @@ class LastLook {
   LastLook(double smallest_gain, std::size_t smallest_frontier)
       : smallest_gain_(smallest_gain), smallest_frontier_(smallest_frontier) {}
 
-  /// Goes through all places anew that are reached by the ways last found.
-  void begin(const KnownPlace& place);
+  /// Begins anew with the frontiers of now. Cost: O(frontier cells).
+  void begin(KnownPlace& place);
 
   /// The best place to look from by a strategy other than kViewTour, by the ways last found and
   /// what is known by now; it stays among the places. Goes on through the places first, if it has
   /// not been through all of them.
   /// @return empty if there is none, or not before another call, see isUnderWay().
-  /// Cost: a bounded number of places, the frontier cells, and O(known blocks) in all for each
-  /// begin().
+  /// Cost: O(frontier cells), and a bounded number of looks.
   std::optional<ViewPoint> next(KnownPlace& place, Strategy strategy, const Filter& filter);
 
   /// Takes out a place that could not be reached, with those around it (0.5 m).
@@ -49,18 +49,21 @@ class LastLook {
   bool isUnderWay() const { return is_under_way_; }
 
  private:
-  void markFrontiers(KnownPlace& place);
-  void goThroughPlaces(const KnownPlace& place);
+  std::vector<Cell> openings(KnownPlace& place) const;
+  void findPlaces(const KnownPlace& place);
+  void askPlaces(const KnownPlace& place);
   std::optional<ViewPoint> choose(const KnownPlace& place, Strategy strategy, const Filter& filter);
   ViewPoint lookFrom(const KnownPlace& place, Cell cell);
 
   double smallest_gain_;
   std::size_t smallest_frontier_;
   bool is_under_way_ = false;
-  Cell first_, last_, block_;  ///< blocks: the corners of what is known, and the next one
-  int places_left_ = 0;        ///< that may be asked in this call
-  TiledGrid<std::uint32_t> frontier_cells_{0};  ///< the last call that they were marked in
-  std::uint32_t call_ = 0;
+  int looks_left_ = 0;          ///< that may be made in this call
+  std::vector<Cell> openings_;  ///< frontier cells that were not asked yet for who sees them
+  std::vector<Cell> blocks_;    ///< that see one, and were not asked yet
+  std::uint32_t pass_ = 0, call_ = 0;
+  TiledGrid<std::uint32_t> block_passes_{0};   ///< the last pass that a block was put among them
+  TiledGrid<std::uint32_t> opening_calls_{0};  ///< the last call that a cell was an opening in
   /// As they were when they were asked: gains only become less as more is seen.
   std::vector<ViewPoint> found_;
 };

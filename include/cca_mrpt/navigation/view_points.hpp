@@ -30,6 +30,11 @@ Cell cellBehind(const ExplorationGrid& grid, const Frontier& frontier, double de
 /// Whether nothing known to be an obstacle stands between two cells.
 bool isInView(const ExplorationGrid& grid, Cell from, Cell to);
 
+/// Visits the blocks of FreeSpace that are in view from a cell if all unknown cells were free, by
+/// 360 rays: each once for every ray through it. Cost: O(range / resolution) for each ray.
+void eachBlockInView(const ExplorationGrid& grid, Cell from, double range,
+                     const std::function<void(Cell block)>& visit);
+
 /// The place of the shortest way from which a cell is in free view.
 ///
 /// 90 rays go out from the cell and end at occupied cells and presumed walls.
