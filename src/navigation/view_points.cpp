@@ -13,6 +13,11 @@ constexpr double kPi = 3.14159265358979323846;
 
 constexpr int kViewRays = 90, kGainRays = 72, kFineRays = 360;
 
+/// Cells' length that fine rays may go through opaque ones: cutting corners, but not through a wall.
+/// A surface on the border of two cells makes both occupied, and a ray that grazes it, or the jamb
+/// of a door, would end there.
+constexpr double kCut = 1.0;
+
 std::vector<Eigen::Vector2d> directions(int rays) {
   std::vector<Eigen::Vector2d> unit;
   for (int k = 0; k < rays; ++k) {
@@ -28,41 +33,58 @@ bool isOpaque(CellState state) {
 
 Eigen::Vector2d middle(Cell c) { return {c.x + 0.5, c.y + 0.5}; }
 
+/// Follows a ray to where it has gone through more than `cut` cells' length of opaque cells.
+/// @param visit  void(Cell, CellState, double entered): for each cell, see walkBeam.
+/// @return the ray's length, in cells.
+template <class Visit>
+double followRay(ExplorationGrid::Reader& states, Cell from, const Eigen::Vector2d& direction,
+                 double reach, double cut, Visit&& visit) {
+  double end = reach, opaque = 0.0, opaque_since = -1.0;
+  walkBeam(middle(from), direction, reach, [&](Cell c, double entered) {
+    if (opaque_since >= 0.0) {
+      opaque += entered - opaque_since;
+      if (opaque > cut) {
+        end = opaque_since;
+        return false;
+      }
+      opaque_since = -1.0;
+    }
+    const CellState state = states.at(c);
+    visit(c, state, entered);
+    if (isOpaque(state)) opaque_since = entered;
+    return true;
+  });
+  return end;
+}
+
 /// Follows rays up to opaque cells.
+/// @param cut         see followRay.
 /// @param is_opening  bool(Cell): whether what lies behind a known cell counts.
 /// @param visit       void(direction, begin, end): for each stretch of unknown cells on a ray, with
 ///                    its distances from the beginning in cells.
 template <class IsOpening, class Visit>
 void eachUnknownStretch(const ExplorationGrid& grid, Cell from,
-                        const std::vector<Eigen::Vector2d>& directions, double range,
+                        const std::vector<Eigen::Vector2d>& directions, double range, double cut,
                         IsOpening&& is_opening, Visit&& visit) {
-  const double reach = range / grid.resolution();
   ExplorationGrid::Reader states(grid);
   for (const Eigen::Vector2d& direction : directions) {
     double unknown_since = -1.0;
     bool counts = true;
-    Cell last = from;
+    Cell last = from;  // that is known, and no obstacle
     const auto close = [&](double until) {
       if (unknown_since >= 0.0 && counts) visit(direction, unknown_since, until);
       unknown_since = -1.0;
     };
-    double end = reach;
-    walkBeam(middle(from), direction, reach, [&](Cell c, double entered) {
-      const CellState state = states.at(c);
-      if (isOpaque(state)) {
-        end = entered;
-        return false;
-      }
+    const auto enter = [&](Cell c, CellState state, double entered) {
       if (state != CellState::kUnknown) {
         close(entered);
+        if (!isOpaque(state)) last = c;
       } else if (unknown_since < 0.0) {
         unknown_since = entered;
         counts = is_opening(last);
       }
-      last = c;
-      return true;
-    });
-    close(end);
+    };
+    close(followRay(states, from, direction, range / grid.resolution(), cut, enter));
   }
 }
 
@@ -126,14 +148,12 @@ void eachBlockInView(const ExplorationGrid& grid, Cell from, double range,
   ExplorationGrid::Reader states(grid);
   for (const Eigen::Vector2d& direction : kDirections) {
     std::optional<Cell> block;
-    walkBeam(middle(from), direction, range / grid.resolution(), [&](Cell c, double) {
-      if (isOpaque(states.at(c))) return false;
-      if (!block || FreeSpace::blockOf(c) != *block) {
-        block = FreeSpace::blockOf(c);
-        visit(*block);
-      }
-      return true;
-    });
+    followRay(states, from, direction, range / grid.resolution(), kCut,
+              [&](Cell c, CellState, double) {
+                if (block && FreeSpace::blockOf(c) == *block) return;
+                block = FreeSpace::blockOf(c);
+                visit(*block);
+              });
   }
 }
 
@@ -174,7 +194,7 @@ double unknownAreaInView(const ExplorationGrid& grid, Cell from, double range) {
   static const std::vector<Eigen::Vector2d> kDirections = directions(kGainRays);
   double area = 0.0;  // in cells
   eachUnknownStretch(
-      grid, from, kDirections, range, [](Cell) { return true; },
+      grid, from, kDirections, range, 0.0, [](Cell) { return true; },
       [&](const Eigen::Vector2d&, double begin, double end) {
         area += (end * end - begin * begin) * kPi / kGainRays;
       });
@@ -187,7 +207,7 @@ ViewPoint viewFrom(const ExplorationGrid& grid, Cell from, double range,
   ViewPoint view{from, from, 0.0, 0.0};
   double longest = 0.0;
   eachUnknownStretch(
-      grid, from, kDirections, range, is_opening,
+      grid, from, kDirections, range, kCut, is_opening,
       [&](const Eigen::Vector2d& direction, double begin, double end) {
         view.gain += (end * end - begin * begin) * kPi / kFineRays;
         if (end - begin <= longest) return;

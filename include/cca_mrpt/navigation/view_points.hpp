@@ -31,7 +31,8 @@ Cell cellBehind(const ExplorationGrid& grid, const Frontier& frontier, double de
 bool isInView(const ExplorationGrid& grid, Cell from, Cell to);
 
 /// Visits the blocks of FreeSpace that are in view from a cell if all unknown cells were free, by
-/// 360 rays: each once for every ray through it. Cost: O(range / resolution) for each ray.
+/// rays as those of viewFrom: each once for every ray through it. Cost: O(range / resolution) for
+/// each ray.
 void eachBlockInView(const ExplorationGrid& grid, Cell from, double range,
                      const std::function<void(Cell block)>& visit);
 
@@ -51,7 +52,8 @@ std::optional<ViewPoint> nearestViewPoint(const ExplorationGrid& grid, const Fre
 /// @return m^2; at most pi range^2.
 double unknownAreaInView(const ExplorationGrid& grid, Cell from, double range);
 
-/// What a place is good for: like unknownAreaInView, by 360 rays, as fine as a laser's beams.
+/// What a place is good for: like unknownAreaInView, by 360 rays, as fine as a laser's beams, that
+/// may cut the corners of opaque cells (one cell's length in all).
 ///
 /// @param from        a known cell.
 /// @param is_opening  whether what lies behind a known cell counts: a missing cell of a wall would

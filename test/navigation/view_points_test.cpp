@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "cca_mrpt/navigation/view_points.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+namespace cca {
+namespace {
+
+constexpr double kRange = 4.0;
+constexpr int kSide = 40;
+constexpr Cell kGap{0, 20};
+
+/// A free square behind a wall of one cell (x = 0), beyond which nothing is known.
+ExplorationGrid room(bool has_gap) {
+  ExplorationGrid grid;
+  for (int y = 0; y < kSide; ++y) {
+    for (int x = 0; x < kSide; ++x) {
+      const bool is_rim = x == 0 || y == 0 || x == kSide - 1 || y == kSide - 1;
+      grid.set({x, y}, is_rim ? CellState::kOccupied : CellState::kFree);
+    }
+  }
+  if (has_gap) grid.set(kGap, CellState::kFree);
+  return grid;
+}
+
+double gainFrom(const ExplorationGrid& grid, Cell from) {
+  return viewFrom(grid, from, kRange, [](Cell c) { return c == kGap; }).gain;
+}
+
+TEST(ViewFrom, CutsTheCornersOfAGapButGoesThroughNoWall) {
+  const ExplorationGrid open = room(true), shut = room(false);
+  // Askew, from both sides, each ray through the gap grazes its jambs.
+  EXPECT_GT(gainFrom(open, {7, 28}), 0.0);
+  EXPECT_GT(gainFrom(open, {7, 12}), 0.0);
+  EXPECT_EQ(unknownAreaInView(open, {7, 28}, kRange), 0.0) << "without cutting";
+  for (int y = 1; y < kSide - 1; ++y) {
+    for (int x = 1; x < kSide - 1; ++x)
+      ASSERT_EQ(viewFrom(shut, {x, y}, kRange, [](Cell) { return true; }).gain, 0.0)
+          << x << ", " << y;
+  }
+}
+
+TEST(ViewFrom, CountsOnlyWhatLiesBehindAnOpening) {
+  const ExplorationGrid grid = room(true);
+  EXPECT_GT(gainFrom(grid, {10, 20}), 0.0);
+  EXPECT_EQ(viewFrom(grid, {10, 20}, kRange, [](Cell) { return false; }).gain, 0.0);
+}
+
+TEST(EachBlockInView, FindsThePlacesThatAnOpeningIsSeenFrom) {
+  const ExplorationGrid grid = room(true);
+  std::vector<Cell> blocks;
+  eachBlockInView(grid, kGap, kRange, [&](Cell block) { blocks.push_back(block); });
+  const auto isInView = [&](Cell c) {
+    return std::find(blocks.begin(), blocks.end(), FreeSpace::blockOf(c)) != blocks.end();
+  };
+  for (int y = 1; y < kSide - 1; ++y) {
+    for (int x = 1; x < kSide - 1; ++x) {
+      const bool sees = gainFrom(grid, {x, y}) > 0.0;
+      EXPECT_TRUE(!sees || isInView({x, y})) << x << ", " << y;
+    }
+  }
+  EXPECT_TRUE(isInView({7, 28}));
+  EXPECT_FALSE(isInView({1, 1})) << "along the wall";
+}
+
+}  // namespace
+}  // namespace cca
