@@ -16,5 +16,6 @@ FloorPlan pillarHall(Random& random);
 FloorPlan gallery(Random& random);
 FloorPlan maze(Random& random);
 FloorPlan randomBuilding(Random& random);
+FloorPlan crowdedBuilding(Random& random);
 
 }  // namespace cca

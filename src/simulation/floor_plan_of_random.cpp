@@ -14,13 +14,26 @@ constexpr double kOuter = 0.2, kInner = 0.1;  // m, thickness of walls
 constexpr double kSmallest = 3.0;             // m, side of a room
 constexpr double kLargest = 8.0;              // m, a longer side is always divided
 constexpr double kBesideDoor = 0.3;           // m, from a wall's end to a door
+constexpr double kPost = 0.05;                // m, side of a post in a door
+constexpr double kStartsFree = 0.5;           // m, around the robot's start
 
 /// Divides a floor by walls with a door each (or by a corridor with two), again and again: what
 /// was one region stays one.
 class Divider {
  public:
-  Divider(FloorPlan& plan, Random& random) : plan_(plan), random_(random) {}
+  /// Doors are `narrowest` to `widest` m wide.
+  Divider(FloorPlan& plan, Random& random, double narrowest, double widest)
+      : plan_(plan), random_(random), narrowest_(narrowest), widest_(widest) {}
 
+  void divideAll() {
+    divide(Box(Eigen::Vector2d(kOuter, kOuter),
+               Eigen::Vector2d(plan_.width - kOuter, plan_.height - kOuter)));
+  }
+
+  const std::vector<Box>& rooms() const { return rooms_; }
+  const std::vector<Box>& doors() const { return doors_; }
+
+ private:
   void divide(const Box& floor) {
     const int axis = floor.sizes().x() > floor.sizes().y() ? 0 : 1;  // across the longer side
     const double side = floor.sizes()[axis];
@@ -48,10 +61,6 @@ class Divider {
     rooms_.push_back(floor);
   }
 
-  const std::vector<Box>& rooms() const { return rooms_; }
-  const std::vector<Box>& doors() const { return doors_; }
-
- private:
   /// Whether no door lies where the ends of a wall would come.
   bool clearOfDoors(const Box& floor, int axis, double at, double between) const {
     Box wall = floor;
@@ -67,7 +76,7 @@ class Divider {
     Eigen::Vector2d from = floor.min(), to = floor.max();
     from[axis] = to[axis] = centre;
     const double length = floor.sizes()[1 - axis];
-    const double wide = onRaster(random_.uniform(0.9, 1.4));
+    const double wide = onRaster(random_.uniform(narrowest_, widest_));
     const double open = onRaster(random_.uniform(kBesideDoor, length - wide - kBesideDoor));
     plan_.addWall(from, to, kInner, {{open, open + wide}});
     Box door;
@@ -80,6 +89,7 @@ class Divider {
 
   FloorPlan& plan_;
   Random& random_;
+  double narrowest_, widest_;
   std::vector<Box> rooms_, doors_;
 };
 
@@ -91,9 +101,8 @@ FloorPlan randomBuilding(Random& random) {
   plan.width = onRaster(random.uniform(16.0, 32.0));
   plan.height = onRaster(random.uniform(12.0, 24.0));
   plan.addOuterWalls(kOuter);
-  Divider divider(plan, random);
-  divider.divide(Box(Eigen::Vector2d(kOuter, kOuter),
-                     Eigen::Vector2d(plan.width - kOuter, plan.height - kOuter)));
+  Divider divider(plan, random, 0.9, 1.4);
+  divider.divideAll();
   for (const Box& floor : divider.rooms()) {
     Room room{floor, divider.doors()};
     if (&floor == &divider.rooms().front()) {  // the robot's place stays free
@@ -101,6 +110,35 @@ FloorPlan randomBuilding(Random& random) {
       room.doors.emplace_back(floor.center(), floor.center());
     }
     furnish(plan, room, random.integer(1, 2 + static_cast<int>(floor.volume() / 7.0)), random);
+  }
+  return plan;
+}
+
+/// 14 to 30 by 10 to 20 m of rooms that are full of things: legs of chairs and tables, gaps too
+/// narrow for a robot, and posts in every seventh door. Much of it can only be looked into.
+FloorPlan crowdedBuilding(Random& random) {
+  FloorPlan plan;
+  plan.width = onRaster(random.uniform(14.0, 30.0));
+  plan.height = onRaster(random.uniform(10.0, 20.0));
+  plan.addOuterWalls(kOuter);
+  Divider divider(plan, random, 0.7, 1.1);
+  divider.divideAll();
+  const Eigen::Vector2d start = divider.rooms().front().center(), aside(kStartsFree, kStartsFree);
+  plan.start = {start.x(), start.y(), 0.0};
+  for (const Box& floor : divider.rooms()) {
+    const int count = static_cast<int>(floor.volume() * random.uniform(0.12, 0.4));
+    clutter(plan, floor, Box(start - aside, start + aside), count, random);
+  }
+  for (const Box& door : divider.doors()) {
+    const int posts = random.integer(1, 2);
+    const bool is_barred = random.uniform() < 1.0 / 7.0;
+    for (int i = 1; is_barred && i <= posts; ++i) {
+      const Eigen::Vector2d along = door.sizes().x() > door.sizes().y()
+                                        ? Eigen::Vector2d(door.sizes().x(), 0.0)
+                                        : Eigen::Vector2d(0.0, door.sizes().y());
+      const Eigen::Vector2d post = door.center() + (i / (posts + 1.0) - 0.5) * along;
+      plan.addTurnedBox(post, {kPost, kPost}, 0.0);
+    }
   }
   return plan;
 }

@@ -9,6 +9,7 @@ namespace cca {
 namespace {
 
 constexpr int kTries = 30;
+constexpr double kLeg = 0.05;  // m
 
 struct Piece {
   Box place;
@@ -93,9 +94,9 @@ void build(FloorPlan& plan, const Piece& piece, Random& random) {
       return;
     case Piece::Form::kLegs:
       for (int leg = 0; leg < 4; ++leg) {
-        const Eigen::Vector2d corner(leg % 2 ? place.max().x() - 0.05 : place.min().x(),
-                                     leg / 2 ? place.max().y() - 0.05 : place.min().y());
-        plan.addBox(corner, corner + Eigen::Vector2d(0.05, 0.05));
+        const Eigen::Vector2d corner(leg % 2 ? place.max().x() - kLeg : place.min().x(),
+                                     leg / 2 ? place.max().y() - kLeg : place.min().y());
+        plan.addBox(corner, corner + Eigen::Vector2d(kLeg, kLeg));
       }
       return;
   }
@@ -113,6 +114,34 @@ void furnish(FloorPlan& plan, const Room& room, int count, Random& random) {
     if (!fits(piece, room, pieces)) continue;
     build(plan, piece, random);
     pieces.push_back(piece);
+  }
+}
+
+void clutter(FloorPlan& plan, const Box& floor, const Box& kept_free, int count, Random& random) {
+  for (int i = 0; i < count; ++i) {
+    const double kind = random.uniform();
+    if (kind < 0.3) {
+      const Box place = wallPiece(floor, random).place;
+      if (!place.intersects(kept_free)) plan.addBox(place.min(), place.max());
+      continue;
+    }
+    const bool is_chair = random.uniform() < 0.4, is_on_legs = kind < 0.75;
+    const double length = is_chair ? random.uniform(0.35, 0.5) : random.uniform(0.8, 1.6);
+    const double depth = is_chair ? length : random.uniform(0.4, 0.9);
+    const Eigen::Vector2d half(0.5 * length, 0.5 * depth);
+    const Eigen::Vector2d centre =
+        floor.min() + half + anywhere(floor.sizes() - 2.0 * half, random);
+    const double angle = random.integer(0, 1) * random.uniform(0.0, M_PI);
+    if (kept_free.exteriorDistance(centre) < half.norm()) continue;
+    if (is_on_legs) {
+      for (const Eigen::Vector2d& corner : {half, Eigen::Vector2d(half.x(), -half.y())}) {
+        const Eigen::Vector2d to_leg = Eigen::Rotation2Dd(angle) * corner;
+        plan.addTurnedBox(centre + to_leg, {kLeg, kLeg}, angle);
+        plan.addTurnedBox(centre - to_leg, {kLeg, kLeg}, angle);
+      }
+    } else {
+      plan.addTurnedBox(centre, 2.0 * half, angle);
+    }
   }
 }
 

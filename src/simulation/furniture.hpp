@@ -24,6 +24,10 @@ struct Room {
 /// (tables, round tables, pillars), wherever kPassage stays free around them.
 void furnish(FloorPlan& plan, const Room& room, int count, Random& random);
 
+/// Sets `count` pieces (cupboards against the walls, chairs and tables on legs, boxes) anywhere but
+/// in `kept_free`: they may overlap and shut ways.
+void clutter(FloorPlan& plan, const Box& floor, const Box& kept_free, int count, Random& random);
+
 /// The value on the 5 cm raster that the worlds are made for.
 double onRaster(double value);
 

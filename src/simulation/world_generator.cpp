@@ -19,6 +19,7 @@ const std::vector<std::pair<std::string, FloorPlan (*)(Random&)>> kKinds = {
     {"gallery", gallery},
     {"maze", maze},
     {"random", randomBuilding},
+    {"crowded", crowdedBuilding},
 };
 
 }  // namespace

@@ -9,13 +9,14 @@
 
 namespace cca {
 
-/// The kinds of building that generateFloorPlan() knows, in the order they are shipped.
+/// The kinds of building that generateFloorPlan() knows; `crowded` is not among the shipped ones.
 std::vector<std::string> floorPlanKinds();
 
-/// A building of a kind; the seed varies its furniture, or all of it (maze, random).
+/// A building of a kind; the seed varies its furniture, or all of it (maze, random, crowded).
 ///
 /// Every door and every passage between pieces of furniture is at least 0.9 m wide, so that all of
-/// the floor is one region for a robot of 0.25 m radius with a margin of 0.1 m.
+/// the floor is one region for a robot of 0.25 m radius with a margin of 0.1 m; but in `crowded`,
+/// where any gap may be anything, half a metre around the start is all that is kept free.
 /// @throws std::runtime_error for an unknown kind, naming those that there are.
 FloorPlan generateFloorPlan(const std::string& kind, std::uint64_t seed);
 
