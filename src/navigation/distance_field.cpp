@@ -48,6 +48,17 @@ constexpr Corner kCorners[4] = {{0x8000, 0x0001, 0x1000, 0x0008},
                                 {0x0001, 0x8000, 0x0008, 0x1000},
                                 {0x0008, 0x1000, 0x0001, 0x8000}};
 
+/// Where a shortest path that came by neighbour d goes on in the open, a bit for each neighbour:
+/// straight on, and after a diagonal also along its two sides. All else is reached past the block.
+constexpr unsigned kOnward[8] = {1u << 0,
+                                 1u << 1,
+                                 1u << 2,
+                                 1u << 3,
+                                 1u << 4 | 1u << 0 | 1u << 1,
+                                 1u << 5 | 1u << 2 | 1u << 1,
+                                 1u << 6 | 1u << 2 | 1u << 3,
+                                 1u << 7 | 1u << 0 | 1u << 3};
+
 }  // namespace
 
 void DistanceField::search(const FreeSpace& space, double resolution, Cell start, double horizon,
@@ -94,24 +105,31 @@ void DistanceField::grow(const FreeSpace& space, std::optional<Cell> until) {
 
 void DistanceField::expand(const FreeSpace& space, Node& node, const Entry& entry) {
   const Cell b = entry.block;
-  const unsigned part = node.parts[static_cast<std::size_t>(entry.part)].cells;
+  const Part& here = node.parts[static_cast<std::size_t>(entry.part)];
+  const unsigned part = here.cells;
   const auto from_part = static_cast<std::int8_t>(entry.part);
   const std::array<std::uint16_t, 8> around = space.traversableAround(b);
+  const bool is_open = part == kAll && std::all_of(around.begin(), around.end(),
+                                                   [](unsigned cells) { return cells == kAll; });
+  // The space may have grown between two blocks of a path: both have to have been open.
+  const unsigned onward =
+      is_open && here.from_open ? kOnward[static_cast<std::size_t>(here.from)] : 0xFF;
   for (int d = 0; d < 4; ++d) {
     const unsigned cells = around[static_cast<std::size_t>(d)];
-    unsigned open = cells & acrossSide(part, d);
+    unsigned open = onward >> d & 1 ? cells & acrossSide(part, d) : 0;
     if (!open) continue;
     const Cell step = kNeighbours[static_cast<std::size_t>(d)], next = b + step;
     if (!isStorable(next)) continue;
     Node& beside = nodes_.beside(node, b, step);
     while (open) {
-      const Passage to{next, cells, open & (~open + 1), static_cast<std::int8_t>(d), from_part};
+      const Passage to{next,      cells,  open & (~open + 1), static_cast<std::int8_t>(d),
+                       from_part, is_open};
       open &= ~relax(beside, to, entry.cost + kStraight);
     }
   }
   for (int d = 4; d < 8; ++d) {
     const Corner& corner = kCorners[d - 4];
-    if (!(part & corner.here)) continue;
+    if (!(onward >> d & 1) || !(part & corner.here)) continue;
     const unsigned cells = around[static_cast<std::size_t>(d)];
     const Cell step = kNeighbours[static_cast<std::size_t>(d)], next = b + step;
     if (!(cells & corner.there) || !(around[step.x > 0 ? 0 : 2] & corner.beside_x) ||
@@ -119,7 +137,7 @@ void DistanceField::expand(const FreeSpace& space, Node& node, const Entry& entr
       continue;
     }
     relax(nodes_.beside(node, b, step),
-          {next, cells, corner.there, static_cast<std::int8_t>(d), from_part},
+          {next, cells, corner.there, static_cast<std::int8_t>(d), from_part, is_open},
           entry.cost + kDiagonal);
   }
 }
@@ -132,7 +150,7 @@ unsigned DistanceField::relax(Node& node, const Passage& to, std::uint32_t cost)
     if (part.cells && !(part.cells & to.entry)) continue;
     if (part.cells && cost >= part.cost) return part.cells;
     const unsigned cells = part.cells ? part.cells : connectedPart(to.open, to.entry);
-    part = {cost, static_cast<std::uint16_t>(cells), false, to.from, to.from_part};
+    part = {cost, static_cast<std::uint16_t>(cells), false, to.from, to.from_part, to.from_open};
     queue_[cost % queue_.size()].push_back({to.block, static_cast<int>(k), cost});
     ++waiting_;
     return cells;
@@ -152,6 +170,11 @@ const DistanceField::Part* DistanceField::partOf(Cell c) const {
 double DistanceField::distanceTo(Cell c) const {
   const Part* part = partOf(c);
   return part ? part->cost * unit_ : kUnreached;
+}
+
+unsigned DistanceField::asFarAs(Cell c) const {
+  const Part* part = partOf(c);
+  return part ? part->cells : 0;
 }
 
 double DistanceField::leastDistanceTo(Cell block) const {

@@ -80,8 +80,10 @@ void FreeSpace::bar(Cell c, bool is_barred) {
 
 void FreeSpace::mark(Cell c) {
   std::uint16_t& block = blocks_[blockOf(c)];
-  const unsigned bit = bitOf(c);
-  block = static_cast<std::uint16_t>(isTraversable(c) ? block | bit : block & ~bit);
+  const bool was_traversable = block & bitOf(c);
+  if (was_traversable == isTraversable(c)) return;
+  block = static_cast<std::uint16_t>(block ^ bitOf(c));
+  ++revision_;
 }
 
 }  // namespace cca

@@ -60,8 +60,11 @@ bool KnownPlace::openNarrowPassages() {
 }
 
 void KnownPlace::findWays(const Eigen::Vector2d& from_map, std::optional<Cell> until) {
-  ways_.search(space_, grid_.resolution(), grid_.cellOf(from_map), DistanceField::kUnreached,
-               until);
+  const std::pair from(grid_.cellOf(from_map), space_.revision());
+  if (all_ways_from_ == from) return;
+  ways_.search(space_, grid_.resolution(), from.first, DistanceField::kUnreached, until);
+  all_ways_from_.reset();
+  if (ways_.isComplete()) all_ways_from_ = from;
 }
 
 bool KnownPlace::isOnGrid(const Eigen::Vector2d& p_map) const { return grid_.covers(p_map); }

@@ -13,9 +13,9 @@ constexpr double kPi = 3.14159265358979323846;
 
 constexpr int kViewRays = 90, kGainRays = 72, kFineRays = 360;
 
-/// Cells' length that fine rays may go through opaque ones: cutting corners, but not through a wall.
-/// A surface on the border of two cells makes both occupied, and a ray that grazes it, or the jamb
-/// of a door, would end there.
+/// Cells' length that fine rays may go through opaque ones: cutting corners, but not through a
+/// wall. A surface on the border of two cells makes both occupied, and a ray that grazes it, or the
+/// jamb of a door, would end there.
 constexpr double kCut = 1.0;
 
 std::vector<Eigen::Vector2d> directions(int rays) {
@@ -181,6 +181,7 @@ std::optional<ViewPoint> nearestViewPoint(const ExplorationGrid& grid, const Fre
       in_known = in_known || state != CellState::kUnknown;
       if (FreeSpace::blockOf(c) != block) enter(FreeSpace::blockOf(c));
       if (!(eligible & FreeSpace::bitOf(c))) return true;
+      eligible &= ~(FreeSpace::bitOf(c) | field.asFarAs(c));
       const double distance = field.distanceTo(c);
       if (distance < (best ? best->distance : DistanceField::kUnreached))
         best = ViewPoint{c, target, distance, 0.0};

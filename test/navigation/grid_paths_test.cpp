@@ -63,6 +63,51 @@ TEST(DistanceField, ReachesWhatAFloodOverCellsReaches) {
   }
 }
 
+/// Costs over whole blocks, in twelfths of a side, by plain repetition until nothing gets shorter.
+std::map<std::pair<int, int>, int> shortestOverBlocks(const KnownWorld& blocks, Cell start) {
+  const auto isOpen = [&](Cell c) { return !blocks.isOccupied(c); };
+  std::map<std::pair<int, int>, int> cost{{{start.x, start.y}, 0}};
+  std::queue<Cell> open;
+  open.push(start);
+  for (; !open.empty(); open.pop()) {
+    const Cell c = open.front();
+    for (std::size_t d = 0; d < 8; ++d) {
+      const Cell step = kNeighbours[d], next = c + step;
+      if (!isOpen(next) || !isOpen({c.x + step.x, c.y}) || !isOpen({c.x, c.y + step.y})) continue;
+      const int way = cost[{c.x, c.y}] + (d < 4 ? 12 : 17);
+      const auto known = cost.find({next.x, next.y});
+      if (known != cost.end() && known->second <= way) continue;
+      cost[{next.x, next.y}] = way;
+      open.push(next);
+    }
+  }
+  return cost;
+}
+
+TEST(DistanceField, IsThatOfTheShortestOfAllPathsOverBlocks) {
+  for (const double share : {0.0, 0.02, 0.1, 0.3}) {
+    for (unsigned seed = 1; seed <= 5; ++seed) {
+      KnownWorld world = randomWorld(seed, 40, share);
+      const Cell start{20, 17};
+      world.rows[39 - 17][20] = '.';
+      auto shortest = shortestOverBlocks(world, start);
+      world.scale = FreeSpace::kBlock;
+      const Known known(world, 0.01);
+      DistanceField field;
+      field.search(known.space, kResolution, {20 * FreeSpace::kBlock, 17 * FreeSpace::kBlock});
+      for (int y = 0; y < 40; ++y) {
+        for (int x = 0; x < 40; ++x) {
+          const double way = field.distanceTo({FreeSpace::kBlock * x, FreeSpace::kBlock * y});
+          const auto cost = shortest.find({x, y});
+          ASSERT_EQ(cost == shortest.end(), way == DistanceField::kUnreached) << x << ", " << y;
+          if (cost == shortest.end()) continue;
+          ASSERT_NEAR(way, cost->second * 0.2 / 12.0, 1e-9) << x << ", " << y;
+        }
+      }
+    }
+  }
+}
+
 TEST(DistanceField, MeasuresStraightWaysExactlyAndObliqueOnesWithinEightPercent) {
   const Known known({std::vector<std::string>(100, std::string(100, '.'))}, 0.1);
   DistanceField field;

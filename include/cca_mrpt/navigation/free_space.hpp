@@ -54,6 +54,9 @@ class FreeSpace {
 
   double clearance() const { return clearance_; }
 
+  /// Grows whenever a cell becomes traversable or ceases to be.
+  std::uint64_t revision() const { return revision_; }
+
  private:
   static constexpr std::uint32_t kFree = 0x80000000, kOccupied = 0x40000000, kPassed = 0x20000000,
                                  kBarred = 0x10000000;
@@ -64,6 +67,7 @@ class FreeSpace {
   void mark(Cell c);
 
   double clearance_, resolution_;
+  std::uint64_t revision_ = 0;
   std::vector<Cell> disc_;
   TiledGrid<std::uint32_t> cells_;   ///< state bits, and the number of obstacles within clearance
   TiledGrid<std::uint16_t> blocks_;  ///< traversable cells, a bit each

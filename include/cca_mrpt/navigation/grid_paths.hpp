@@ -16,7 +16,8 @@ namespace cca {
 ///
 /// A node is a connected part of a block's traversable cells, so a passage one cell wide is kept
 /// and a wall one cell thin is not crossed. Dijkstra with a bucket queue; 8-connected, so a length
-/// is 0 to 8 % above the Euclidean one in the open.
+/// is 0 to 8 % above the Euclidean one in the open, where of all equally short paths only the one
+/// that goes diagonally first is followed [Harabor & Grastien 2011].
 class DistanceField {
  public:
   static constexpr double kUnreached = std::numeric_limits<double>::infinity();
@@ -39,6 +40,9 @@ class DistanceField {
   /// m, from the start to a cell's block, as far as the search has come; kUnreached where no known
   /// path leads there.
   double distanceTo(Cell c) const;
+  /// The cells of c's block (bits as those of FreeSpace) that are as far, since they are connected
+  /// with it; 0 where it is not reached.
+  unsigned asFarAs(Cell c) const;
   /// m, below which no way to a block can be, wherever the obstacles are. Precondition:
   /// isStarted().
   double leastDistanceTo(Cell block) const;
@@ -50,6 +54,8 @@ class DistanceField {
   /// The traversable cell the search began at. Meaningful where isStarted().
   Cell start() const { return start_; }
   bool isStarted() const { return started_; }
+  /// Whether all ways are known, as far as the horizon.
+  bool isComplete() const { return waiting_ == 0; }
 
  private:
   static constexpr int kParts = 2;  ///< parts of a block that are told apart
@@ -60,6 +66,7 @@ class DistanceField {
     bool settled = false;
     std::int8_t from = -1;       ///< neighbour that the path comes from
     std::int8_t from_part = -1;  ///< and its part
+    bool from_open = false;      ///< all around that one was open
   };
   struct Node {
     std::uint32_t search = 0;  ///< number of the search that wrote this
@@ -76,6 +83,7 @@ class DistanceField {
     unsigned open;   ///< all traversable cells of the block
     unsigned entry;  ///< one of them
     std::int8_t from = -1, from_part = -1;
+    bool from_open = false;
   };
   const Part* partOf(Cell c) const;
   void grow(const FreeSpace& space, std::optional<Cell> until);

@@ -2,7 +2,9 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstdint>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "cca_mrpt/navigation/barred_ways.hpp"
@@ -46,7 +48,7 @@ class KnownPlace {
   bool openNarrowPassages();
 
   /// Finds the shortest ways from a place (m, map frame) anew: to everywhere, or at least to
-  /// `until`. Cost: O(known blocks).
+  /// `until`. Cost: O(known blocks), none where all of them are known from there already.
   void findWays(const Eigen::Vector2d& from_map, std::optional<Cell> until = std::nullopt);
   /// The ways last found.
   const DistanceField& ways() const { return ways_; }
@@ -86,6 +88,8 @@ class KnownPlace {
   std::optional<Eigen::Vector2d> last_place_;
   double laser_range_ = 1.0;
   bool has_narrow_passages_ = false;
+  /// Where all ways were found from, and in what space.
+  std::optional<std::pair<Cell, std::uint64_t>> all_ways_from_;
 };
 
 }  // namespace cca
