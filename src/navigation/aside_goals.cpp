@@ -7,9 +7,8 @@
 namespace cca {
 namespace {
 
-constexpr std::size_t kWorthAnotherTry = 200;  // cells newly seen: half a square metre
-constexpr std::size_t kRetryAfter = 4000;      // cells newly seen: 10 m^2
-constexpr int kSameTarget = 3;                 // cells
+constexpr std::size_t kRetryAfter = 4000;  // cells newly seen: 10 m^2
+constexpr int kSameTarget = 3;             // cells
 
 bool isSameTarget(Cell a, Cell b) {
   return std::max(std::abs(a.x - b.x), std::abs(a.y - b.y)) <= kSameTarget;

@@ -9,10 +9,11 @@ namespace {
 // m^2, of gain exp(-0.2 way): a frontier that promises this is driven into. With 3 there is less
 // way to 90 % coverage and more to 99 %, with 8 the reverse.
 constexpr double kWorthEntering = 6.5;
-constexpr double kReconsiderAfter = 0.3;            // m driven
-constexpr std::size_t kWorthReconsidering = 20;     // cells newly seen
-constexpr std::size_t kWorthAnotherLastLook = 200;  // cells newly seen: half a square metre
-constexpr double kPassed = 0.1;                     // m, of a corner
+constexpr double kReconsiderAfter = 0.3;         // m driven
+constexpr std::size_t kWorthReconsidering = 20;  // cells newly seen
+constexpr double kPassed = 0.1;                  // m, of a corner
+constexpr double kSamePlace = 0.3;               // m
+constexpr int kMostGivenUpHere = 3;              // goals of the last look
 
 }  // namespace
 
@@ -78,7 +79,7 @@ void GlobalPlanner::advance(const Eigen::Vector2d& robot_map) {
 void GlobalPlanner::replan(const Eigen::Vector2d& robot_map) {
   place_.findWays(robot_map, goal_->cell);
   if (!takeWayTo(goal_->cell, robot_map)) {
-    if (aside_.noteLostWay(goal_->target)) setGoalAside();
+    if (aside_.noteLostWay(goal_->target)) dropGoal();
     decide(robot_map);
   }
 }
@@ -98,7 +99,7 @@ bool GlobalPlanner::isTimeToReconsider(const Eigen::Vector2d& robot_map) const {
 
 void GlobalPlanner::decide(const Eigen::Vector2d& robot_map) {
   if (isGoalUnseen() && place_.scanned().contains(goal_->cell)) {
-    setGoalAside();  // there, and nothing seen
+    dropGoal();  // there, and nothing seen
   }
   decided_at_ = robot_map;
   revealed_then_ = grid().revealed();
@@ -116,7 +117,9 @@ void GlobalPlanner::decide(const Eigen::Vector2d& robot_map) {
     return;
   }
   plan_.finished = true;
-  plan_.reason = place_.ways().isStarted()
+  plan_.reason = given_up_here_ >= kMostGivenUpHere
+                     ? "the robot does not get to what is left from where it stands"
+                 : place_.ways().isStarted()
                      ? "no reachable frontier of useful size is left"
                      : "the robot stands where nothing around it is known to be free";
 }
@@ -129,7 +132,7 @@ bool GlobalPlanner::drivesTo(const ViewPoint& chosen, const Eigen::Vector2d& rob
   plan_.look_at = grid().centreOf(chosen.target);
   plan_.reason = reason;
   if (takeWayTo(chosen.cell, robot_map)) return true;
-  setGoalAside();
+  dropGoal();
   return false;
 }
 
@@ -159,7 +162,7 @@ bool GlobalPlanner::lookLast(const Eigen::Vector2d& robot_map) {
            views_.isWithinLimits(place_, view.cell) && views_.isWithinLimits(place_, view.target);
   };
   const Strategy strategy = strategy_ == Strategy::kViewTour ? Strategy::kGainDistance : strategy_;
-  for (;;) {
+  while (given_up_here_ < kMostGivenUpHere) {
     while (const auto chosen = last_look_.next(place_, strategy, is_open)) {
       is_last_look_ = true;
       if (drivesTo(*chosen, robot_map, "to see what is left")) return true;
@@ -169,14 +172,14 @@ bool GlobalPlanner::lookLast(const Eigen::Vector2d& robot_map) {
       plan_.reason = "to find out what is left to see";
       return true;
     }
-    if (revealed_at_last_look_ &&
-        grid().revealed() < *revealed_at_last_look_ + kWorthAnotherLastLook) {
+    if (revealed_at_last_look_ && grid().revealed() < *revealed_at_last_look_ + kWorthAnotherTry) {
       if (!place_.openNarrowPassages()) return false;
       place_.findWays(decided_at_);
     }
     revealed_at_last_look_ = grid().revealed();
     last_look_.begin(place_);
   }
+  return false;  // it gets nowhere from here
 }
 
 void GlobalPlanner::lookAround() {
@@ -200,6 +203,14 @@ std::optional<ViewPoint> GlobalPlanner::choose() {
 }
 
 void GlobalPlanner::setGoalAside() {
+  if (goal_ && is_last_look_ && place_.lastPlace()) {
+    if ((*place_.lastPlace() - given_up_at_).norm() > kSamePlace) given_up_here_ = 0;
+    if (given_up_here_++ == 0) given_up_at_ = *place_.lastPlace();
+  }
+  dropGoal();
+}
+
+void GlobalPlanner::dropGoal() {
   if (goal_) aside_.add(goal_->target, grid().revealed());
   if (goal_ && is_last_look_) last_look_.drop(goal_->cell);
   goal_.reset();
@@ -222,6 +233,7 @@ bool GlobalPlanner::goAround(const std::vector<Eigen::Vector2d>& way) {
 }
 
 void GlobalPlanner::noteArrival() {
+  given_up_here_ = 0;
   if (goal_) place_.noteScanned(goal_->cell);
 }
 

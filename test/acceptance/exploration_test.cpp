@@ -7,6 +7,7 @@
 #include "cca_mrpt/simulation/coverage.hpp"
 #include "cca_mrpt/simulation/floor_plan.hpp"
 #include "cca_mrpt/simulation/simulation.hpp"
+#include "cca_mrpt/simulation/world_generator.hpp"
 
 namespace cca {
 namespace {
@@ -88,6 +89,17 @@ TEST(NarrowPassages, AreDrivenThroughWithoutHesitation) {
         explore(roomsWithAPassage(0.6), {1.0 + 0.25 * seed, 4.0, 0.0}, seed, 60.0);
     EXPECT_TRUE(result.finished) << seed;
     EXPECT_GE(result.coverage, 0.99) << seed;
+    EXPECT_EQ(result.collisions, 0) << seed;
+  }
+}
+
+// Much of these can only be looked into, from a few places.
+TEST(CrowdedPlaces, AreLookedIntoFromWhereverTheRobotCanGo) {
+  for (const std::uint64_t seed : {3, 5, 15}) {
+    const World world = rasterise(generateFloorPlan("crowded", seed), 0.05);
+    const Result result = explore(world, *world.start, 1, 600.0);
+    EXPECT_TRUE(result.finished) << seed;
+    EXPECT_GE(result.coverage, 0.985) << seed;
     EXPECT_EQ(result.collisions, 0) << seed;
   }
 }

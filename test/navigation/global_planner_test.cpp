@@ -102,6 +102,24 @@ TEST(GlobalPlanner, LooksAtLastAsFarAsItCanWhereItCannotGo) {
   EXPECT_EQ(planner.grid().at(planner.grid().cellOf({6.3, 1.376})), CellState::kFree);
 }
 
+// Dozens of places promise a part of the room behind the window; each would take its time.
+TEST(GlobalPlanner, WhereItIsHeldGivesUpTheLastLookAfterThreeGoals) {
+  const KnownWorld window{{"##################", "#....#...........#", "#................#",
+                           "#....#...........#", "##################"},
+                          11};
+  const Eigen::Vector2d robot(1.7, 1.375);
+  GlobalPlanner planner;
+  const Scan scan = window.scanFrom({robot.x(), robot.y(), 0.0}, 8.0);
+  int given_up = 0;
+  for (int k = 0; k < 100 && !update(planner, scan, robot).finished; ++k) {
+    given_up += planner.plan().reason == "to see what is left";
+    planner.setGoalAside();
+  }
+  EXPECT_TRUE(planner.plan().finished);
+  EXPECT_EQ(given_up, 3);
+  EXPECT_NE(planner.plan().reason.find("does not get to what is left"), std::string::npos);
+}
+
 /// Squares of a quarter of a metre: a hall, a room behind a passage of half a metre, which holds no
 /// cell whose centre is a quarter of a metre from both its sides.
 const KnownWorld kNarrowPassage{{"##############################", "#............##..............#",

@@ -8,6 +8,9 @@
 
 namespace cca {
 
+/// Cells newly seen, half a square metre, that make another try worth while.
+constexpr std::size_t kWorthAnotherTry = 200;
+
 /// Goals that are not to be tried for now: they proved unreachable, or were reached and nothing was
 /// seen. How much of the map has changed since then is told by `revealed`, the number of cells that
 /// the grid has ever come to know. Goals within 15 cm of each other are one.

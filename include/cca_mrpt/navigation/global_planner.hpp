@@ -64,7 +64,8 @@ class GlobalPlanner {
   /// Exploration stays inside a polygon (m, map frame); fewer than three corners: no limit.
   void limitTo(std::vector<Eigen::Vector2d> polygon) { views_.limitTo(std::move(polygon)); }
 
-  /// Sets the present goal aside until the map has changed, e.g. where it proved unreachable.
+  /// Sets the present goal aside until the map has changed, e.g. where it proved unreachable. The
+  /// third one of the last look that this happens to at the same place ends the exploration.
   void setGoalAside();
 
   /// Says that the robot got no farther on a way (m, map frame), from its beginning on: further
@@ -113,6 +114,7 @@ class GlobalPlanner {
   std::optional<ViewPoint> choose();
   void lookAround();
   bool lookLast(const Eigen::Vector2d& robot_map);
+  void dropGoal();
   bool drivesTo(const ViewPoint& chosen, const Eigen::Vector2d& robot_map, const char* reason);
 
   Strategy strategy_;
@@ -128,6 +130,10 @@ class GlobalPlanner {
   bool is_last_look_ = false;      ///< the goal is one of last_look_
   /// When last_look_ began.
   std::optional<std::size_t> revealed_at_last_look_;
+  /// Goals of the last look that were set aside one after the other while the robot was at the same
+  /// place: it is held there, and each further goal would take its time in vain.
+  int given_up_here_ = 0;
+  Eigen::Vector2d given_up_at_ = Eigen::Vector2d::Zero();  ///< m, map frame
   int goals_ = 0;
   Plan plan_;
 };
