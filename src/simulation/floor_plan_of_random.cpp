@@ -23,11 +23,9 @@ class Divider {
  public:
   /// Doors are `narrowest` to `widest` m wide.
   Divider(FloorPlan& plan, Random& random, double narrowest, double widest)
-      : plan_(plan), random_(random), narrowest_(narrowest), widest_(widest) {}
-
-  void divideAll() {
+      : plan_(plan), random_(random), narrowest_(narrowest), widest_(widest) {
     divide(Box(Eigen::Vector2d(kOuter, kOuter),
-               Eigen::Vector2d(plan_.width - kOuter, plan_.height - kOuter)));
+               Eigen::Vector2d(plan.width - kOuter, plan.height - kOuter)));
   }
 
   const std::vector<Box>& rooms() const { return rooms_; }
@@ -93,16 +91,22 @@ class Divider {
   std::vector<Box> rooms_, doors_;
 };
 
+/// Outer walls around a floor that is `lowest` to `highest` m wide and high.
+FloorPlan emptyFloor(const Eigen::Vector2d& lowest, const Eigen::Vector2d& highest,
+                     Random& random) {
+  FloorPlan plan;
+  plan.width = onRaster(random.uniform(lowest.x(), highest.x()));
+  plan.height = onRaster(random.uniform(lowest.y(), highest.y()));
+  plan.addOuterWalls(kOuter);
+  return plan;
+}
+
 }  // namespace
 
 /// 16 to 32 by 12 to 24 m of rooms and corridors, furnished.
 FloorPlan randomBuilding(Random& random) {
-  FloorPlan plan;
-  plan.width = onRaster(random.uniform(16.0, 32.0));
-  plan.height = onRaster(random.uniform(12.0, 24.0));
-  plan.addOuterWalls(kOuter);
-  Divider divider(plan, random, 0.9, 1.4);
-  divider.divideAll();
+  FloorPlan plan = emptyFloor({16.0, 12.0}, {32.0, 24.0}, random);
+  const Divider divider(plan, random, 0.9, 1.4);
   for (const Box& floor : divider.rooms()) {
     Room room{floor, divider.doors()};
     if (&floor == &divider.rooms().front()) {  // the robot's place stays free
@@ -117,12 +121,8 @@ FloorPlan randomBuilding(Random& random) {
 /// 14 to 30 by 10 to 20 m of rooms that are full of things: legs of chairs and tables, gaps too
 /// narrow for a robot, and posts in every seventh door. Much of it can only be looked into.
 FloorPlan crowdedBuilding(Random& random) {
-  FloorPlan plan;
-  plan.width = onRaster(random.uniform(14.0, 30.0));
-  plan.height = onRaster(random.uniform(10.0, 20.0));
-  plan.addOuterWalls(kOuter);
-  Divider divider(plan, random, 0.7, 1.1);
-  divider.divideAll();
+  FloorPlan plan = emptyFloor({14.0, 10.0}, {30.0, 20.0}, random);
+  const Divider divider(plan, random, 0.7, 1.1);
   const Eigen::Vector2d start = divider.rooms().front().center(), aside(kStartsFree, kStartsFree);
   plan.start = {start.x(), start.y(), 0.0};
   for (const Box& floor : divider.rooms()) {
@@ -131,12 +131,11 @@ FloorPlan crowdedBuilding(Random& random) {
   }
   for (const Box& door : divider.doors()) {
     const int posts = random.integer(1, 2);
-    const bool is_barred = random.uniform() < 1.0 / 7.0;
-    for (int i = 1; is_barred && i <= posts; ++i) {
-      const Eigen::Vector2d along = door.sizes().x() > door.sizes().y()
-                                        ? Eigen::Vector2d(door.sizes().x(), 0.0)
-                                        : Eigen::Vector2d(0.0, door.sizes().y());
-      const Eigen::Vector2d post = door.center() + (i / (posts + 1.0) - 0.5) * along;
+    if (random.uniform() >= 1.0 / 7.0) continue;
+    const int axis = door.sizes().x() > door.sizes().y() ? 0 : 1;
+    for (int i = 1; i <= posts; ++i) {
+      Eigen::Vector2d post = door.center();
+      post[axis] += (i / (posts + 1.0) - 0.5) * door.sizes()[axis];
       plan.addTurnedBox(post, {kPost, kPost}, 0.0);
     }
   }

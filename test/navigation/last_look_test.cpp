@@ -18,6 +18,14 @@ const KnownWorld kRoomBehindAGap{
     8};
 const Eigen::Vector2d kBeforeTheGap{2.6, 1.8};
 
+/// Calls until all places have been asked.
+std::optional<ViewPoint> nextOf(LastLook& last_look, KnownPlace& place, Strategy strategy,
+                                const LastLook::Filter& filter) {
+  auto view = last_look.next(place, strategy, filter);
+  while (!view && last_look.isUnderWay()) view = last_look.next(place, strategy, filter);
+  return view;
+}
+
 struct Look {
   KnownPlace place{0.27};
   LastLook last_look{0.1, 5};
@@ -28,9 +36,7 @@ struct Look {
     last_look.begin(place);
   }
   std::optional<ViewPoint> next(Strategy strategy, const LastLook::Filter& filter = takesAll) {
-    auto view = last_look.next(place, strategy, filter);
-    while (!view && last_look.isUnderWay()) view = last_look.next(place, strategy, filter);
-    return view;
+    return nextOf(last_look, place, strategy, filter);
   }
   static bool takesAll(const ViewPoint&) { return true; }
   /// m^2 that a place promises behind frontiers of five cells and more.
@@ -110,10 +116,7 @@ TEST(LastLook, ExpectsNothingBehindASmallFrontier) {
   for (const std::size_t smallest : {std::size_t{3}, std::size_t{5}}) {
     LastLook last_look(0.1, smallest);
     last_look.begin(place);
-    std::optional<ViewPoint> view;
-    do {
-      view = last_look.next(place, Strategy::kGreedy, Look::takesAll);
-    } while (!view && last_look.isUnderWay());
+    const auto view = nextOf(last_look, place, Strategy::kGreedy, Look::takesAll);
     EXPECT_EQ(view.has_value(), smallest == 3);
   }
 }
