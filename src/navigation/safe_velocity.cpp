@@ -16,6 +16,7 @@ constexpr double kStill = 1e-9;  // m/s, rad/s
 // m, by which a hazard may come nearer that is inside the clearance, and inside the robot itself: a
 // robot that touches something only turns or leaves.
 constexpr double kDeeper = 1e-4, kRounding = 1e-9;
+constexpr double kAside = 0.5 * M_PI + 0.02;  // rad, from a hazard: past it
 
 double towards(double from, double to, double step) {
   return from < to ? std::min(to, from + step) : std::max(to, from - step);
@@ -70,6 +71,30 @@ bool isSafe(const std::vector<Predicted>& path, const std::vector<Hazard>& hazar
 }
 
 }  // namespace
+
+double bearingPast(const std::vector<Hazard>& hazards, double radius, double bearing) {
+  std::vector<double> bearings;  // of those that are too near
+  for (const Hazard& hazard : hazards) {
+    if (hazard.p_robot.norm() >= radius - hazard.allowance) continue;
+    bearings.push_back(std::atan2(hazard.p_robot.y(), hazard.p_robot.x()));
+  }
+  const auto isPast = [&](double direction) {
+    return std::all_of(bearings.begin(), bearings.end(), [&](double towards) {
+      return std::abs(wrapAngle(direction - towards)) > 0.5 * M_PI;
+    });
+  };
+  if (isPast(bearing)) return bearing;
+  double best = bearing, least = std::numeric_limits<double>::infinity();
+  for (const double towards : bearings) {
+    for (const double aside : {-kAside, kAside}) {
+      const double off = std::abs(wrapAngle(towards + aside - bearing));
+      if (off >= least || !isPast(towards + aside)) continue;
+      least = off;
+      best = towards + aside;
+    }
+  }
+  return best;
+}
 
 Velocity safeVelocity(const Velocity& wanted, const Velocity& present,
                       const std::vector<Hazard>& hazards, const RobotParameters& robot,

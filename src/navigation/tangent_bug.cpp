@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "cca_mrpt/navigation/tangent_bug.hpp"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -9,7 +10,6 @@
 #include "cca_mrpt/mapping/cross.hpp"
 #include "cca_mrpt/mapping/range_noise.hpp"
 #include "cca_mrpt/navigation/motion_control.hpp"
-#include "cca_mrpt/navigation/safe_velocity.hpp"
 #include "cca_mrpt/navigation/scan_smoothing.hpp"
 
 namespace cca {
@@ -43,6 +43,16 @@ constexpr int kBearings = 360;
 // this leaves out, the robot keeps no more than what may hide between two beams.
 constexpr double kBetweenBeams = 0.004;
 constexpr double kControlPeriod = 0.1;  // s
+constexpr double kStill = 0.01;         // m/s
+// s, that a robot is held by what it is too near to, and that it then drives past it instead of
+// straight to its target. In passages of its own width it would turn to and fro between the walls.
+constexpr double kHeld = 1.0, kGettingAway = 3.0;
+
+Eigen::Vector2d past(const std::vector<Hazard>& hazards, double radius,
+                     const Eigen::Vector2d& target_robot) {
+  const double bearing = std::atan2(target_robot.y(), target_robot.x());
+  return Eigen::Rotation2Dd(bearingPast(hazards, radius, bearing) - bearing) * target_robot;
+}
 
 }  // namespace
 
@@ -89,7 +99,7 @@ Velocity TangentBug::step(const Scan& scan, const Pose2& T_map_robot, const Velo
   if (still && progress_.stuck(T_map_robot.position(), follower_.length(), time, moverIsNear())) {
     shutWhatIsTooNarrow();
   }
-  const Velocity command = drive(velocity, time);
+  const Velocity command = drive(velocity);
   rememberWhatIsNear();
   return command;
 }
@@ -262,20 +272,14 @@ bool TangentBug::seesWhereItGoes() const {
   });
 }
 
-Velocity TangentBug::drive(const Velocity& velocity, double time) const {
+std::vector<Hazard> TangentBug::hazards(double clearance) const {
   const Pose2 T_robot_map = view_.T_map_robot.inverse();
-  Velocity wanted;
-  if (target_) wanted = velocityTowards(T_robot_map * *target_, *target_ == goal_map_, robot_);
-  if (!seesWhereItGoes()) wanted.linear = 0.0;
-  if (view_.horizon == 0.0) wanted = {};
-  if (moving_points_.areAround(time)) wanted.linear = std::min(wanted.linear, kAmongMovers);
   const double c = std::cos(T_robot_map.theta), s = std::sin(T_robot_map.theta);
   const auto inRobot = [&](const Eigen::Vector2d& p) -> Eigen::Vector2d {
     return {T_robot_map.x + c * p.x() - s * p.y(), T_robot_map.y + s * p.x() + c * p.y()};
   };
   std::vector<Hazard> hazards;
   hazards.reserve(view_.obstacles.size() + view_.returns.size() + view_.movers.size());
-  const double clearance = robot_.leastClearance() + noise_allowance_;
   const double allowance = clearance - robot_.radius - kBetweenBeams;
   for (const Eigen::Vector2d& p_map : view_.obstacles) hazards.push_back({inRobot(p_map)});
   for (const Eigen::Vector2d& p_map : view_.returns) {
@@ -287,7 +291,28 @@ Velocity TangentBug::drive(const Velocity& velocity, double time) const {
   for (const auto* points : {&view_.movers, &moving_points_.unsettled()}) {
     for (const Eigen::Vector2d& p_map : *points) hazards.push_back({inRobot(p_map), kWalkingSpeed});
   }
-  return safeVelocity(wanted, velocity, hazards, robot_, clearance, kControlPeriod);
+  return hazards;
+}
+
+Velocity TangentBug::drive(const Velocity& velocity) {
+  const double clearance = robot_.leastClearance() + noise_allowance_;
+  const std::vector<Hazard> near = hazards(clearance);
+  Velocity wanted;
+  if (target_) {
+    Eigen::Vector2d target_robot = view_.T_map_robot.inverse() * *target_;
+    if (time_ < gets_away_until_) target_robot = past(near, clearance, target_robot);
+    wanted = velocityTowards(target_robot, *target_ == goal_map_, robot_);
+  }
+  if (!seesWhereItGoes()) wanted.linear = 0.0;
+  if (view_.horizon == 0.0) wanted = {};
+  if (moving_points_.areAround(time_)) wanted.linear = std::min(wanted.linear, kAmongMovers);
+  const Velocity command = safeVelocity(wanted, velocity, near, robot_, clearance, kControlPeriod);
+  const bool is_held =
+      velocity.linear < kStill && command.linear < kStill && wanted.linear > kStill;
+  if (!is_held) held_since_.reset();
+  if (is_held && !held_since_) held_since_ = time_;
+  if (is_held && time_ - *held_since_ > kHeld) gets_away_until_ = time_ + kGettingAway;
+  return command;
 }
 
 }  // namespace cca

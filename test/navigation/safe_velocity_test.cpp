@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <random>
 
 #include "box_world.hpp"
@@ -114,6 +116,51 @@ TEST(SafeVelocity, StandsStillForSomebodyWhoTouchesIt) {
       safeVelocity({0.7, 1.0}, {0, 0}, {{{0.26, 0.1}, 1.0}}, kRobot, kRadius, kPeriod);
   EXPECT_DOUBLE_EQ(velocity.linear, 0.0);
   EXPECT_DOUBLE_EQ(velocity.angular, 0.0);
+}
+
+Hazard hazardAt(double bearing, double distance) {
+  return {{distance * std::cos(bearing), distance * std::sin(bearing)}};
+}
+
+TEST(BearingPast, IsTheWantedOneWhereNothingIsTooNearInThatDirection) {
+  EXPECT_EQ(bearingPast({}, kRadius, 0.3), 0.3);
+  EXPECT_EQ(bearingPast({hazardAt(0.3, kRadius + 0.001)}, kRadius, 0.3), 0.3);
+  EXPECT_EQ(bearingPast({hazardAt(0.3 + 1.6, kRadius - 0.03)}, kRadius, 0.3), 0.3);
+  Hazard lenient = hazardAt(0.3, kRadius - 0.01);
+  lenient.allowance = 0.02;
+  EXPECT_EQ(bearingPast({lenient}, kRadius, 0.3), 0.3);
+}
+
+// From any place beside some hazards, and whatever is wanted: where there is a direction that comes
+// nearer to none, the robot gets away in it, and it is the nearest one.
+TEST(BearingPast, LeadsAwayFromWhatIsTooNear) {
+  std::mt19937 generator(11);
+  std::uniform_real_distribution<double> bearing(-M_PI, M_PI), distance(0.2, kRadius);
+  int turned = 0;
+  for (int trial = 0; trial < 500; ++trial) {
+    std::vector<Hazard> hazards;
+    for (int i = 0; i < 1 + trial % 3; ++i)
+      hazards.push_back(hazardAt(bearing(generator), distance(generator)));
+    // cos of the angle to the hazard that is most nearly in that direction
+    const auto towards = [&](double direction) {
+      double most = -1.0;
+      for (const Hazard& hazard : hazards) {
+        const Eigen::Vector2d ahead(std::cos(direction), std::sin(direction));
+        most = std::max(most, hazard.p_robot.normalized().dot(ahead));
+      }
+      return most;
+    };
+    const double wanted = bearing(generator);
+    const double past = bearingPast(hazards, kRadius, wanted);
+    for (double off = 0.0; off < M_PI; off += 0.005) {
+      if (towards(wanted + off) > -0.03 && towards(wanted - off) > -0.03) continue;
+      EXPECT_LT(towards(past), 0.0);
+      EXPECT_LE(std::abs(std::remainder(past - wanted, 2.0 * M_PI)), off);
+      turned += past != wanted;
+      break;
+    }
+  }
+  EXPECT_GT(turned, 100);
 }
 
 }  // namespace

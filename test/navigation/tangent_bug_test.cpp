@@ -227,6 +227,26 @@ TEST(TangentBug, FindsItsWayWithALaserOf180Degrees) {
   EXPECT_LT(end.duration, 30.0);  // the way out of the pocket and around it is 20 s
 }
 
+// The cells of the map, or a pose that has drifted, put an obstacle nearly where the robot stands,
+// beside its field of view. It drives along it, and away.
+TEST(TangentBug, IsNotHeldByWhatItKnowsTooNear) {
+  for (const double bearing : {-1.5, -1.3, -1.1, 1.1, 1.3, 1.5}) {
+    TangentBug bug{RobotParameters{}};
+    bug.setGoal({3, 0});
+    Pose2 pose;
+    Velocity velocity;
+    const Eigen::Vector2d known(0.24 * std::cos(bearing), 0.24 * std::sin(bearing));
+    for (int i = 0; i < 200 && bug.state() != TangentBugState::kReached; ++i) {
+      bug.setKnownObstacles({known});
+      const Scan scan = BoxWorld{}.scan(pose, 8.0, 121, 2.0 / 3.0 * M_PI);
+      drive(bug.step(scan, pose, velocity, kPeriod * i), RobotParameters{}, kPeriod, pose,
+            velocity);
+      EXPECT_GE((pose.position() - known).norm(), 0.24 - 1e-3);
+    }
+    EXPECT_EQ(bug.state(), TangentBugState::kReached) << bearing;
+  }
+}
+
 TEST(TangentBug, IsPromisedNoPlaceBehindItsBack) {
   TangentBug bug{RobotParameters{}};
   bug.setGoal({-5, 0});

@@ -15,6 +15,17 @@ struct Hazard {
   double allowance = 0.0;      ///< m, by which it may be inside the radius
 };
 
+/// The direction nearest to a wanted one in which the robot comes no nearer to a hazard that it is
+/// too near to already: along it, or away. Driving towards it would be refused, and standing would
+/// keep the robot where it is for good.
+///
+/// @param bearing  rad, robot frame.
+/// @param radius   m, as for safeVelocity().
+/// @return rad, robot frame; the wanted one where no hazard is too near, or every direction leads
+///         nearer to one.
+/// Cost: O(hazards + square of those that are too near).
+double bearingPast(const std::vector<Hazard>& hazards, double radius, double bearing);
+
 /// The last word on what the robot does: the velocity nearest to the wanted one from which it can
 /// still stop before it touches anything.
 ///

@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <deque>
+#include <limits>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -15,6 +16,7 @@
 #include "cca_mrpt/navigation/moving_points.hpp"
 #include "cca_mrpt/navigation/progress_watch.hpp"
 #include "cca_mrpt/navigation/robot.hpp"
+#include "cca_mrpt/navigation/safe_velocity.hpp"
 #include "cca_mrpt/navigation/short_memory.hpp"
 #include "cca_mrpt/navigation/tangent_graph.hpp"
 
@@ -69,7 +71,8 @@ class TangentBug {
   std::optional<Eigen::Vector2d> startFollowing();
   std::optional<Eigen::Vector2d> followBoundary();
   bool seesWhereItGoes() const;
-  Velocity drive(const Velocity& velocity, double time) const;
+  std::vector<Hazard> hazards(double clearance) const;
+  Velocity drive(const Velocity& velocity);
 
   RobotParameters robot_;
   Eigen::Vector2d goal_map_ = Eigen::Vector2d::Zero();
@@ -82,6 +85,8 @@ class TangentBug {
   int starts_ = 0;               ///< of boundary following, since the robot came nearer than ever
   std::optional<Eigen::Vector2d> started_at_map_;
   std::optional<double> lost_since_;
+  std::optional<double> held_since_;  ///< s: it stands, wants to drive, and that is not safe
+  double gets_away_until_ = -std::numeric_limits<double>::infinity();  ///< s
   double time_ = 0.0;
   MovingPoints moving_points_;
   double noise_allowance_ = 0.0;  ///< m, added to every distance that is kept
