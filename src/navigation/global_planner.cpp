@@ -37,7 +37,11 @@ const Plan& GlobalPlanner::update(const Scan& scan, const Eigen::Vector2d& robot
     decide(robot_map);
   } else {
     advance(robot_map);
-    if (!pathStands()) replan(robot_map);
+    if (pathStands()) {
+      view_tour_.prepare(grid(), space());
+    } else {
+      replan(robot_map);
+    }
   }
   return plan_;
 }

@@ -90,9 +90,13 @@ Eigen::MatrixXd ViewTour::distances(const ExplorationGrid& grid, const FreeSpace
     return view_points[stops[static_cast<std::size_t>(i) - 1].view_point];
   };
   int budget = parameters_.fields_per_choice;
+  last_stops_.clear();
+  estimated_.clear();
   for (Eigen::Index i = 1; i <= n; ++i) {
     distance(0, i) = distance(i, 0) = view(i).distance;
     DistanceField* field = i > 1 ? fieldAt(grid, space, view(i).cell, budget) : nullptr;
+    if (i > 1 && !field) estimated_.push_back(last_stops_.size());
+    last_stops_.push_back(view(i).cell);
     for (Eigen::Index j = 1; j < i; ++j) {
       double way = field ? field->reach(space, view(j).cell) : DistanceField::kUnreached;
       // Beyond the horizon or the budget: somewhere between the straight line and the way by the
@@ -105,6 +109,15 @@ Eigen::MatrixXd ViewTour::distances(const ExplorationGrid& grid, const FreeSpace
     }
   }
   return distance;
+}
+
+void ViewTour::prepare(const ExplorationGrid& grid, const FreeSpace& space) {
+  if (estimated_.empty()) return;
+  const std::size_t stop = estimated_.back();
+  estimated_.pop_back();
+  int budget = 1;
+  DistanceField* field = fieldAt(grid, space, last_stops_[stop], budget);
+  for (std::size_t before = 0; before < stop; ++before) field->reach(space, last_stops_[before]);
 }
 
 DistanceField* ViewTour::fieldAt(const ExplorationGrid& grid, const FreeSpace& space, Cell cell,

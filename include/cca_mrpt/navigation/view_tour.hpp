@@ -18,7 +18,7 @@ struct ViewTourParameters {
   double hurry = 10.0;
   double stay = 0.5;            ///< m, by how much another tour must cost less than going on
   std::size_t most_stops = 16;  ///< of a tour
-  int fields_per_choice = 6;    ///< distance fields computed anew at most, each choice
+  int fields_per_choice = 2;    ///< distance fields computed anew at most, each choice
   double horizon = 40.0;        ///< m, beyond which ways between stops are only estimated
 };
 
@@ -45,6 +45,10 @@ class ViewTour {
                                     const std::vector<ViewPoint>& view_points, double reach,
                                     std::optional<Cell> present, bool only_rests);
 
+  /// Finds ways from one of the stops that the last choice had too little time for: the next choice
+  /// need not estimate them. For the steps between two choices. Cost: one distance field.
+  void prepare(const ExplorationGrid& grid, const FreeSpace& space);
+
  private:
   struct Stop {
     std::size_t view_point;
@@ -68,6 +72,8 @@ class ViewTour {
 
   ViewTourParameters parameters_;
   std::vector<CachedField> fields_;
+  std::vector<Cell> last_stops_;
+  std::vector<std::size_t> estimated_;  ///< of the last stops, whose ways were only estimated
   std::uint32_t choices_ = 0;
 };
 
