@@ -167,14 +167,9 @@ const DistanceField::Part* DistanceField::partOf(Cell c) const {
   return nullptr;
 }
 
-double DistanceField::distanceTo(Cell c) const {
+DistanceField::Reached DistanceField::reached(Cell c) const {
   const Part* part = partOf(c);
-  return part ? part->cost * unit_ : kUnreached;
-}
-
-unsigned DistanceField::asFarAs(Cell c) const {
-  const Part* part = partOf(c);
-  return part ? part->cells : 0;
+  return part ? Reached{part->cost * unit_, part->cells} : Reached{};
 }
 
 double DistanceField::leastDistanceTo(Cell block) const {

@@ -1,15 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "cca_mrpt/navigation/tangent_bug.hpp"
 
-#include <Eigen/Geometry>
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 
 #include "cca_mrpt/mapping/cross.hpp"
 #include "cca_mrpt/mapping/range_noise.hpp"
-#include "cca_mrpt/navigation/motion_control.hpp"
 #include "cca_mrpt/navigation/scan_smoothing.hpp"
 
 namespace cca {
@@ -29,30 +26,11 @@ constexpr double kSameArea = 1.0;         // m
 constexpr int kMostTimesStuck = 8;        // there, before it gives up
 constexpr double kLost = 1.0;             // s
 constexpr int kMostStarts = 10;           // of following, without coming nearer to the goal
-constexpr double kWalkingSpeed = 1.0;     // m/s, of what moves, in any direction
-constexpr double kAmongMovers = 0.45;     // m/s, where somebody may come around the corner
 constexpr double kWaitFor = 2.5;          // m
-constexpr std::array<double, 3> kLookAhead{-0.2, 0.0, 0.2};  // rad
-constexpr double kNoiseAllowance = 0.5;  // of the noise beyond the usual one, for each distance
-constexpr std::size_t kLately = 5;       // scans
-constexpr double kNear = 0.15;           // m, beyond the radius
-constexpr double kPreciseSigma = 0.006;  // m
-constexpr double kUsualSigma = 0.01;     // m
+constexpr double kNoiseAllowance = 0.5;   // of the noise beyond the usual one, for each distance
+constexpr double kNear = 0.15;            // m, beyond the radius
+constexpr double kUsualSigma = 0.01;      // m
 constexpr int kBearings = 360;
-// m, beside the robot. Ways are planned around obstacle points that are thinned; from a corner that
-// this leaves out, the robot keeps no more than what may hide between two beams.
-constexpr double kBetweenBeams = 0.004;
-constexpr double kControlPeriod = 0.1;  // s
-constexpr double kStill = 0.01;         // m/s
-// s, that a robot is held by what it is too near to, and that it then drives past it instead of
-// straight to its target. In passages of its own width it would turn to and fro between the walls.
-constexpr double kHeld = 1.0, kGettingAway = 3.0;
-
-Eigen::Vector2d past(const std::vector<Hazard>& hazards, double radius,
-                     const Eigen::Vector2d& target_robot) {
-  const double bearing = std::atan2(target_robot.y(), target_robot.x());
-  return Eigen::Rotation2Dd(bearingPast(hazards, radius, bearing) - bearing) * target_robot;
-}
 
 }  // namespace
 
@@ -99,21 +77,10 @@ Velocity TangentBug::step(const Scan& scan, const Pose2& T_map_robot, const Velo
   if (still && progress_.stuck(T_map_robot.position(), follower_.length(), time, moverIsNear())) {
     shutWhatIsTooNarrow();
   }
-  const Velocity command = drive(velocity);
-  rememberWhatIsNear();
-  return command;
-}
-
-// Where ranges are noisy, one scan that reads far must not be enough to go a step nearer: a robot
-// that waits beside a wall would creep into it, scan by scan.
-void TangentBug::rememberWhatIsNear() {
-  if (lately_near_map_.size() >= kLately) lately_near_map_.pop_front();
-  lately_near_map_.emplace_back();
-  if (view_.range_sigma < kPreciseSigma) return;
-  const Eigen::Vector2d x = view_.T_map_robot.position();
-  for (const Eigen::Vector2d& p_map : view_.obstacles) {
-    if ((p_map - x).norm() < way_space_.radius + kNear) lately_near_map_.back().push_back(p_map);
-  }
+  std::optional<DriveTarget> target;
+  if (target_) target = {*target_, *target_ == goal_map_};
+  return driver_.step(target, velocity, view_, moving_points_,
+                      robot_.leastClearance() + noise_allowance_, way_space_.radius + kNear, time);
 }
 
 bool TangentBug::moverIsNear() const {
@@ -261,58 +228,6 @@ std::optional<Eigen::Vector2d> TangentBug::followBoundary() {
     motion_to_goal_.start();
   }
   return std::nullopt;
-}
-
-// Whether at least one of three beams around the heading is valid.
-bool TangentBug::seesWhereItGoes() const {
-  const Pose2& T = view_.T_map_robot;
-  return std::any_of(kLookAhead.begin(), kLookAhead.end(), [&](double bearing) {
-    const Eigen::Vector2d ahead(std::cos(T.theta + bearing), std::sin(T.theta + bearing));
-    return view_.seenDistanceTowards(T.position() + 2.0 * ahead) > 0.0;
-  });
-}
-
-std::vector<Hazard> TangentBug::hazards(double clearance) const {
-  const Pose2 T_robot_map = view_.T_map_robot.inverse();
-  const double c = std::cos(T_robot_map.theta), s = std::sin(T_robot_map.theta);
-  const auto inRobot = [&](const Eigen::Vector2d& p) -> Eigen::Vector2d {
-    return {T_robot_map.x + c * p.x() - s * p.y(), T_robot_map.y + s * p.x() + c * p.y()};
-  };
-  std::vector<Hazard> hazards;
-  hazards.reserve(view_.obstacles.size() + view_.returns.size() + view_.movers.size());
-  const double allowance = clearance - robot_.radius - kBetweenBeams;
-  for (const Eigen::Vector2d& p_map : view_.obstacles) hazards.push_back({inRobot(p_map)});
-  for (const Eigen::Vector2d& p_map : view_.returns) {
-    hazards.push_back({inRobot(p_map), 0.0, allowance});
-  }
-  for (const auto& points : lately_near_map_) {
-    for (const Eigen::Vector2d& p_map : points) hazards.push_back({inRobot(p_map)});
-  }
-  for (const auto* points : {&view_.movers, &moving_points_.unsettled()}) {
-    for (const Eigen::Vector2d& p_map : *points) hazards.push_back({inRobot(p_map), kWalkingSpeed});
-  }
-  return hazards;
-}
-
-Velocity TangentBug::drive(const Velocity& velocity) {
-  const double clearance = robot_.leastClearance() + noise_allowance_;
-  const std::vector<Hazard> near = hazards(clearance);
-  Velocity wanted;
-  if (target_) {
-    Eigen::Vector2d target_robot = view_.T_map_robot.inverse() * *target_;
-    if (time_ < gets_away_until_) target_robot = past(near, clearance, target_robot);
-    wanted = velocityTowards(target_robot, *target_ == goal_map_, robot_);
-  }
-  if (!seesWhereItGoes()) wanted.linear = 0.0;
-  if (view_.horizon == 0.0) wanted = {};
-  if (moving_points_.areAround(time_)) wanted.linear = std::min(wanted.linear, kAmongMovers);
-  const Velocity command = safeVelocity(wanted, velocity, near, robot_, clearance, kControlPeriod);
-  const bool is_held =
-      velocity.linear < kStill && command.linear < kStill && wanted.linear > kStill;
-  if (!is_held) held_since_.reset();
-  if (is_held && !held_since_) held_since_ = time_;
-  if (is_held && time_ - *held_since_ > kHeld) gets_away_until_ = time_ + kGettingAway;
-  return command;
 }
 
 }  // namespace cca

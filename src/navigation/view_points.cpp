@@ -181,10 +181,10 @@ std::optional<ViewPoint> nearestViewPoint(const ExplorationGrid& grid, const Fre
       in_known = in_known || state != CellState::kUnknown;
       if (FreeSpace::blockOf(c) != block) enter(FreeSpace::blockOf(c));
       if (!(eligible & FreeSpace::bitOf(c))) return true;
-      eligible &= ~(FreeSpace::bitOf(c) | field.asFarAs(c));
-      const double distance = field.distanceTo(c);
-      if (distance < (best ? best->distance : DistanceField::kUnreached))
-        best = ViewPoint{c, target, distance, 0.0};
+      const DistanceField::Reached reached = field.reached(c);
+      eligible &= ~(FreeSpace::bitOf(c) | reached.cells);
+      if (reached.distance < (best ? best->distance : DistanceField::kUnreached))
+        best = ViewPoint{c, target, reached.distance, 0.0};
       return true;
     });
   }

@@ -37,12 +37,14 @@ class DistanceField {
   /// distanceTo(), with the search carried on until that is known. `space` may have grown since.
   double reach(const FreeSpace& space, Cell c);
 
-  /// m, from the start to a cell's block, as far as the search has come; kUnreached where no known
-  /// path leads there.
-  double distanceTo(Cell c) const;
-  /// The cells of c's block (bits as those of FreeSpace) that are as far, since they are connected
-  /// with it; 0 where it is not reached.
-  unsigned asFarAs(Cell c) const;
+  /// How far some cells of a block are: as far, since they are connected.
+  struct Reached {
+    double distance = kUnreached;  ///< m, from the start to the block, as far as is known
+    unsigned cells = 0;            ///< bits as those of FreeSpace
+  };
+  /// Those that hold a cell; none where no known path leads to it.
+  Reached reached(Cell c) const;
+  double distanceTo(Cell c) const { return reached(c).distance; }
   /// m, below which no way to a block can be, wherever the obstacles are. Precondition:
   /// isStarted().
   double leastDistanceTo(Cell block) const;

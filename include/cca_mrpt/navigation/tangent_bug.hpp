@@ -2,8 +2,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <deque>
-#include <limits>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -16,9 +14,9 @@
 #include "cca_mrpt/navigation/moving_points.hpp"
 #include "cca_mrpt/navigation/progress_watch.hpp"
 #include "cca_mrpt/navigation/robot.hpp"
-#include "cca_mrpt/navigation/safe_velocity.hpp"
 #include "cca_mrpt/navigation/short_memory.hpp"
 #include "cca_mrpt/navigation/tangent_graph.hpp"
+#include "cca_mrpt/navigation/target_driver.hpp"
 
 namespace cca {
 
@@ -36,7 +34,7 @@ enum class TangentBugState {
 /// space.
 class TangentBug {
  public:
-  explicit TangentBug(const RobotParameters& robot) : robot_(robot) {}
+  explicit TangentBug(const RobotParameters& robot) : robot_(robot), driver_(robot) {}
 
   /// Starts anew towards a goal. @param goal_map  m, map frame.
   void setGoal(const Eigen::Vector2d& goal_map);
@@ -62,7 +60,6 @@ class TangentBug {
 
  private:
   bool moverIsNear() const;
-  void rememberWhatIsNear();
   void shutWhatIsTooNarrow();
   void observe(const Scan& scan, const Pose2& T_map_robot, double time);
   void findReach();
@@ -70,9 +67,6 @@ class TangentBug {
   std::optional<Eigen::Vector2d> moveToGoal();
   std::optional<Eigen::Vector2d> startFollowing();
   std::optional<Eigen::Vector2d> followBoundary();
-  bool seesWhereItGoes() const;
-  std::vector<Hazard> hazards(double clearance) const;
-  Velocity drive(const Velocity& velocity);
 
   RobotParameters robot_;
   Eigen::Vector2d goal_map_ = Eigen::Vector2d::Zero();
@@ -85,12 +79,9 @@ class TangentBug {
   int starts_ = 0;               ///< of boundary following, since the robot came nearer than ever
   std::optional<Eigen::Vector2d> started_at_map_;
   std::optional<double> lost_since_;
-  std::optional<double> held_since_;  ///< s: it stands, wants to drive, and that is not safe
-  double gets_away_until_ = -std::numeric_limits<double>::infinity();  ///< s
   double time_ = 0.0;
   MovingPoints moving_points_;
   double noise_allowance_ = 0.0;  ///< m, added to every distance that is kept
-  std::deque<std::vector<Eigen::Vector2d>> lately_near_map_;  ///< by scan, where ranges are noisy
   ShortMemory memory_;
   std::vector<Eigen::Vector2d> known_map_;  ///< around the robot, from elsewhere
   LocalView view_;
@@ -100,6 +91,7 @@ class TangentBug {
   std::optional<Eigen::Vector2d> target_;
   MotionToGoal motion_to_goal_;
   BoundaryFollower follower_;
+  TargetDriver driver_;
   double d_reach_ = 0.0;
   /// A place that d_reach promised, and that was not there, found out from `distance` (m) away.
   struct InVain {
