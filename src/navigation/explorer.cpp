@@ -18,6 +18,7 @@ constexpr int kHomeNumber = -2;            // among the numbers of goals
 constexpr double kAround = 0.8;        // m, of the robot: what may stand beside it
 constexpr double kLookAround = 0.5;    // of the full turning rate
 constexpr double kLookingTime = 30.0;  // s
+constexpr double kStill = 0.01;        // m/s
 
 GlobalPlannerParameters plannerParameters(const RobotParameters& robot,
                                           const ExplorerParameters& parameters) {
@@ -64,6 +65,12 @@ bool looksTowards(const Scan& scan, const Eigen::Vector2d& p_map) {
   const double middle = 0.5 * (scan.angle_min + last), half = 0.5 * std::abs(last - scan.angle_min);
   const double off = wrapAngle(std::atan2(to.y(), to.x()) - T.theta - middle);
   return std::abs(off) <= half + std::abs(scan.angle_increment);
+}
+
+/// Where the robot still drives it stops first, the way that was found safe: turning would bend it.
+void turnOnTheSpot(double rate, const Observation& observation, Action& action) {
+  const bool drives = std::abs(observation.velocity.linear) > kStill;
+  if (!drives && action.velocity.linear == 0.0) action.velocity.angular = rate;
 }
 
 /// The first way-point that is not reached yet. One that the robot stands at would hold it there:
@@ -136,7 +143,7 @@ Action Explorer::explore(const Observation& observation) {
       planner_.noteArrival();
     } else {
       const Eigen::Vector2d look_at_robot = observation.T_map_robot.inverse() * plan.look_at;
-      action.velocity.angular = velocityTowards(look_at_robot, true, robot_).angular;
+      turnOnTheSpot(velocityTowards(look_at_robot, true, robot_).angular, observation, action);
     }
   }
   return action;
@@ -149,7 +156,7 @@ Action Explorer::lookAround(const Observation& observation) {
   if (observation.time - *looks_around_since_ > kLookingTime) planner_.noteLookAround(robot);
   Action action{{}, robot, ExplorationStatus::kExploring, planner_.plan().reason};
   action.velocity = driveTo(robot, observation);
-  action.velocity.angular = kLookAround * robot_.max_angular_velocity;
+  turnOnTheSpot(kLookAround * robot_.max_angular_velocity, observation, action);
   return action;
 }
 

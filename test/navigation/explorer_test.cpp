@@ -87,6 +87,24 @@ TEST(Explorer, WithANarrowViewLooksAroundBeforeItSaysThatNothingIsLeft) {
   }
 }
 
+// The way that it brakes on was found safe, and turning would bend it.
+TEST(Explorer, WithANarrowViewStopsBeforeItTurnsToLook) {
+  Driver driver;
+  driver.half_view = M_PI / 4;
+  driver.velocity = {0.5, 0.0};
+  bool has_turned = false;
+  for (int i = 0; i < 20; ++i) {
+    const double speed = driver.velocity.linear;
+    const Action action = driver.step();
+    EXPECT_LE(action.velocity.linear, speed);
+    if (speed > 0.01) {
+      EXPECT_EQ(action.velocity.angular, 0.0);
+    }
+    has_turned = has_turned || action.velocity.angular > 0.0;
+  }
+  EXPECT_TRUE(has_turned);
+}
+
 TEST(Explorer, AlsoFinishesByTangentBugAlone) {
   ExplorerParameters parameters;
   parameters.path = "paper";
