@@ -18,7 +18,7 @@ constexpr int kHomeNumber = -2;            // among the numbers of goals
 constexpr double kAround = 0.8;        // m, of the robot: what may stand beside it
 constexpr double kLookAround = 0.5;    // of the full turning rate
 constexpr double kLookingTime = 30.0;  // s
-constexpr double kStill = 0.01;        // m/s
+constexpr double kStands = 0.05;       // m/s, as measured: odometry is noisy
 
 GlobalPlannerParameters plannerParameters(const RobotParameters& robot,
                                           const ExplorerParameters& parameters) {
@@ -69,7 +69,7 @@ bool looksTowards(const Scan& scan, const Eigen::Vector2d& p_map) {
 
 /// Where the robot still drives it stops first, the way that was found safe: turning would bend it.
 void turnOnTheSpot(double rate, const Observation& observation, Action& action) {
-  const bool drives = std::abs(observation.velocity.linear) > kStill;
+  const bool drives = std::abs(observation.velocity.linear) > kStands;
   if (!drives && action.velocity.linear == 0.0) action.velocity.angular = rate;
 }
 

@@ -20,7 +20,7 @@ constexpr double kPreciseSigma = 0.006;                      // m
 // this leaves out, the robot keeps no more than what may hide between two beams.
 constexpr double kBetweenBeams = 0.004;
 constexpr double kControlPeriod = 0.1;  // s
-constexpr double kStill = 0.01;         // m/s
+constexpr double kStands = 0.05;        // m/s, as measured: odometry is noisy
 // s, that a robot is held by what it is too near to, and that it then drives past it instead of
 // straight to its target. In passages of its own width it would turn to and fro between the walls.
 constexpr double kHeld = 1.0, kGettingAway = 3.0;
@@ -49,8 +49,7 @@ Velocity TargetDriver::step(const std::optional<DriveTarget>& target, const Velo
   Velocity wish = wanted(target, view, near, clearance, time);
   if (movers.areAround(time)) wish.linear = std::min(wish.linear, kAmongMovers);
   const Velocity command = safeVelocity(wish, velocity, near, robot_, clearance, kControlPeriod);
-  noteWhetherHeld(velocity.linear < kStill && command.linear < kStill && wish.linear > kStill,
-                  time);
+  noteWhetherHeld(velocity.linear < kStands && command.linear == 0.0 && wish.linear > 0.0, time);
   remember(view, heeded);
   return command;
 }
