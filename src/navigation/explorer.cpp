@@ -18,7 +18,6 @@ constexpr int kHomeNumber = -2;            // among the numbers of goals
 constexpr double kAround = 0.8;        // m, of the robot: what may stand beside it
 constexpr double kLookAround = 0.5;    // of the full turning rate
 constexpr double kLookingTime = 30.0;  // s
-constexpr double kStands = 0.05;       // m/s, as measured: odometry is noisy
 
 GlobalPlannerParameters plannerParameters(const RobotParameters& robot,
                                           const ExplorerParameters& parameters) {

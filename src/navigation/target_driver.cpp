@@ -20,7 +20,6 @@ constexpr double kPreciseSigma = 0.006;                      // m
 // this leaves out, the robot keeps no more than what may hide between two beams.
 constexpr double kBetweenBeams = 0.004;
 constexpr double kControlPeriod = 0.1;  // s
-constexpr double kStands = 0.05;        // m/s, as measured: odometry is noisy
 // s, that a robot is held by what it is too near to, and that it then drives past it instead of
 // straight to its target. In passages of its own width it would turn to and fro between the walls.
 constexpr double kHeld = 1.0, kGettingAway = 3.0;

@@ -61,14 +61,13 @@ TEST(TargetDriver, HeedsForAMomentWhatNoisyScansHaveShown) {
 
 // Inside the clearance of what stands ahead to the right, driving straight on is not safe.
 TEST(TargetDriver, GetsAwayFromWhatHoldsIt) {
-  LocalView view = viewOf({}, {});
   const Eigen::Vector2d post(0.1, -0.23);
   TargetDriver driver(kRobot);
   Pose2 pose;
   Velocity velocity;
   double stood = 0.0;
   for (int i = 0; i < 100; ++i) {
-    view = viewOf({}, pose);
+    LocalView view = viewOf({}, pose);
     view.obstacles.push_back(post);
     view.ends_here.push_back(true);
     drive(driver.step(kAhead, velocity, view, {}, kClearance, kHeeded, kPeriod * i), kRobot,

@@ -62,7 +62,7 @@ TEST(ViewTour, FinishesWhatIsNearBeforeItGoesFar) {
   EXPECT_TRUE(*first == 2 || *first == 3) << *first;
 }
 
-// As far to the left as to the right: the one that promises less is not left half-way for nothing.
+// Two goals as far off as each other: the present one is kept. Not so where the other one is near.
 TEST(ViewTour, KeepsThePresentGoalWhereAnotherTourIsHardlyCheaper) {
   const Rooms rooms;
   const std::vector<ViewPoint> views{rooms.at({105, 60}, 1.0), rooms.at({305, 60}, 1.0)};

@@ -17,5 +17,7 @@ Velocity velocityTowards(const Eigen::Vector2d& target_robot, bool stop_at_targe
                          const RobotParameters& robot);
 
 inline constexpr double kTurnOnTheSpot = 0.7;  ///< rad
+/// m/s, as measured: a robot that is slower stands. Odometry is noisy.
+inline constexpr double kStands = 0.05;
 
 }  // namespace cca

@@ -31,8 +31,7 @@ class TargetDriver {
   /// @param view       with all obstacles around that are known of.
   /// @param movers     that the scan of `view` was given to.
   /// @param clearance  m, kept from what stands: the robot's radius with the least margin.
-  /// @param heeded     m, around the robot: what noisy scans show in there is heeded for some
-  /// scans.
+  /// @param heeded     m, around the robot: what noisy scans show there is heeded longer.
   /// @param time       s, never falling.
   /// @return within the robot's limits.
   Velocity step(const std::optional<DriveTarget>& target, const Velocity& velocity,
