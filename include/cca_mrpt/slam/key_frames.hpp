@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "cca_mrpt/slam/pose_graph.hpp"
+#include "cca_mrpt/slam/scan_surface.hpp"
+#include "cca_mrpt/slam/surface_matching.hpp"
+
+namespace cca {
+
+/// Scans that stand for what was seen around them, and the graph that ties them together: node k of
+/// the graph is the sensor of frame k.
+struct KeyFrames {
+  std::vector<ScanSurface> surfaces;
+  PoseGraph graph;
+
+  int size() const { return graph.size(); }
+  PlacedSurface placed(int k) const {
+    return {&surfaces[static_cast<std::size_t>(k)], graph.pose(k)};
+  }
+  std::vector<PlacedSurface> placed(const std::vector<int>& frames) const;
+};
+
+/// Frames whose pose is known to within this [m] of another's are one place: they match by walking
+/// downhill.
+inline constexpr double kTiedSigma = 0.15;
+/// m, up to which two scans have much in common.
+inline constexpr double kCommonView = 6.0;
+
+/// The frames that have most in common with a view from `T_map_sensor`, best first, among those that
+/// are tied to frame `anchor`.
+std::vector<int> framesInView(const KeyFrames& frames, int anchor, const Pose2& T_map_sensor,
+                              int most);
+
+/// What two frames say of each other where they stand now; nothing where they have too little in
+/// common.
+std::optional<GraphEdge> matchEdge(const KeyFrames& frames, int from, int to,
+                                   const MatchScale& scale);
+
+/// All frames and the scans between them made to agree: pairs of frames that see the same place are
+/// matched anew where they stand, and all poses solved for at once; and again, the reach shrinking
+/// (bundle adjustment). `steps` are edges that stay as they are: what the wheels say.
+void adjust(KeyFrames& frames, const std::vector<GraphEdge>& steps, int rounds);
+
+}  // namespace cca

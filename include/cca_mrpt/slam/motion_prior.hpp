@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+
+#include "cca_mrpt/mapping/pose2.hpp"
+
+namespace cca {
+
+/// A motion as one source tells it: where the sensor got to, in the frame that it had before.
+struct MotionBelief {
+  Pose2 T_before_after;
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  ///< m^2, m rad, rad^2; axes of `before`
+};
+
+/// What the wheels are worth: how far matches had to correct them, learned as the robot drives,
+/// beginning wide [Thrun, Burgard & Fox 2005, ch. 5; Vizzo et al. 2023].
+///
+/// The error of a step is a systematic part, linear in way and turn, and a random one whose
+/// variances grow with way and turn. Both are learned from matches, by as much as these knew better.
+class MotionPrior {
+ public:
+  /// @param step  of the wheels, in the frame of the sensor; nothing: the robot goes on as it went.
+  MotionBelief predict(const std::optional<Pose2>& step) const;
+
+  /// @param step       as given to predict().
+  /// @param belief     what predict() made of it.
+  /// @param matched    the same motion after the match.
+  /// @param covariance of the match with the prior, axes of the pose before.
+  void learn(const std::optional<Pose2>& step, const MotionBelief& belief, const Pose2& matched,
+             const Eigen::Matrix3d& covariance);
+
+ private:
+  struct Systematic {  // recursive least squares of one error on (way, turn)
+    Eigen::Vector2d factors = Eigen::Vector2d::Zero();
+    Eigen::Matrix2d covariance = Eigen::Matrix2d::Zero();
+  };
+  Systematic heading_, way_;
+  bool has_begun_ = false;
+  double scale_ = 1.0, turn_scale_ = 1.0;  ///< of the random part's variances, over their first guess
+  double weight_ = 0.0;                    ///< of what the scales have been learned from, bounded
+  Pose2 last_step_;
+};
+
+}  // namespace cca

@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "cca_mrpt/slam/motion_prior.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace cca {
+namespace {
+
+// First guess of the random part, wide: a tenth of the way and of the turn, 4 degrees a metre, and
+// what a robot that stands may have been pushed.
+constexpr double kPerWay = 0.10;
+constexpr double kPerTurn = 0.15;
+constexpr double kTurnPerWay = 0.07;   // rad / m
+constexpr double kShiftPerTurn = 0.05;  // m / rad
+constexpr double kStandingShift = 0.02, kStandingTurn = 0.01;
+/// Without wheels the robot may have changed its speed altogether.
+constexpr double kBlindShift = 0.15, kBlindTurn = 0.15;
+/// A systematic error is not above these: a tenth of the way, .1 rad a metre, a tenth of the turn.
+constexpr double kSystematic = 0.1;
+constexpr double kForgetAfter = 100.0;  // steps
+constexpr double kLeastScale = 0.02, kMostScale = 10.0;
+
+double squared(double x) { return x * x; }
+
+Eigen::Vector2d regressors(const Pose2& step) { return {step.position().norm(), step.theta}; }
+
+double wayVariance(const Pose2& step) {
+  return squared(kStandingShift) + squared(kPerWay * step.position().norm()) +
+         squared(kShiftPerTurn * step.theta);
+}
+
+double turnVariance(const Pose2& step) {
+  return squared(kStandingTurn) + squared(kTurnPerWay * step.position().norm()) +
+         squared(kPerTurn * step.theta);
+}
+
+}  // namespace
+
+MotionBelief MotionPrior::predict(const std::optional<Pose2>& step) const {
+  MotionBelief belief;
+  if (!step) {
+    belief.T_before_after = last_step_;
+    belief.covariance.diagonal() << squared(kBlindShift) + squared(0.5 * last_step_.position().norm()),
+        squared(kBlindShift) + squared(0.5 * last_step_.position().norm()),
+        squared(kBlindTurn) + squared(0.5 * last_step_.theta);
+    return belief;
+  }
+  const Eigen::Vector2d x = regressors(*step);
+  const double turn = heading_.factors.dot(x), longer = way_.factors.x();
+  // The error of the heading builds up along the way: half of it turns the step.
+  const Pose2 half{0.0, 0.0, 0.5 * turn};
+  const Eigen::Vector2d p = half * Eigen::Vector2d(step->position() * (1.0 + longer));
+  belief.T_before_after = {p.x(), p.y(), wrapAngle(step->theta + turn)};
+  const double way = scale_ * wayVariance(*step);
+  belief.covariance.diagonal() << way, way, turn_scale_ * turnVariance(*step);
+  if (has_begun_) {
+    belief.covariance(2, 2) += x.dot(heading_.covariance * x);
+    const double sure = x.x() * x.x() * way_.covariance(0, 0);
+    belief.covariance(0, 0) += sure;
+    belief.covariance(1, 1) += sure;
+  } else {
+    belief.covariance(2, 2) += squared(kSystematic) * x.squaredNorm();
+    belief.covariance(0, 0) += squared(kSystematic * x.x());
+    belief.covariance(1, 1) += squared(kSystematic * x.x());
+  }
+  return belief;
+}
+
+void MotionPrior::learn(const std::optional<Pose2>& step, const MotionBelief& belief,
+                        const Pose2& matched, const Eigen::Matrix3d& covariance) {
+  last_step_ = matched;
+  if (!step) return;
+  if (!has_begun_) {
+    heading_.covariance = way_.covariance = squared(kSystematic) * Eigen::Matrix2d::Identity();
+    has_begun_ = true;
+  }
+  const Eigen::Vector2d x = regressors(*step);
+  const Pose2& predicted = belief.T_before_after;
+  // Of the random part: what the match found and what it leaves open (so that along a corridor,
+  // where matches know nothing, nothing is learned).
+  const double turn_error = wrapAngle(matched.theta - predicted.theta);
+  const double shift_sq = 0.5 * (matched.position() - predicted.position()).squaredNorm();
+  weight_ = std::min(weight_ + 1.0, kForgetAfter);
+  const auto follow = [&](double& scale, double found_sq, double unit) {
+    // One wild step does not undo what hundred have taught.
+    const double seen = std::min(found_sq / unit, 9.0 * scale + 1.0);
+    scale += (seen - scale) / (weight_ + 5.0);
+    scale = std::clamp(scale, kLeastScale, kMostScale);
+  };
+  follow(turn_scale_, squared(turn_error) + covariance(2, 2), turnVariance(*step));
+  follow(scale_, shift_sq + 0.5 * covariance.topLeftCorner<2, 2>().trace(), wayVariance(*step));
+
+  const auto regress = [&](Systematic& s, const Eigen::Vector2d& of, double error, double variance) {
+    const double predicted_error = s.factors.dot(of);
+    const Eigen::Vector2d gain = s.covariance * of / (of.dot(s.covariance * of) + variance);
+    s.factors += gain * (error - predicted_error);
+    s.covariance -= gain * (of.transpose() * s.covariance).eval();
+  };
+  const double heading_variance = turn_scale_ * turnVariance(*step) + covariance(2, 2);
+  const double whole_turn_error = wrapAngle(matched.theta - step->theta);
+  if (squared(turn_error) < 9.0 * (belief.covariance(2, 2) + covariance(2, 2))) {
+    regress(heading_, x, whole_turn_error, heading_variance);
+  }
+  if (x.x() > 0.05) {
+    const Eigen::Vector2d ahead = step->position() / x.x();
+    const double longer = ahead.dot(matched.position()) - x.x();
+    const double variance =
+        scale_ * wayVariance(*step) + ahead.dot(covariance.topLeftCorner<2, 2>() * ahead);
+    if (squared(longer) < 9.0 * (belief.covariance(0, 0) + variance)) {
+      regress(way_, {x.x(), 0.0}, longer, variance);
+    }
+  }
+}
+
+}  // namespace cca

@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "cca_mrpt/slam/scan_surface.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "cca_mrpt/mapping/cross.hpp"
+#include "cca_mrpt/mapping/line_extraction.hpp"
+#include "cca_mrpt/mapping/line_segment.hpp"
+#include "cca_mrpt/mapping/range_noise.hpp"
+
+namespace cca {
+namespace {
+
+/// atan2 to 1e-5 rad, by the polynomial of Abramowitz & Stegun (1964), 4.4.49: a fifth of its time.
+double bearingOf(const Eigen::Vector2d& p) {
+  const double ax = std::abs(p.x()), ay = std::abs(p.y());
+  const double larger = std::max(ax, ay);
+  if (larger <= 0.0) return 0.0;
+  const double z = std::min(ax, ay) / larger, zz = z * z;
+  double angle =
+      z * (0.9998660 + zz * (-0.3302995 + zz * (0.1801410 + zz * (-0.0851330 + zz * 0.0208351))));
+  if (ay > ax) angle = M_PI_2 - angle;
+  if (p.x() < 0.0) angle = M_PI - angle;
+  return p.y() < 0.0 ? -angle : angle;
+}
+
+Eigen::Vector2d towardsSensor(const Eigen::Vector2d& direction, const Eigen::Vector2d& p) {
+  const Eigen::Vector2d normal{-direction.y(), direction.x()};
+  return normal.dot(p) > 0.0 ? Eigen::Vector2d(-normal) : normal;
+}
+
+/// A return lies on a line within this many deviations of its noise, or the straightness of walls.
+constexpr double kOnLine = 3.0;
+
+void takeNormalsOfLines(const std::vector<LineSegment>& lines, ScanSurface& surface) {
+  const int count = static_cast<int>(surface.points.size());
+  const double gate = std::max(kStraightness, kOnLine * surface.range_sigma);
+  for (const LineSegment& line : lines) {
+    const Eigen::Vector2d direction = line.direction();
+    const double length = line.length();
+    int beam = surface.beamTowards(line.start);
+    const int last = surface.beamTowards(line.end);
+    if (beam < 0 || last < 0) continue;
+    for (int left = (last - beam + surface.beams()) % surface.beams(); left >= 0; --left) {
+      const int i = surface.point_of_beam[static_cast<std::size_t>(beam)];
+      beam = beam + 1 < surface.beams() ? beam + 1 : 0;
+      if (i < 0 || i >= count) continue;
+      ScanSurface::Point& point = surface.points[static_cast<std::size_t>(i)];
+      const Eigen::Vector2d v = point.position - line.start;
+      const double along = direction.dot(v);
+      if (along < -gate || along > length + gate) continue;
+      if (std::abs(cross(direction, v)) > gate) continue;
+      point.normal = towardsSensor(direction, point.position);
+    }
+  }
+}
+
+/// Five neighbouring returns are a surface where they are thin: a fifth as thick as long.
+constexpr double kThin = 0.05;
+constexpr int kNeighbours = 2;
+
+void takeNormalsOfNeighbours(ScanSurface& surface) {
+  const int count = static_cast<int>(surface.points.size());
+  for (int i = kNeighbours; i + kNeighbours < count; ++i) {
+    auto& point = surface.points[static_cast<std::size_t>(i)];
+    if (!point.normal.isZero()) continue;
+    const auto& first = surface.points[static_cast<std::size_t>(i - kNeighbours)];
+    const auto& last = surface.points[static_cast<std::size_t>(i + kNeighbours)];
+    if (last.beam - first.beam != 2 * kNeighbours) continue;
+    PointMoments moments;
+    double widest = 0.0;
+    for (int k = i - kNeighbours; k <= i + kNeighbours; ++k) {
+      const Eigen::Vector2d& p = surface.points[static_cast<std::size_t>(k)].position;
+      moments.add(p);
+      if (k > i - kNeighbours) {
+        const Eigen::Vector2d& before = surface.points[static_cast<std::size_t>(k - 1)].position;
+        widest = std::max(widest, (p - before).norm());
+      }
+    }
+    const double range = point.position.norm();
+    if (widest > std::max(0.15, 4.0 * range * surface.spacing)) continue;
+    const FittedLine line = fitLine(moments);
+    if (line.residual_sum_sq > kThin * line.spread_sum_sq) continue;
+    point.normal = towardsSensor(line.direction, point.position);
+  }
+}
+
+}  // namespace
+
+int ScanSurface::beamTowards(const Eigen::Vector2d& p_sensor) const {
+  const double turn = 2.0 * M_PI;
+  double from_first = bearingOf(p_sensor) - first_bearing;
+  if (from_first < -0.5 * spacing) from_first += turn;
+  if (from_first < -0.5 * spacing) from_first += turn;
+  if (from_first >= turn - 0.5 * spacing) from_first -= turn;
+  const int beam = static_cast<int>(from_first / spacing + 0.5);
+  return beam < beams() ? beam : is_full_turn ? 0 : -1;
+}
+
+ScanSurface scanSurface(const Scan& scan, const CcaParameters& parameters) {
+  ScanSurface surface;
+  const std::size_t beams = scan.size();
+  if (beams < 3 || !std::isfinite(scan.angle_increment) || scan.angle_increment == 0.0 ||
+      !std::isfinite(scan.angle_min)) {
+    return surface;
+  }
+  const bool clockwise = scan.angle_increment < 0.0;
+  surface.spacing = std::abs(scan.angle_increment);
+  surface.first_bearing = wrapAngle(clockwise ? scan.bearing(beams - 1) : scan.angle_min);
+  surface.range_sigma = rangeNoise(scan).range_sigma;
+  surface.is_full_turn = (static_cast<double>(beams) + 0.5) * surface.spacing > 2.0 * M_PI;
+  surface.point_of_beam.assign(beams, -1);
+  surface.free_range.assign(beams, 0.0);
+  for (std::size_t k = 0; k < beams; ++k) {
+    const std::size_t beam = clockwise ? beams - 1 - k : k;
+    surface.free_range[k] = scan.freeRange(beam);
+    const double range = scan.ranges[beam];
+    if (!isReturn(range) || range > kFarthestSurface) continue;
+    const double bearing = surface.first_bearing + static_cast<double>(k) * surface.spacing;
+    surface.point_of_beam[k] = static_cast<int>(surface.points.size());
+    surface.points.push_back({range * Eigen::Vector2d(std::cos(bearing), std::sin(bearing)),
+                              Eigen::Vector2d::Zero(), static_cast<int>(k)});
+  }
+  takeNormalsOfLines(extractLines(scan, parameters), surface);
+  takeNormalsOfNeighbours(surface);
+  return surface;
+}
+
+}  // namespace cca
