@@ -24,13 +24,14 @@ else()
   install(FILES ${CMAKE_CURRENT_BINARY_DIR}/cca_mrptConfigVersion.cmake DESTINATION ${config_dir})
 endif()
 
-# The Eigen-only layers stand in an export of their own, so that using them needs no MRPT.
+# The Eigen-only layers stand in an export of their own, so that using them needs neither MRPT nor Ceres.
 set(eigen_layers cca_mapping cca_navigation cca_baselines)
+set(slam_layers cca_slam)
 set(mrpt_layers cca_evaluation cca_simulation cca_io cca_evidence)
 if(NOT CCA_WITH_MRPT)
   set(mrpt_layers "")
 endif()
-foreach(kind eigen mrpt)
+foreach(kind eigen slam mrpt)
   if(${kind}_layers)
     #catkin_lint: ignore_once undefined_target (cca_layer() defines them)
     install(TARGETS ${${kind}_layers} EXPORT cca_mrpt_${kind}

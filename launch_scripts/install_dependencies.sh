@@ -4,7 +4,7 @@
 # off-screen display and the tools of the tests.
 set -eu
 
-packages="build-essential ca-certificates cmake libboost-dev libcairo2-dev libcli11-dev libeigen3-dev
+packages="build-essential ca-certificates cmake libboost-dev libcairo2-dev libceres-dev libcli11-dev libeigen3-dev
   libmrpt-dev libnanoflann-dev mrpt-common nlohmann-json3-dev pkg-config zlib1g-dev"
 if [ "${1:-}" = --tests ]; then
   packages="$packages catkin catkin-lint clang clang-format ffmpeg gdal-bin git imagemagick libbenchmark-dev

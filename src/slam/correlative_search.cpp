@@ -60,8 +60,8 @@ class BranchAndBound {
       const double c = std::cos(turned.angle), s = std::sin(turned.angle);
       turned.cells.reserve(query.size());
       for (const Eigen::Vector2d& p : query) {
-        const Eigen::Vector2d at = pyramid.toCells(
-            low + Eigen::Vector2d(c * p.x() - s * p.y(), s * p.x() + c * p.y()));
+        const Eigen::Vector2d at =
+            pyramid.toCells(low + Eigen::Vector2d(c * p.x() - s * p.y(), s * p.x() + c * p.y()));
         turned.cells.emplace_back(static_cast<int>(std::floor(at.x())),
                                   static_cast<int>(std::floor(at.y())));
       }
@@ -114,7 +114,9 @@ class BranchAndBound {
     const Eigen::Vector3d& information = window_.prior_information;
     const double off_sq = information.x() * dx * dx + information.y() * dy * dy +
                           turned_[static_cast<std::size_t>(c.turn)].penalty;
-    return off_sq > 0.0 ? window_.prior_weight * 0.5 * kPriorFreedom * std::log1p(off_sq / kPriorFreedom) : 0.0;
+    return off_sq > 0.0
+               ? window_.prior_weight * 0.5 * kPriorFreedom * std::log1p(off_sq / kPriorFreedom)
+               : 0.0;
   }
 
   bool isExcluded(const Candidate& c) const {
@@ -195,7 +197,8 @@ LikelihoodPyramid::LikelihoodPyramid(const std::vector<Eigen::Vector2d>& points,
     if (!isNear(p)) continue;
     const Eigen::Vector2d at = toCells(p);
     const int cx = static_cast<int>(at.x()) + kMargin, cy = static_cast<int>(at.y()) + kMargin;
-    if (finest[static_cast<std::size_t>(cy) * width + static_cast<std::size_t>(cx)] == 255) continue;
+    if (finest[static_cast<std::size_t>(cy) * width + static_cast<std::size_t>(cx)] == 255)
+      continue;
     for (int y = -Kernel::kHalf; y <= Kernel::kHalf; ++y) {
       std::uint8_t* row = &finest[static_cast<std::size_t>(cy + y) * width];
       for (int x = -Kernel::kHalf; x <= Kernel::kHalf; ++x) {
@@ -210,12 +213,14 @@ LikelihoodPyramid::LikelihoodPyramid(const std::vector<Eigen::Vector2d>& points,
     const int half = 1 << (level - 1);
     for (int y = 0; y < height_; ++y) {
       const std::uint8_t* here = &finer[static_cast<std::size_t>(y) * width];
-      const std::uint8_t* there = y + half < height_ ? here + static_cast<std::size_t>(half) * width : here;
+      const std::uint8_t* there =
+          y + half < height_ ? here + static_cast<std::size_t>(half) * width : here;
       std::uint8_t* out = &coarser[static_cast<std::size_t>(y) * width];
       for (int x = 0; x < width_ - half; ++x) {
         out[x] = std::max(std::max(here[x], here[x + half]), std::max(there[x], there[x + half]));
       }
-      for (int x = std::max(0, width_ - half); x < width_; ++x) out[x] = std::max(here[x], there[x]);
+      for (int x = std::max(0, width_ - half); x < width_; ++x)
+        out[x] = std::max(here[x], there[x]);
     }
     cells_.push_back(std::move(coarser));
   }

@@ -131,13 +131,16 @@ void adjust(KeyFrames& frames, const std::vector<GraphEdge>& steps, int rounds) 
     std::vector<GraphEdge> edges = steps;
     for (const auto& [from, to] : pairs) {
       // In both directions: the lines of either are the other's measure.
-      if (const auto edge = matchEdge(frames, from, to, {reach, 0.25 * reach})) edges.push_back(*edge);
-      if (const auto edge = matchEdge(frames, to, from, {reach, 0.25 * reach})) edges.push_back(*edge);
+      if (const auto edge = matchEdge(frames, from, to, {reach, 0.25 * reach}))
+        edges.push_back(*edge);
+      if (const auto edge = matchEdge(frames, to, from, {reach, 0.25 * reach}))
+        edges.push_back(*edge);
     }
     std::vector<Pose2> poses;
     for (int k = 0; k < frames.size(); ++k) poses.push_back(frames.graph.pose(k));
     const double moved = optimisePoses(edges, poses, 5);
-    for (int k = 0; k < frames.size(); ++k) frames.graph.place(k, poses[static_cast<std::size_t>(k)]);
+    for (int k = 0; k < frames.size(); ++k)
+      frames.graph.place(k, poses[static_cast<std::size_t>(k)]);
     if (reach <= kLastReach && moved < 1e-3) break;
     reach = std::max(kLastReach, kShrink * reach);
   }

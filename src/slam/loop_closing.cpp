@@ -10,18 +10,18 @@
 namespace cca {
 namespace {
 
-constexpr double kMostSigma = 8.0;       // m, beyond which a place is looked for anywhere else
-constexpr double kSigmas = 2.5;          // half window
-constexpr double kWidestWindow = 8.0;    // m
-constexpr int kRecent = 8;               // frames that look for their place together
-constexpr double kRecentWay = 8.0;       // m
-constexpr int kEarlier = 12;             // frames that they are compared with
-constexpr double kCell = 0.1;            // m, of the search
+constexpr double kMostSigma = 8.0;     // m, beyond which a place is looked for anywhere else
+constexpr double kSigmas = 2.5;        // half window
+constexpr double kWidestWindow = 8.0;  // m
+constexpr int kRecent = 8;             // frames that look for their place together
+constexpr double kRecentWay = 8.0;     // m
+constexpr int kEarlier = 12;           // frames that they are compared with
+constexpr double kCell = 0.1;          // m, of the search
 constexpr int kLevels = 4;
-constexpr double kSpacing = 0.2;         // m, of the returns that search
-constexpr double kReach = 15.0;          // m, of the returns that are searched among
+constexpr double kSpacing = 0.2;  // m, of the returns that search
+constexpr double kReach = 15.0;   // m, of the returns that are searched among
 constexpr double kLeastScore = 0.45;
-constexpr double kTolerance = 0.2;       // m, within which rays agree
+constexpr double kTolerance = 0.2;  // m, within which rays agree
 
 /// Points of frames in the axes of frame `base`.
 std::vector<Eigen::Vector2d> pointsOf(const KeyFrames& frames, const std::vector<int>& of, int base,
@@ -87,7 +87,8 @@ std::optional<LoopVerdict> findLoop(const KeyFrames& frames, int frame,
                                     const RelativeCovariance& candidate) {
   const int earlier = candidate.node;
   const std::vector<int> recent = recentFrames(frames, frame);
-  std::vector<int> around = framesInView(frames, earlier, frames.graph.pose(earlier), kEarlier + kRecent);
+  std::vector<int> around =
+      framesInView(frames, earlier, frames.graph.pose(earlier), kEarlier + kRecent);
   around.erase(std::remove_if(around.begin(), around.end(),
                               [&](int k) {
                                 return std::find(recent.begin(), recent.end(), k) != recent.end();
@@ -133,8 +134,8 @@ std::optional<LoopVerdict> findLoop(const KeyFrames& frames, int frame,
 
   SightCount sights;
   for (const int k : recent) {
-    const Pose2 T_earlier_k = verdict.T_candidate_frame *
-                              (frames.graph.pose(frame).inverse() * frames.graph.pose(k));
+    const Pose2 T_earlier_k =
+        verdict.T_candidate_frame * (frames.graph.pose(frame).inverse() * frames.graph.pose(k));
     const ScanSurface& seen = frames.surfaces[static_cast<std::size_t>(k)];
     for (const PlacedSurface& reference : references) {
       const Pose2 T_reference_k = reference.T_map_sensor.inverse() * T_earlier_k;

@@ -11,7 +11,7 @@ namespace {
 // what a robot that stands may have been pushed.
 constexpr double kPerWay = 0.10;
 constexpr double kPerTurn = 0.15;
-constexpr double kTurnPerWay = 0.07;   // rad / m
+constexpr double kTurnPerWay = 0.07;    // rad / m
 constexpr double kShiftPerTurn = 0.05;  // m / rad
 constexpr double kStandingShift = 0.02, kStandingTurn = 0.01;
 /// Without wheels the robot may have changed its speed altogether.
@@ -41,7 +41,8 @@ MotionBelief MotionPrior::predict(const std::optional<Pose2>& step) const {
   MotionBelief belief;
   if (!step) {
     belief.T_before_after = last_step_;
-    belief.covariance.diagonal() << squared(kBlindShift) + squared(0.5 * last_step_.position().norm()),
+    belief.covariance.diagonal() << squared(kBlindShift) +
+                                        squared(0.5 * last_step_.position().norm()),
         squared(kBlindShift) + squared(0.5 * last_step_.position().norm()),
         squared(kBlindTurn) + squared(0.5 * last_step_.theta);
     return belief;
@@ -91,7 +92,8 @@ void MotionPrior::learn(const std::optional<Pose2>& step, const MotionBelief& be
   follow(turn_scale_, squared(turn_error) + covariance(2, 2), turnVariance(*step));
   follow(scale_, shift_sq + 0.5 * covariance.topLeftCorner<2, 2>().trace(), wayVariance(*step));
 
-  const auto regress = [&](Systematic& s, const Eigen::Vector2d& of, double error, double variance) {
+  const auto regress = [&](Systematic& s, const Eigen::Vector2d& of, double error,
+                           double variance) {
     const double predicted_error = s.factors.dot(of);
     const Eigen::Vector2d gain = s.covariance * of / (of.dot(s.covariance * of) + variance);
     s.factors += gain * (error - predicted_error);

@@ -128,7 +128,8 @@ double optimisePoses(const std::vector<GraphEdge>& edges, std::vector<Pose2>& po
                      int most_iterations) {
   if (poses.size() < 2 || edges.empty()) return 0.0;
   std::vector<std::array<double, 3>> values(poses.size());
-  for (std::size_t i = 0; i < poses.size(); ++i) values[i] = {poses[i].x, poses[i].y, poses[i].theta};
+  for (std::size_t i = 0; i < poses.size(); ++i)
+    values[i] = {poses[i].x, poses[i].y, poses[i].theta};
   ceres::Problem problem;
   for (const GraphEdge& edge : edges) {
     problem.AddResidualBlock(new EdgeError(edge),

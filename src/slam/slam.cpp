@@ -72,8 +72,8 @@ Pose2 Slam::searched(const ScanSurface& surface, const PoseBelief& prior) const 
   if (query.empty()) return prior.mean;
   window.prior_information = prior.information.diagonal();
   window.prior_weight = 1.0 / (kIndependent * 3.0 * static_cast<double>(query.size()));
-  const LikelihoodPyramid pyramid(points, prior.mean.position(),
-                                  kSearchReach + window.half_width, kSearchLevels, kSearchCell);
+  const LikelihoodPyramid pyramid(points, prior.mean.position(), kSearchReach + window.half_width,
+                                  kSearchLevels, kSearchCell);
   const auto found = searchPose(query, pyramid, window, 0.2);
   return found ? found->T_map_query : prior.mean;
 }
@@ -84,7 +84,8 @@ SlamPose Slam::step(const Scan& scan, const Pose2& T_robot_sensor,
   std::optional<Pose2> wheel_step;
   std::optional<Pose2> T_odom_sensor;
   if (T_odom_robot) T_odom_sensor = *T_odom_robot * T_robot_sensor;
-  if (T_odom_sensor && last_odom_sensor_) wheel_step = last_odom_sensor_->inverse() * *T_odom_sensor;
+  if (T_odom_sensor && last_odom_sensor_)
+    wheel_step = last_odom_sensor_->inverse() * *T_odom_sensor;
   if (T_odom_sensor) last_odom_sensor_ = T_odom_sensor;
 
   SlamPose result;
@@ -106,8 +107,8 @@ SlamPose Slam::step(const Scan& scan, const Pose2& T_robot_sensor,
   const Eigen::Matrix3d prior_covariance = carried(covariance_, arm) + step_covariance;
   prior.information = prior_covariance.inverse();
   // Of the wheels alone, since the last key frame.
-  const Eigen::Vector2d wheel_arm = T_frame_wheels_ * motion.T_before_after.position() -
-                                    T_frame_wheels_.position();
+  const Eigen::Vector2d wheel_arm =
+      T_frame_wheels_ * motion.T_before_after.position() - T_frame_wheels_.position();
   wheels_covariance_ =
       carried(wheels_covariance_, wheel_arm) + turned(motion.covariance, T_frame_wheels_.theta);
   T_frame_wheels_ = T_frame_wheels_ * motion.T_before_after;
@@ -128,8 +129,7 @@ SlamPose Slam::step(const Scan& scan, const Pose2& T_robot_sensor,
   }
   result.agreement = sights.agreement();
   if (isNewPlace(T_map_sensor_, surface)) {
-    addKeyFrame(std::move(surface), T_map_sensor_, T_frame_wheels_,
-                wheels_covariance_.inverse());
+    addKeyFrame(std::move(surface), T_map_sensor_, T_frame_wheels_, wheels_covariance_.inverse());
     T_map_sensor_ = frames_.graph.pose(frames_.size() - 1);
   }
   const int frame = frames_.size() - 1;
@@ -197,7 +197,8 @@ void Slam::closeLoops(int frame) {
   if (closed) {
     for (const int other : framesInView(frames_, frame, frames_.graph.pose(frame), kViewFrames)) {
       if (other >= frame - kViewFrames) continue;
-      if (const auto edge = matchEdge(frames_, other, frame, {0.3, 0.08})) frames_.graph.connect(*edge);
+      if (const auto edge = matchEdge(frames_, other, frame, {0.3, 0.08}))
+        frames_.graph.connect(*edge);
     }
     frames_.graph.optimise();
   }
@@ -207,7 +208,8 @@ void Slam::closeLoops(int frame) {
 }
 
 void Slam::accept(const LoopVerdict& verdict) {
-  GraphEdge edge{verdict.candidate, verdict.frame, verdict.T_candidate_frame, verdict.information, true};
+  GraphEdge edge{verdict.candidate, verdict.frame, verdict.T_candidate_frame, verdict.information,
+                 true};
   frames_.graph.connect(edge);
   loops_.push_back(verdict);
 }

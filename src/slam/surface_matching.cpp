@@ -126,15 +126,13 @@ MatchResult matchSurface(const ScanSurface& query, const Pose2& start, const Pos
         prior.information / (1.0 + off.dot(prior.information * off) / kPriorFreedom);
     result.information = quadric.H;
     result.posterior = quadric.H + held;
-    result.paired = query.points.empty()
-                        ? 0.0
-                        : static_cast<double>(quadric.paired) /
-                              static_cast<double>(query.points.size());
+    result.paired = query.points.empty() ? 0.0
+                                         : static_cast<double>(quadric.paired) /
+                                               static_cast<double>(query.points.size());
     if (quadric.sum_weights > 0.0) result.sigma = std::sqrt(quadric.sum_sq / quadric.sum_weights);
     const Eigen::LDLT<Eigen::Matrix3d> solver(result.posterior);
     if (quadric.paired == 0 || solver.info() != Eigen::Success || !solver.isPositive()) break;
-    const Eigen::Vector3d step = solver.solve(
-        -(quadric.g + held * off));
+    const Eigen::Vector3d step = solver.solve(-(quadric.g + held * off));
     if (!step.allFinite()) break;
     result.T_map_query.x += step.x();
     result.T_map_query.y += step.y();

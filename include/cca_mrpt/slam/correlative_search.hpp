@@ -30,9 +30,9 @@ class LikelihoodPyramid {
     x += kMargin;
     y += kMargin;
     if (x < 0 || y < 0 || x >= width_ || y >= height_) return 0;
-    return cells_[static_cast<std::size_t>(level)][static_cast<std::size_t>(y) *
-                                                       static_cast<std::size_t>(width_) +
-                                                   static_cast<std::size_t>(x)];
+    return cells_[static_cast<std::size_t>(level)]
+                 [static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) +
+                  static_cast<std::size_t>(x)];
   }
   /// In units of cells.
   Eigen::Vector2d toCells(const Eigen::Vector2d& p_map) const { return (p_map - low_) / cell_; }
@@ -52,8 +52,8 @@ struct SearchWindow {
   double half_width = 1.0;  ///< m, in x and y
   double half_turn = 0.2;   ///< rad
   /// What a pose off the centre has to make up for: a prior of this information (diagonal, in the
-  /// map's axes), in units of the mean likelihood by `prior_weight`. Its tails are those of Student's
-  /// t: wheels slip.
+  /// map's axes), in units of the mean likelihood by `prior_weight`. Its tails are those of
+  /// Student's t: wheels slip.
   Eigen::Vector3d prior_information = Eigen::Vector3d::Zero();
   double prior_weight = 0.0;
   /// Poses this near (m, and rad) to `excluded` are passed over.

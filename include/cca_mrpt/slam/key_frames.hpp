@@ -29,8 +29,8 @@ inline constexpr double kTiedSigma = 0.15;
 /// m, up to which two scans have much in common.
 inline constexpr double kCommonView = 6.0;
 
-/// The frames that have most in common with a view from `T_map_sensor`, best first, among those that
-/// are tied to frame `anchor`.
+/// The frames that have most in common with a view from `T_map_sensor`, best first, among those
+/// that are tied to frame `anchor`.
 std::vector<int> framesInView(const KeyFrames& frames, int anchor, const Pose2& T_map_sensor,
                               int most);
 

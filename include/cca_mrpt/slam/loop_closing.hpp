@@ -10,8 +10,8 @@ namespace cca {
 
 /// Another visit of a place, as the search found it, with what speaks for and against it.
 struct LoopVerdict {
-  int frame = 0;         ///< the later visit
-  int candidate = 0;     ///< the earlier one
+  int frame = 0;      ///< the later visit
+  int candidate = 0;  ///< the earlier one
   Pose2 T_candidate_frame;
   Eigen::Matrix3d information = Eigen::Matrix3d::Zero();  ///< axes of the candidate
   double score = 0.0;      ///< mean likelihood of the recent frames' returns, [0, 1]
@@ -21,8 +21,8 @@ struct LoopVerdict {
   double window = 0.0;     ///< m, half width that was searched
 };
 
-/// Earlier frames that may have seen the place of `frame` although they are not tied to it: for each
-/// other visit, the one most likely nearest.
+/// Earlier frames that may have seen the place of `frame` although they are not tied to it: for
+/// each other visit, the one most likely nearest.
 std::vector<RelativeCovariance> loopCandidates(const KeyFrames& frames, int frame);
 
 /// Looks for the place of the frame, and of those driven just before, at an earlier visit.

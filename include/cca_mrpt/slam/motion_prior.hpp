@@ -18,7 +18,8 @@ struct MotionBelief {
 /// beginning wide [Thrun, Burgard & Fox 2005, ch. 5; Vizzo et al. 2023].
 ///
 /// The error of a step is a systematic part, linear in way and turn, and a random one whose
-/// variances grow with way and turn. Both are learned from matches, by as much as these knew better.
+/// variances grow with way and turn. Both are learned from matches, by as much as these knew
+/// better.
 class MotionPrior {
  public:
   /// @param step  of the wheels, in the frame of the sensor; nothing: the robot goes on as it went.
@@ -38,8 +39,9 @@ class MotionPrior {
   };
   Systematic heading_, way_;
   bool has_begun_ = false;
-  double scale_ = 1.0, turn_scale_ = 1.0;  ///< of the random part's variances, over their first guess
-  double weight_ = 0.0;                    ///< of what the scales have been learned from, bounded
+  double scale_ = 1.0,
+         turn_scale_ = 1.0;  ///< of the random part's variances, over their first guess
+  double weight_ = 0.0;      ///< of what the scales have been learned from, bounded
   Pose2 last_step_;
 };
 

@@ -17,13 +17,13 @@ struct ScanSurface {
     Eigen::Vector2d normal;    ///< unit, towards the sensor; zero where no surface is known
     int beam = 0;
   };
-  std::vector<Point> points;          ///< counter-clockwise
-  std::vector<int> point_of_beam;     ///< index into `points`; -1: no return
-  std::vector<double> free_range;     ///< m, that each beam saw free; 0: it says nothing
-  double first_bearing = 0.0;         ///< rad, of beam 0
-  double spacing = 0.0;               ///< rad, > 0; beams are counter-clockwise here
-  double range_sigma = 0.0;           ///< m, of the returns (rangeNoise())
-  bool is_full_turn = false;          ///< the last beam is a neighbour of the first
+  std::vector<Point> points;       ///< counter-clockwise
+  std::vector<int> point_of_beam;  ///< index into `points`; -1: no return
+  std::vector<double> free_range;  ///< m, that each beam saw free; 0: it says nothing
+  double first_bearing = 0.0;      ///< rad, of beam 0
+  double spacing = 0.0;            ///< rad, > 0; beams are counter-clockwise here
+  double range_sigma = 0.0;        ///< m, of the returns (rangeNoise())
+  bool is_full_turn = false;       ///< the last beam is a neighbour of the first
 
   int beams() const { return static_cast<int>(point_of_beam.size()); }
   /// The beam that looks at a point of the sensor's frame, to the nearest; -1 where

@@ -13,9 +13,10 @@ namespace cca {
 /// Where the robot is, as Slam::step() believes.
 struct SlamPose {
   Pose2 T_map_robot;
-  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  ///< (x, y) map axes, theta: of the last match
-  double agreement = 0.0;  ///< of the scan with what was seen before, [0, 1]
-  int version = 0;         ///< counts corrections of the past
+  Eigen::Matrix3d covariance =
+      Eigen::Matrix3d::Zero();  ///< (x, y) map axes, theta: of the last match
+  double agreement = 0.0;       ///< of the scan with what was seen before, [0, 1]
+  int version = 0;              ///< counts corrections of the past
 };
 
 /// Line SLAM: poses from wheels and laser, with loops.

@@ -27,14 +27,14 @@ inline constexpr double kPriorFreedom = 4.0;
 Eigen::Vector3d difference(const Pose2& b, const Pose2& a);
 
 /// The quadratic form of the point-to-line distances of one surface on others, about a pose:
-/// cost(step) = step' H step / 2 + g' step, step = (dx, dy, dtheta) in the map's axes, turning about
-/// the sensor.
+/// cost(step) = step' H step / 2 + g' step, step = (dx, dy, dtheta) in the map's axes, turning
+/// about the sensor.
 struct MatchQuadric {
   Eigen::Matrix3d H = Eigen::Matrix3d::Zero();
   Eigen::Vector3d g = Eigen::Vector3d::Zero();
-  int paired = 0;              ///< returns that have a partner
-  double sum_weights = 0.0;    ///< of them, each at most 1
-  double sum_sq = 0.0;         ///< m^2, weighted squared distances
+  int paired = 0;            ///< returns that have a partner
+  double sum_weights = 0.0;  ///< of them, each at most 1
+  double sum_sq = 0.0;       ///< m^2, weighted squared distances
 };
 
 /// How far a return may lie from its partner, and what distance is usual.
@@ -55,8 +55,8 @@ struct MatchResult {
   Pose2 T_map_query;
   Eigen::Matrix3d information = Eigen::Matrix3d::Zero();  ///< of the match alone, map axes
   Eigen::Matrix3d posterior = Eigen::Matrix3d::Zero();    ///< information with the prior
-  double sigma = 0.0;      ///< m, deviation of the paired returns
-  double paired = 0.0;     ///< share of the query's returns that found a partner at the end
+  double sigma = 0.0;                                     ///< m, deviation of the paired returns
+  double paired = 0.0;  ///< share of the query's returns that found a partner at the end
 };
 
 /// Gauss-Newton on these distances, the reach shrinking to what the noise needs.
