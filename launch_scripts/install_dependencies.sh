@@ -12,8 +12,8 @@ if [ "${1:-}" = --tests ]; then
     libdiagnostic-updater-dev libgeometry-msgs-dev libgl1-mesa-dri libgmock-dev
     libgtest-dev libnav-msgs-dev librosbag-dev libroscpp-dev libroslib-dev librostest-dev
     libsensor-msgs-dev libstd-msgs-dev libstd-srvs-dev libtf2-dev libtf2-msgs-dev
-    libvisualization-msgs-dev mrpt-apps python3-diagnostic-msgs python3-matplotlib python3-nav-msgs
-    python3-numpy python3-pil python3-rosbag python3-roslaunch python3-rospy python3-rostest
+    libvisualization-msgs-dev mrpt-apps python3-dev python3-diagnostic-msgs python3-matplotlib python3-nav-msgs
+    python3-numpy python3-pil python3-venv python3-rosbag python3-roslaunch python3-rospy python3-rostest
     python3-sensor-msgs python3-std-srvs python3-tf2-ros python3-visualization-msgs python3-yaml ros-core-dev rosbash rosout
     rviz x11-utils xauth xvfb"
 fi

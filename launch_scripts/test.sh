@@ -56,6 +56,7 @@ part layers test/checks/layers.sh
 part format test/checks/format.sh
 part build release
 part tests tests
+part python python/test.sh
 part sanitizers-without-ros sanitizers
 
 printf '\n'

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <nanobind/stl/string.h>
+
+#include "arguments.hpp"
+#include "cca_mrpt/baselines/registry.hpp"
+#include "line_arrays.hpp"
+#include "module.hpp"
+
+namespace cca::python {
+namespace {
+
+nb::object extract(const baselines::Baseline& baseline, nb::handle ranges, double angle_min,
+                   double angle_increment, bool tuned) {
+  Scan scan;
+  readScan(ranges, angle_min, angle_increment, scan);
+  std::vector<LineSegment> lines;
+  {
+    const nb::gil_scoped_release others_may_run;
+    lines = (tuned ? baseline.tuned : baseline.recommended)(scan);
+  }
+  return lineArray(lines);
+}
+
+}  // namespace
+
+void addBaselines(nb::module_& module) {
+  nb::class_<baselines::Baseline>(module, "Baseline", "A classical line extractor.")
+      .def_ro("name", &baselines::Baseline::name)
+      .def_ro("paper", &baselines::Baseline::paper, "Where it was published.")
+      .def("extract_lines", &extract, nb::arg("ranges").none(), nb::arg("angle_min"),
+           nb::arg("angle_increment"), nb::arg("tuned") = false,
+           nb::sig("def extract_lines(self, ranges: numpy.typing.ArrayLike, angle_min: float, "
+                   "angle_increment: float, tuned: bool = False) -> numpy.ndarray"),
+           R"(Lines of one scan; arguments and result as in `cca_mrpt.extract_lines`.
+
+Args:
+    tuned: with the best values known for indoor scans, not those that its source recommends.)")
+      .def("__repr__", [](const baselines::Baseline& baseline) {
+        return "Baseline(" + baseline.name + ": " + baseline.paper + ")";
+      });
+  nb::dict by_name;
+  for (const baselines::Baseline& baseline : baselines::all())
+    by_name[baseline.name.c_str()] = nb::cast(baseline, nb::rv_policy::reference);
+  module.attr("baselines") = by_name;
+}
+
+}  // namespace cca::python

@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "mapping.hpp"
+
+#include <nanobind/ndarray.h>
+#include <nanobind/stl/string.h>
+#include <nanobind/stl/vector.h>
+
+#include "arguments.hpp"
+#include "cca_mrpt/io/line_formats.hpp"
+#include "cca_mrpt/mapping/line_extraction.hpp"
+#include "line_arrays.hpp"
+#include "module.hpp"
+#include "parameters.hpp"
+
+namespace cca::python {
+namespace {
+
+nb::object extract(nb::handle ranges, double angle_min, double angle_increment,
+                   nb::kwargs keywords) {
+  CcaParameters parameters;
+  readParameters(keywords, parameters);
+  thread_local Scan scan;  // keeps its memory from call to call
+  readScan(ranges, angle_min, angle_increment, scan);
+  std::vector<LineSegment> lines;
+  {
+    const nb::gil_scoped_release others_may_run;
+    lines = extractLines(scan, parameters);
+  }
+  return lineArray(lines);
+}
+
+void insert(SharedLineMap& map, nb::handle ranges, double angle_min, double angle_increment,
+            nb::handle pose, double free_range_without_return) {
+  Scan scan;
+  readScan(ranges, angle_min, angle_increment, scan);
+  readPlace(pose, free_range_without_return, scan);
+  if (!map.with([&scan](LineMap& own) { return own.insert(scan); }))
+    throw nb::value_error("pose: further than 10 000 km from the map's origin");
+}
+
+struct LinesAndChains {
+  std::vector<MapLine> lines;
+  std::vector<PolyLine> poly_lines;
+};
+
+LinesAndChains everything(SharedLineMap& map) {
+  return map.with([](LineMap& own) { return LinesAndChains{own.lines(), own.polyLines()}; });
+}
+
+std::vector<Pose2> readTrajectory(nb::handle from) {
+  std::vector<Pose2> poses;
+  if (from.is_none()) return poses;
+  for (const nb::handle pose : nb::iter(from)) poses.push_back(readPose(pose, "trajectory"));
+  return poses;
+}
+
+template <class Write>
+auto writer(Write write) {
+  return [write](SharedLineMap& map, nb::handle trajectory) {
+    const std::vector<Pose2> poses = readTrajectory(trajectory);
+    const LinesAndChains all = everything(map);
+    return write(all.lines, all.poly_lines, poses);
+  };
+}
+
+void addLineMap(nb::module_& module) {
+  static const std::string docs = parameterDocs<CcaParameters>(
+      "A line map that grows scan by scan, in the frame of the poses [m].\n\n"
+      "May be used by several threads: their calls wait for each other.");
+  nb::class_<SharedLineMap>(module, "LineMap", docs.c_str())
+      .def(
+          "__init__",
+          [](SharedLineMap* self, nb::kwargs keywords) {
+            CcaParameters parameters;
+            readParameters(keywords, parameters);
+            new (self) SharedLineMap(LineMap(parameters));
+          },
+          nb::arg("parameters"))
+      .def("insert", &insert, nb::arg("ranges").none(), nb::arg("angle_min"),
+           nb::arg("angle_increment"), nb::arg("pose").none(),
+           nb::arg("free_range_without_return") = 0.0,
+           nb::sig("def insert(self, ranges: numpy.typing.ArrayLike, angle_min: float, "
+                   "angle_increment: float, pose: collections.abc.Sequence[float], "
+                   "free_range_without_return: float = 0.0) -> None"),
+           R"(Take a scan.
+
+Args:
+    ranges: (N,) m, beam by beam; +inf: no return; NaN, 0 and negative: invalid.
+    angle_min: rad, bearing of beam 0 in the sensor frame, counter-clockwise.
+    angle_increment: rad, from beam to beam; negative where the laser turns clockwise.
+    pose: (x, y, theta) of the sensor in the map frame; m, m, rad.
+    free_range_without_return: m, up to which a beam without return is known to be free.
+
+Raises:
+    ValueError: naming the argument.)")
+      .def(
+          "finish_batch",
+          [](SharedLineMap& map) { map.with([](LineMap& own) { own.finishBatch(); }); },
+          "Merge scans that still wait for their batch to fill (scans_per_batch > 1).")
+      .def(
+          "lines",
+          [](SharedLineMap& map) {
+            return lineArray(map.with([](LineMap& own) { return own.lines(); }));
+          },
+          nb::sig("def lines(self) -> numpy.ndarray"),
+          R"(The lines as they stand, by rising id: structured array of dtype `MAP_LINE`.
+
+Fields: `id`, stable while the line exists; `ends` (2, 2), [[x1, y1], [x2, y2]] in m, map frame, seen
+from the left of the way from first to second; `covariance` (2, 2) of (lateral offset at the centroid
+of the returns [m], orientation [rad]); `returns`, laser returns that it stands on.)")
+      .def(
+          "poly_lines",
+          [](SharedLineMap& map) { return map.with([](LineMap& own) { return own.polyLines(); }); },
+          "The same lines, chained where their ends meet; a line alone is a chain of one.")
+      .def("to_geojson", writer(linesGeoJson), nb::arg("trajectory").none() = nb::none(),
+           nb::sig("def to_geojson(self, trajectory: numpy.typing.ArrayLike | None = None) -> str"),
+           "GeoJSON FeatureCollection of lines and poly-lines, in metres of the map frame.\n\n"
+           "Args:\n    trajectory: (N, 3) poses (x, y, theta), added as a LineString.")
+      .def("to_svg", writer(linesSvg), nb::arg("trajectory").none() = nb::none(),
+           nb::sig("def to_svg(self, trajectory: numpy.typing.ArrayLike | None = None) -> str"),
+           "Floor plan at 1 : 100 as SVG. See `to_geojson` for the argument.")
+      .def("to_dxf", writer(linesDxf), nb::arg("trajectory").none() = nb::none(),
+           nb::sig("def to_dxf(self, trajectory: numpy.typing.ArrayLike | None = None) -> str"),
+           "Floor plan in metres as DXF R12. See `to_geojson` for the argument.")
+      .def(
+          "to_csv",
+          [](SharedLineMap& map) {
+            return linesCsv(map.with([](LineMap& own) { return own.lines(); }));
+          },
+          "The lines as CSV, with the header that `cca-mrpt map` writes to lines.csv.");
+}
+
+}  // namespace
+
+void addMapping(nb::module_& module) {
+  static const std::string docs =
+      parameterDocs<CcaParameters>(R"(Lines of one scan by consecutive clustering.
+
+Args:
+    ranges: (N,) m, beam by beam; +inf: no return; NaN, 0 and negative: invalid. float64 and float32
+        arrays are read in place.
+    angle_min: rad, bearing of beam 0 in the sensor frame, counter-clockwise.
+    angle_increment: rad, from beam to beam; negative where the laser turns clockwise.
+
+Returns:
+    Structured array of dtype `LINE`, counter-clockwise, empty below three returns: `ends` (2, 2),
+    [[x1, y1], [x2, y2]] in m, sensor frame; `covariance` (2, 2) of (lateral offset at the centroid of
+    the returns [m], orientation [rad]); `returns`, number of laser returns.
+
+Raises:
+    ValueError: naming the argument.)");
+  module.def("extract_lines", &extract, nb::arg("ranges").none(), nb::arg("angle_min"),
+             nb::arg("angle_increment"), nb::arg("parameters"),
+             nb::sig("def extract_lines(ranges: numpy.typing.ArrayLike, angle_min: float, "
+                     "angle_increment: float, **parameters) -> numpy.ndarray"),
+             docs.c_str());
+  nb::class_<PolyLine>(module, "PolyLine", "A chain of map lines; closed where first equals last.")
+      .def_prop_ro(
+          "vertices", [](const PolyLine& chain) { return pointArray(chain.vertices); },
+          nb::sig("def vertices(self) -> numpy.ndarray"), "(n, 2) m, map frame.")
+      .def_prop_ro(
+          "line_ids", [](const PolyLine& chain) { return chain.line_ids; },
+          "Ids of the lines between neighbouring vertices.");
+  addLineMap(module);
+}
+
+}  // namespace cca::python

@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "module.hpp"
+
+#include "line_arrays.hpp"
+
+NB_MODULE(_core, module) {
+  module.doc() = "The C++ core of cca_mrpt; use the names that the package itself offers.";
+  cca::python::addLineTypes(module);
+  cca::python::addMapping(module);
+  cca::python::addBaselines(module);
+  cca::python::addNavigation(module);
+  cca::python::addLogs(module);
+}

@@ -1,0 +1,253 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <nanobind/ndarray.h>
+#include <nanobind/stl/optional.h>
+#include <nanobind/stl/pair.h>
+#include <nanobind/stl/string.h>
+
+#include <cmath>
+#include <memory>
+
+#include "arguments.hpp"
+#include "cca_mrpt/navigation/explorer.hpp"
+#include "mapping.hpp"
+#include "module.hpp"
+#include "parameters.hpp"
+
+namespace cca::python {
+namespace {
+
+using SharedGrid = Locked<ExplorationGrid>;
+using Pair = std::pair<double, double>;
+
+/// What step() needs besides the explorer itself: time never falls.
+struct Exploration {
+  Explorer explorer;
+  double time = -HUGE_VAL;
+};
+using SharedExplorer = Locked<Exploration>;
+
+constexpr double kMostCells = 1 << 28;
+
+/// Rows of cells from the lowest y on; one byte a cell.
+struct States {
+  std::unique_ptr<std::uint8_t[]> cells;
+  std::size_t rows = 0, columns = 0;
+};
+
+States statesOf(const ExplorationGrid& grid) {
+  const Cell low = grid.lowest(), high = grid.highest();
+  States states;
+  if (high.x < low.x || high.y < low.y) return states;
+  states.columns = static_cast<std::size_t>(high.x - low.x) + 1;
+  states.rows = static_cast<std::size_t>(high.y - low.y) + 1;
+  if (static_cast<double>(states.rows) * static_cast<double>(states.columns) > kMostCells)
+    return states;
+  states.cells = std::make_unique<std::uint8_t[]>(states.rows * states.columns);
+  ExplorationGrid::Reader reader(grid);
+  std::uint8_t* to = states.cells.get();
+  for (int y = low.y; y <= high.y; ++y) {
+    for (int x = low.x; x <= high.x; ++x) *to++ = static_cast<std::uint8_t>(reader.at({x, y}));
+  }
+  return states;
+}
+
+nb::object statesArray(SharedGrid& grid) {
+  States states = grid.with([](ExplorationGrid& own) { return statesOf(own); });
+  if (!states.cells && states.rows > 0) {
+    throw nb::value_error(("grid: " + std::to_string(states.columns) + " x " +
+                           std::to_string(states.rows) + " cells are too many for one array")
+                              .c_str());
+  }
+  std::uint8_t* raw = states.cells.release();
+  const nb::capsule owner(raw ? raw : new std::uint8_t[1],
+                          [](void* p) noexcept { delete[] static_cast<std::uint8_t*>(p); });
+  return nb::cast(nb::ndarray<nb::numpy, std::uint8_t, nb::ndim<2>>(
+      owner.data(), {states.rows, states.columns}, owner));
+}
+
+std::size_t revealed(SharedGrid& grid) {
+  return grid.with([](ExplorationGrid& own) { return own.revealed(); });
+}
+
+double resolution(SharedGrid& grid) {
+  return grid.with([](ExplorationGrid& own) { return own.resolution(); });
+}
+
+Pair origin(SharedGrid& grid) {
+  return grid.with([](ExplorationGrid& own) {
+    return Pair{own.lowest().x * own.resolution(), own.lowest().y * own.resolution()};
+  });
+}
+
+void insert(SharedGrid& grid, nb::handle ranges, double angle_min, double angle_increment,
+            nb::handle pose, double free_range_without_return) {
+  Scan scan;
+  readScan(ranges, angle_min, angle_increment, scan);
+  readPlace(pose, free_range_without_return, scan);
+  const bool fits = grid.with([&scan](ExplorationGrid& own) {
+    own.insert(scan);
+    return own.covers(scan.T_map_sensor.position());
+  });
+  if (!fits) throw nb::value_error("pose: further from the origin than the grid can hold");
+}
+
+void addGrid(nb::module_& module) {
+  nb::enum_<CellState>(module, "CellState", nb::is_arithmetic(), "What is known of a cell.")
+      .value("UNKNOWN", CellState::kUnknown)
+      .value("PRESUMED_FREE", CellState::kPresumedFree, "between two beams that both went on")
+      .value("GUESSED_WALL", CellState::kGuessedWall, "in line with returns on both sides")
+      .value("PRESUMED_WALL", CellState::kPresumedWall, "between two returns of one surface")
+      .value("FREE", CellState::kFree)
+      .value("OCCUPIED", CellState::kOccupied);
+  nb::class_<SharedGrid>(module, "ExplorationGrid", "What is known of each place; grows by itself.")
+      .def(
+          "__init__",
+          [](SharedGrid* self, double cell_side) {
+            if (!(cell_side >= 0.005 && cell_side <= 1.0))
+              throw nb::value_error("resolution: must be in [0.005, 1] m");
+            new (self) SharedGrid(ExplorationGrid(cell_side));
+          },
+          nb::arg("resolution") = 0.05)
+      .def("insert", &insert, nb::arg("ranges").none(), nb::arg("angle_min"),
+           nb::arg("angle_increment"), nb::arg("pose").none(),
+           nb::arg("free_range_without_return") = 0.0,
+           nb::sig("def insert(self, ranges: numpy.typing.ArrayLike, angle_min: float, "
+                   "angle_increment: float, pose: collections.abc.Sequence[float], "
+                   "free_range_without_return: float = 0.0) -> None"),
+           "Take a scan; arguments as in `LineMap.insert`.")
+      .def("states", &statesArray, nb::sig("def states(self) -> numpy.ndarray"),
+           "(rows, columns) uint8 of `CellState`, from the lowest known x and y on: [0, 0] is the "
+           "cell whose\nlower left corner is `origin`.")
+      .def_prop_ro("origin", &origin, "(x, y) m, map frame, of the lower left corner of [0, 0].")
+      .def_prop_ro("resolution", &resolution, "m, side of a cell.")
+      .def_prop_ro("revealed", &revealed, "Number of cells that have ever been seen.");
+}
+
+const char* statusName(ExplorationStatus status) {
+  switch (status) {
+    case ExplorationStatus::kExploring:
+      return "exploring";
+    case ExplorationStatus::kReturning:
+      return "returning";
+    case ExplorationStatus::kPaused:
+      return "paused";
+    case ExplorationStatus::kFinished:
+      return "finished";
+  }
+  return "";
+}
+
+void addAction(nb::module_& module) {
+  nb::class_<Action>(module, "Action", "What the robot shall do next.")
+      .def_prop_ro(
+          "velocity",
+          [](const Action& a) {
+            return Pair{a.velocity.linear, a.velocity.angular};
+          },
+          "(m/s forwards, rad/s counter-clockwise).")
+      .def_prop_ro(
+          "goal",
+          [](const Action& a) {
+            return a.goal ? std::optional<Pair>(Pair{a.goal->x(), a.goal->y()}) : std::nullopt;
+          },
+          "(x, y) m, map frame, or None.")
+      .def_prop_ro(
+          "status", [](const Action& a) { return statusName(a.status); },
+          "'exploring', 'returning', 'paused' or 'finished'.")
+      .def_ro("reason", &Action::reason, "Why it drives there, or why it has finished.");
+}
+
+Action step(SharedExplorer& explorer, nb::handle ranges, double angle_min, double angle_increment,
+            nb::handle pose, double time, nb::handle velocity, nb::handle sensor_pose,
+            double free_range_without_return) {
+  Observation observation;
+  readScan(ranges, angle_min, angle_increment, observation.scan);
+  readPlace(pose, free_range_without_return, observation.scan);
+  observation.T_map_robot = observation.scan.T_map_sensor;
+  observation.scan.T_map_sensor = observation.T_map_robot * readPose(sensor_pose, "sensor_pose");
+  double measured[2];
+  readNumbers(velocity, "velocity", "(m/s, rad/s)", 2, measured);
+  observation.velocity = {measured[0], measured[1]};
+  observation.time = time;
+  if (!std::isfinite(time)) throw nb::value_error("time: a finite number is needed");
+  const auto action = explorer.with([&observation](Exploration& own) -> std::optional<Action> {
+    if (observation.time < own.time) return std::nullopt;
+    own.time = observation.time;
+    return own.explorer.step(observation);
+  });
+  if (!action) throw nb::value_error("time: before that of the last step");
+  return *action;
+}
+
+void addExplorer(nb::module_& module) {
+  static const std::string docs = parameterDocs<CcaParameters, RobotParameters, ExplorerParameters>(
+      "Maps and explores: give it what the robot sees, drive as it says.");
+  nb::class_<SharedExplorer>(module, "Explorer", docs.c_str())
+      .def(
+          "__init__",
+          [](SharedExplorer* self, nb::kwargs keywords) {
+            CcaParameters mapping;
+            RobotParameters robot;
+            ExplorerParameters parameters;
+            readParameters(keywords, mapping, robot, parameters);
+            new (self) SharedExplorer(Exploration{Explorer(mapping, robot, parameters)});
+          },
+          nb::arg("parameters"))
+      .def("step", &step, nb::arg("ranges").none(), nb::arg("angle_min"),
+           nb::arg("angle_increment"), nb::arg("pose").none(), nb::arg("time"),
+           nb::arg("velocity").none() = nb::make_tuple(0.0, 0.0),
+           nb::arg("sensor_pose").none() = nb::make_tuple(0.0, 0.0, 0.0),
+           nb::arg("free_range_without_return") = 0.0,
+           nb::sig("def step(self, ranges: numpy.typing.ArrayLike, angle_min: float, "
+                   "angle_increment: float, pose: collections.abc.Sequence[float], time: float, "
+                   "velocity: collections.abc.Sequence[float] = (0.0, 0.0), "
+                   "sensor_pose: collections.abc.Sequence[float] = (0.0, 0.0, 0.0), "
+                   "free_range_without_return: float = 0.0) -> Action"),
+           R"(Map what the robot sees, and say where to drive.
+
+Args:
+    ranges, angle_min, angle_increment, free_range_without_return: as in `LineMap.insert`.
+    pose: (x, y, theta) of the robot in the map frame; m, m, rad.
+    time: s, never falling.
+    velocity: (m/s forwards, rad/s counter-clockwise) as measured.
+    sensor_pose: (x, y, theta) of the laser in the robot's frame.
+
+Raises:
+    ValueError: naming the argument.)")
+      .def(
+          "pause",
+          [](SharedExplorer& explorer, bool paused) {
+            explorer.with([paused](Exploration& own) { own.explorer.pause(paused); });
+          },
+          nb::arg("paused") = true, "While paused it maps, and stands still.")
+      .def(
+          "return_to_start",
+          [](SharedExplorer& explorer) {
+            explorer.with([](Exploration& own) { own.explorer.returnToStart(); });
+          },
+          "Give up exploring and drive back to where it began.")
+      .def(
+          "line_map",
+          [](SharedExplorer& explorer) {
+            return new SharedLineMap(
+                explorer.with([](Exploration& own) { return own.explorer.lineMap(); }));
+          },
+          "A copy of the line map as it stands.")
+      .def(
+          "grid",
+          [](SharedExplorer& explorer) {
+            return new SharedGrid(
+                explorer.with([](Exploration& own) { return own.explorer.grid(); }));
+          },
+          "A copy of the grid as it stands.");
+}
+
+}  // namespace
+
+void addNavigation(nb::module_& module) {
+  addGrid(module);
+  addAction(module);
+  addExplorer(module);
+}
+
+}  // namespace cca::python

@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <nanobind/nanobind.h>
+#include <nanobind/stl/string.h>
+
+#include <initializer_list>
+#include <string>
+
+namespace cca::python {
+
+namespace nb = nanobind;
+
+/// Sets described parameters from keyword arguments, each of which it takes out of them.
+class KeywordReader {
+ public:
+  explicit KeywordReader(nb::kwargs& keywords) : keywords_(keywords) {}
+
+  template <class Number>
+  void operator()(const char* name, Number& value, Number lowest, Number highest, const char* unit,
+                  const char*) {
+    Number given{};
+    if (!take(name, given, std::is_same_v<Number, int> ? "a whole number" : "a number")) return;
+    if (!(given >= lowest && given <= highest)) {
+      const nb::str text =
+          nb::str("{}: {} is not in [{}, {}] {}").format(name, given, lowest, highest, unit);
+      throw nb::value_error(text.c_str());
+    }
+    value = given;
+  }
+  void operator()(const char* name, bool& value, const char*) { take(name, value, "a bool"); }
+  void operator()(const char* name, std::string& value, std::initializer_list<const char*> choices,
+                  const char*) {
+    std::string given;
+    if (!take(name, given, "a string")) return;
+    std::string known;
+    for (const char* choice : choices) {
+      if (given == choice) return void(value = given);
+      known += std::string(" ") + choice;
+    }
+    throw nb::value_error((std::string(name) + ": '" + given + "' is none of" + known).c_str());
+  }
+
+  /// @throws nb::value_error naming a keyword that nothing has taken.
+  void refuseRest() const {
+    for (const auto [name, value] : keywords_) {
+      throw nb::value_error((std::string(nb::str(name).c_str()) + ": no such parameter").c_str());
+    }
+  }
+
+ private:
+  template <class Value>
+  bool take(const char* name, Value& value, const char* kind) {
+    if (!keywords_.contains(name)) return false;
+    const nb::object given = keywords_[name];
+    if (!nb::try_cast<Value>(given, value)) {
+      const nb::str text = nb::str("{}: {} is needed, not {!r}").format(name, kind, given);
+      throw nb::value_error(text.c_str());
+    }
+    nb::del(keywords_[name]);
+    return true;
+  }
+
+  nb::kwargs& keywords_;
+};
+
+/// Parameters from the keyword arguments of a call. @throws nb::value_error naming the argument.
+template <class... Parameters>
+void readParameters(nb::kwargs& keywords, Parameters&... parameters) {
+  KeywordReader reader(keywords);
+  (describe(parameters, reader), ...);
+  reader.refuseRest();
+}
+
+/// Writes a line on each described parameter: name, meaning, default, range, unit.
+class ParameterList {
+ public:
+  template <class Number>
+  void operator()(const char* name, Number& value, Number lowest, Number highest, const char* unit,
+                  const char* meaning) {
+    add(name, meaning, nb::str("{}, in [{}, {}] {}").format(value, lowest, highest, unit).c_str());
+  }
+  void operator()(const char* name, bool& value, const char* meaning) {
+    add(name, meaning, value ? "True" : "False");
+  }
+  void operator()(const char* name, std::string& value, std::initializer_list<const char*> choices,
+                  const char* meaning) {
+    std::string known;
+    for (const char* choice : choices) known += std::string(known.empty() ? "" : ", ") + choice;
+    add(name, meaning, "'" + value + "', one of " + known);
+  }
+  const std::string& text() const { return text_; }
+
+ private:
+  void add(const char* name, const char* meaning, const std::string& values) {
+    text_ += std::string("    ") + name + ": " + meaning + " (default " + values + ")\n";
+  }
+  std::string text_ = "\n\nKeyword parameters:\n";
+};
+
+template <class... Parameters>
+std::string parameterDocs(const char* docs) {
+  ParameterList list;
+  const auto append = [&list](auto parameters) { describe(parameters, list); };
+  (append(Parameters{}), ...);
+  return docs + list.text();
+}
+
+}  // namespace cca::python
