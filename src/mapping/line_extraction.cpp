@@ -17,6 +17,7 @@ namespace {
 constexpr double kOdds[] = {0.1, 0.4};
 /// Merging and refining both shorten the description and so must end; mostly after three rounds.
 constexpr int kMostRounds = 6;
+constexpr double kSetSigma = 0.03;  // m, where the study leaves the scan's own noise out
 
 /// The circle was cut before its walls were known: opens it at a corner on the far side of the
 /// scan, so that the old seam is refined like any other place.
@@ -39,28 +40,36 @@ void reopenAtCorner(const PointNoise& noise, ScanPoints* points, RunFitter* fitt
 }  // namespace
 
 std::vector<LineSegment> extractLines(const Scan& scan, const CcaParameters& parameters) {
-  const PointNoise noise = rangeNoise(scan);
+  const Ablation& without = parameters.without;
+  PointNoise noise = rangeNoise(scan);
+  if (without(Part::kScanNoise)) noise.range_sigma = kSetSigma;
   ScanPoints points = scanPoints(scan, std::max(noise.range_sigma, noise.straightness));
   RunFitter fitter(points.positions, noise);
-  Runs runs = pointClusters(points, fitter, parameters.points_per_cluster);
+  Runs runs = pointClusters(points, fitter, parameters.points_per_cluster, without);
 
-  const double cut = parameters.similarity_cut;
+  const AlphaCut cut(parameters.similarity_cut, without);
   for (const double share : kOdds) {
-    const double higher_cut = 1.0 / (1.0 + share * (1.0 / cut - 1.0));
-    while (mergeConsecutive(points, fitter, higher_cut, &runs)) {
+    const AlphaCut higher(1.0 / (1.0 + share * (1.0 / cut.value - 1.0)), without);
+    while (!without(Part::kRounds) && mergeConsecutive(points, fitter, higher, &runs)) {
     }
   }
   bool changed = true;
   for (int round = 0; changed && round < kMostRounds; ++round) {
     changed = false;
-    while (mergeConsecutive(points, fitter, cut, &runs)) changed = true;
+    while (mergeConsecutive(points, fitter, cut, &runs)) {
+      changed = true;
+      if (without(Part::kRounds)) break;
+    }
+    if (without(Part::kCorners)) continue;
     if (refineCorners(points, fitter, &runs)) changed = true;
     if (round > 0 || !points.closed || runs.size() < 3) continue;
     reopenAtCorner(noise, &points, &fitter, &runs);
     changed = true;
   }
-  meetAtCorners(points, fitter, &runs);
-  tellEdgesBetween(points, fitter, &runs);
+  if (!without(Part::kCorners)) {
+    meetAtCorners(points, fitter, &runs);
+    tellEdgesBetween(points, fitter, &runs);
+  }
   return polyLines(points, fitter, runs, groupInterrupted(points, fitter, cut, runs));
 }
 

@@ -56,17 +56,18 @@ bool LineMap::insert(const Scan& scan, std::vector<LineSegment> lines) {
 
 void LineMap::finishBatch() {
   std::vector<NewLine> lines = newLines();
-  clusterIntoMap(lines, parameters_.similarity_cut, noise_, walls_);
+  const AlphaCut cut(parameters_.similarity_cut, parameters_.without);
+  clusterIntoMap(lines, cut, noise_, walls_);
   learn(lines);
   std::vector<std::vector<Eigen::Vector2d>> beams;
   for (std::size_t s = 0; s < batch_.size(); ++s) {
     beams.push_back(beamDirections(batch_[s].scan));
     depositReturns(batch_[s].scan, beams[s], lines, s, noise_, walls_);
   }
-  for (std::size_t s = 0; s < batch_.size(); ++s) {
+  for (std::size_t s = 0; s < batch_.size() && !cut.without(Part::kRays); ++s) {
     passRays(batch_[s].scan, beams[s], noise_, walls_);
   }
-  seeToTouched(walls_, noise_, next_id_);
+  seeToTouched(walls_, noise_, cut, next_id_);
   batch_.clear();
 }
 
@@ -94,7 +95,9 @@ void LineMap::learn(const std::vector<NewLine>& lines) {
     walls_.touch(line.wall);
     wall.visits = std::min(wall.visits + 1.0, kMostVisits);
     const double length = line.segment.length();
-    if (length < kTellingLength || wall.two_sided) continue;
+    if (length < kTellingLength || wall.two_sided || parameters_.without(Part::kPoseNoise)) {
+      continue;
+    }
     const Eigen::Vector2d m = wall.toWall(line.segment.moments.mean);
     const int half = static_cast<int>(0.5 * length / SupportProfile::kBinLength);
     const int middle = SupportProfile::binOf(m.x());

@@ -17,47 +17,58 @@ namespace {
 /// Each run is compared with this many that follow it. Rounds join longer walls.
 constexpr int kNeighbours = 3;
 
-/// Whether two neighbours may be one wall: every beam between them returned, and a step in depth
-/// lies between two lines at least, for points across a step are soon in line with the beam.
-bool mayFollow(const ScanPoints& points, const FittedRun& a, const FittedRun& b) {
-  if (points.silentBetween(a.last - 1, b.first) > 0) return false;
-  return (a.is_line && b.is_line) || points.breaksBetween(a.last - 1, b.first) == 0;
+/// What speaks for a gap between two neighbours: a beam between them that did not return, or a step
+/// in depth beside anything but two lines, for points across a step are soon in line with the beam.
+/// Either is evidence without end, so that nothing else need be asked.
+double gapToNext(const ScanPoints& points, const FittedRun& a, const FittedRun& b) {
+  const bool none = points.silentBetween(a.last - 1, b.first) == 0 &&
+                    ((a.is_line && b.is_line) || points.breaksBetween(a.last - 1, b.first) == 0);
+  return none ? 0.0 : std::numeric_limits<double>::infinity();
+}
+
+/// Similarity of two neighbours, below the cut a bound of it: gap and fit are asked first, which
+/// mostly fail.
+double similarityOf(const RunFitter& fitter, const AlphaCut& cut, const FittedRun& run,
+                    const FittedRun& next, double gap, bool* is_bound) {
+  *is_bound = false;
+  if (gap > 0.0 && !cut.without(Part::kGap)) return 0.0;
+  if (!cut.without(Part::kFit)) {
+    const double most =
+        mostFitMembership(run, next, fitter.leastHalfChiSquare(run.first, next.last));
+    *is_bound = most < cut.value;
+    if (*is_bound) return most;
+  }
+  const JointFit joint = fitter.fitJointly(fitter.prefix().run(run.first, next.last));
+  // From one place no two runs are seen side by side.
+  return cut.similarity(memberships(run, next, joint, gap, 0.0));
 }
 
 /// Similarity of a run to the next one, remembered until either changes; where it is below the cut,
 /// a bound may stand for it.
-double similarityToNext(const ScanPoints& points, const RunFitter& fitter, double cut,
+double similarityToNext(const ScanPoints& points, const RunFitter& fitter, const AlphaCut& cut,
                         const FittedRun& next, FittedRun* run) {
-  const bool bound_will_do = !run->similarity_is_bound || run->similarity < cut;
+  const bool bound_will_do = !run->similarity_is_bound || run->similarity < cut.value;
   if (run->compared_with == next.last && bound_will_do) return run->similarity;
   run->compared_with = next.last;
-  run->similarity = 0.0;
-  run->similarity_is_bound = false;
-  if (!mayFollow(points, *run, next)) return 0.0;
-  run->similarity = mostFitMembership(*run, next, fitter.leastHalfChiSquare(run->first, next.last));
-  run->similarity_is_bound = run->similarity < cut;
-  if (run->similarity_is_bound) return run->similarity;
-  const JointFit joint = fitter.fitJointly(fitter.prefix().run(run->first, next.last));
-  run->similarity = memberships(*run, next, joint, 0.0, 0.0).similarity();
+  const double gap = gapToNext(points, *run, next);
+  run->similarity = similarityOf(fitter, cut, *run, next, gap, &run->similarity_is_bound);
   return run->similarity;
 }
 
 /// The similarities among runs first <= i < last, of which each is alike the next.
-SimilarityMatrix similarityOfRow(const ScanPoints& points, const RunFitter& fitter, double cut,
-                                 const Runs& runs, int first, int last) {
+SimilarityMatrix similarityOfRow(const ScanPoints& points, const RunFitter& fitter,
+                                 const AlphaCut& cut, const Runs& runs, int first, int last) {
   SimilarityMatrix s(last - first);
   for (int i = first; i + 1 < last; ++i) {
     double similarity = runs[i].similarity;
-    for (int j = i + 1; similarity >= cut; ++j) {
+    for (int j = i + 1; similarity >= cut.value; ++j) {
       s.set(i - first, j - first, similarity);
       const int next = j + 1;
       if (next >= last || next > i + kNeighbours) break;
-      const FittedRun &before = runs[j], &far = runs[next];
-      if (!mayFollow(points, before, far)) break;
-      const FittedRun row = fitter.fit(runs[i].first, before.last);
-      if (mostFitMembership(row, far, fitter.leastHalfChiSquare(row.first, far.last)) < cut) break;
-      const JointFit joint = fitter.fitJointly(fitter.prefix().run(row.first, far.last));
-      similarity = memberships(row, far, joint, 0.0, 0.0).similarity();
+      const double gap = gapToNext(points, runs[j], runs[next]);
+      const FittedRun row = fitter.fit(runs[i].first, runs[j].last);
+      bool is_bound = false;
+      similarity = similarityOf(fitter, cut, row, runs[next], gap, &is_bound);
     }
   }
   return s;
@@ -138,23 +149,29 @@ void orderAlong(const ScanPoints& points, const Runs& runs, std::vector<int>* pa
   }
 }
 
-bool mergeInterrupted(const ScanPoints& points, const RunFitter& fitter, double cut,
+bool mergeInterrupted(const ScanPoints& points, const RunFitter& fitter, const AlphaCut& cut,
                       const Runs& runs, std::vector<Interrupted>* lines) {
   const int n = static_cast<int>(lines->size());
   SimilarityMatrix s(n);
-  const double most = kGapGate * (1.0 / cut - 1.0) + 1e-9;  // with more, the third is below the cut
+  // With more, the gap alone is below the cut.
+  const double most = cut.without(Part::kGap) ? std::numeric_limits<double>::infinity()
+                                              : kGapGate * (1.0 / cut.value - 1.0) + 1e-9;
   for (int i = 0; i < n; ++i) {
     for (int j = i + 1; j < n; ++j) {
       const Interrupted &a = (*lines)[i], &b = (*lines)[j];
       PointMoments moments = a.fit.moments;
       moments.add(b.fit.moments);
-      if (mostFitMembership(a.fit, b.fit, fitter.leastHalfChiSquare(moments)) < cut) continue;
+      if (!cut.without(Part::kFit)) {
+        const double bound = mostFitMembership(a.fit, b.fit, fitter.leastHalfChiSquare(moments));
+        if (bound < cut.value) continue;
+      }
       if (interlaced(a, b)) continue;
-      if (fitMembership(a.fit, b.fit, fitter.fitJointly(moments)) < cut) continue;
+      const JointFit fitted = fitter.fitJointly(moments);
+      if (cut.similarity(memberships(a.fit, b.fit, fitted, 0.0, 0.0)) < cut.value) continue;
       const FittedSegment joint = fitter.fit(moments);
       const double against = gapEvidence(points, joint, runs, a, b, most);
       if (against > most) continue;
-      s.set(i, j, memberships(a.fit, b.fit, joint, against, 0.0).similarity());
+      s.set(i, j, cut.similarity(memberships(a.fit, b.fit, joint, against, 0.0)));
     }
   }
   if (s.entries().empty()) return false;
@@ -180,7 +197,8 @@ bool mergeInterrupted(const ScanPoints& points, const RunFitter& fitter, double 
 
 }  // namespace
 
-bool mergeConsecutive(const ScanPoints& points, const RunFitter& fitter, double cut, Runs* runs) {
+bool mergeConsecutive(const ScanPoints& points, const RunFitter& fitter, const AlphaCut& cut,
+                      Runs* runs) {
   const int n = static_cast<int>(runs->size());
   int kept = 0;
   const auto keep = [&](int first, int last) {
@@ -195,7 +213,7 @@ bool mergeConsecutive(const ScanPoints& points, const RunFitter& fitter, double 
   // clustering.
   for (int first = 0, last = 1; first < n; first = last++) {
     while (last < n &&
-           similarityToNext(points, fitter, cut, (*runs)[last], &(*runs)[last - 1]) >= cut) {
+           similarityToNext(points, fitter, cut, (*runs)[last], &(*runs)[last - 1]) >= cut.value) {
       ++last;
     }
     if (last <= first + 2) {
@@ -214,13 +232,13 @@ bool mergeConsecutive(const ScanPoints& points, const RunFitter& fitter, double 
 }
 
 std::vector<std::vector<int>> groupInterrupted(const ScanPoints& points, const RunFitter& fitter,
-                                               double cut, const Runs& runs) {
+                                               const AlphaCut& cut, const Runs& runs) {
   std::vector<Interrupted> lines;
   lines.reserve(runs.size());
   for (std::size_t k = 0; k < runs.size(); ++k) {
     if (runs[k].is_line) lines.push_back({{static_cast<int>(k)}, runs[k]});
   }
-  while (mergeInterrupted(points, fitter, cut, runs, &lines)) {
+  while (!cut.without(Part::kInterrupted) && mergeInterrupted(points, fitter, cut, runs, &lines)) {
   }
   std::vector<std::vector<int>> groups;
   groups.reserve(lines.size());

@@ -7,19 +7,16 @@
 
 #include "cca_mrpt/mapping/map_similarity.hpp"
 #include "cca_mrpt/mapping/rank_order_clustering.hpp"
-#include "cca_mrpt/mapping/similarity.hpp"
 
 namespace cca {
 namespace {
 
 using Slot = Walls::Slot;
 
-constexpr double kLargestGap = 0.4;  // m, across which a wall is still the same to even odds
-constexpr double kNewLength = 0.1;   // m, two bins that no wall explains
-constexpr double kSteepest = 0.2;    // rad, deviation of orientation with which a wall is founded
-constexpr double kGates = 3.0;       // deviations within which a wall explains a return
-constexpr double kOffGate = 3.3;     // the same for a line: the 99.9 % quantile
-constexpr double kSameDirection = 0.8;
+constexpr double kReach = 0.4;      // m, beyond its ends a line is compared with what stands there
+constexpr double kNewLength = 0.1;  // m, two bins that no wall explains
+constexpr double kSteepest = 0.2;   // rad, deviation of orientation with which a wall is founded
+constexpr double kGates = 3.0;      // deviations within which a wall explains a return
 
 /// A new line and a wall that resemble each other.
 struct Resemblance {
@@ -28,45 +25,10 @@ struct Resemblance {
   double similarity;
 };
 
-double gapBetween(const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Wall& wall) {
-  const double first = wall.profile.first() * SupportProfile::kBinLength;
-  const double last = wall.profile.last() * SupportProfile::kBinLength;
-  return std::max({first - std::max(a.x(), b.x()), std::min(a.x(), b.x()) - last, 0.0});
-}
-
-bool grownTooLong(const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Wall& wall) {
-  const double first = wall.profile.first() * SupportProfile::kBinLength;
-  const double last = wall.profile.last() * SupportProfile::kBinLength;
-  const double grown = std::max({last, a.x(), b.x()}) - std::min({first, a.x(), b.x()});
-  return grown > kLongestWall && grown > last - first + SupportProfile::kBinLength;
-}
-
-double similarityOf(const NewLine& line, const Wall& wall, const MapNoise& noise) {
-  const double cosine = line.segment.direction().dot(wall.fittedDirection());
-  if ((wall.two_sided ? std::abs(cosine) : cosine) < kSameDirection) return 0.0;
-  const Eigen::Vector2d a = wall.toWall(line.segment.start), b = wall.toWall(line.segment.end);
-  const double off = 0.5 * (wall.offLine(a) + wall.offLine(b));
-  if (std::abs(off) > kOffGate * noise.lateralSigma()) return 0.0;
-  if (grownTooLong(a, b, wall)) return 0.0;
-  return mapMemberships(line.segment, wall.whole, gapBetween(a, b, wall) / kLargestGap, true)
-      .similarity();
-}
-
-double similarityOf(const NewLine& a, const NewLine& b) {
-  if (a.scan == b.scan) return 0.0;  // the extraction has parted them
-  const Eigen::Vector2d u = a.segment.direction();
-  if (u.dot(b.segment.direction()) < kSameDirection) return 0.0;
-  const double b0 = u.dot(b.segment.start - a.segment.start);
-  const double b1 = u.dot(b.segment.end - a.segment.start);
-  const double gap = std::max({std::min(b0, b1) - a.segment.length(), -std::max(b0, b1), 0.0});
-  if (gap > kLargestGap) return 0.0;
-  return mapMemberships(a.segment, b.segment, gap / kLargestGap, true).similarity();
-}
-
-double similarityOf(const Wall& a, const Wall& b) {
-  const bool same_facing =
-      a.two_sided || b.two_sided || a.fittedDirection().dot(b.fittedDirection()) > 0.0;
-  return mapMemberships(a.whole, b.whole, 0.0, same_facing).similarity();
+double similarityOf(const NewLine& a, const NewLine& b, const MapNoise& noise,
+                    const AlphaCut& cut) {
+  // The extraction has parted those of one scan.
+  return a.scan == b.scan ? 0.0 : cut.similarity(mapMemberships(a, b, noise));
 }
 
 /// Disjoint sets over the lines.
@@ -112,7 +74,6 @@ void found(NewLine& line, const MapNoise& noise, Walls& walls) {
   Wall& wall = walls[line.wall];
   wall.origin = line.segment.moments.mean;
   wall.direction = line.segment.direction();
-  wall.whole = line.segment;
 }
 
 /// One neighbourhood: its lines, the walls that they resemble, and how much.
@@ -128,13 +89,15 @@ class Neighbourhood {
 
   /// Walls first, then lines.
   Eigen::MatrixXd matrix(const std::vector<NewLine>& lines,
-                         const std::vector<Resemblance>& resemblances, const Walls& walls) const {
+                         const std::vector<Resemblance>& resemblances, const MapNoise& noise,
+                         const AlphaCut& cut, const Walls& walls) const {
     const int w = static_cast<int>(walls_.size()), n = w + static_cast<int>(members_.size());
     Eigen::MatrixXd s = Eigen::MatrixXd::Identity(n, n);
     const auto set = [&s](int i, int j, double value) { s(i, j) = s(j, i) = value; };
     for (int i = 0; i < w; ++i) {
       for (int j = i + 1; j < w; ++j) {
-        set(i, j, similarityOf(walls[walls_[at(i)]], walls[walls_[at(j)]]));
+        set(i, j,
+            cut.similarity(mapMemberships(walls[walls_[at(i)]], walls[walls_[at(j)]], noise)));
       }
     }
     for (const Resemblance& r : resemblances) {
@@ -146,7 +109,8 @@ class Neighbourhood {
     }
     for (int i = w; i < n; ++i) {
       for (int j = i + 1; j < n; ++j) {
-        double alike = similarityOf(lines[at(members_[at(i - w)])], lines[at(members_[at(j - w)])]);
+        double alike = similarityOf(lines[at(members_[at(i - w)])], lines[at(members_[at(j - w)])],
+                                    noise, cut);
         // A wall that both are alike speaks for what lies between them.
         for (int k = 0; k < w; ++k) alike = std::max(alike, std::min(s(i, k), s(j, k)));
         set(i, j, alike);
@@ -189,7 +153,7 @@ class Neighbourhood {
 };
 
 /// Rank Order Clustering of a neighbourhood.
-std::vector<int> groupsOf(const Eigen::MatrixXd& s, double cut) {
+std::vector<int> groupsOf(const Eigen::MatrixXd& s, const AlphaCut& cut) {
   SimilarityMatrix sim(static_cast<int>(s.rows()));
   for (int i = 0; i < s.rows(); ++i) {
     for (int j = i + 1; j < s.cols(); ++j) sim.set(i, j, s(i, j));
@@ -197,16 +161,16 @@ std::vector<int> groupsOf(const Eigen::MatrixXd& s, double cut) {
   return rankOrderGroups(sim, cut);
 }
 
-std::vector<Resemblance> resemblances(const std::vector<NewLine>& lines, double cut,
+std::vector<Resemblance> resemblances(const std::vector<NewLine>& lines, const AlphaCut& cut,
                                       const MapNoise& noise, const Walls& walls) {
   std::vector<Resemblance> all;
   std::vector<Slot> near;
   for (std::size_t i = 0; i < lines.size(); ++i) {
-    const Eigen::Vector2d reach = lines[i].segment.direction() * kLargestGap;
+    const Eigen::Vector2d reach = lines[i].segment.direction() * kReach;
     walls.near(lines[i].segment.start - reach, lines[i].segment.end + reach, near);
     for (const Slot slot : near) {
-      const double s = similarityOf(lines[i], walls[slot], noise);
-      if (s >= cut) all.push_back({static_cast<int>(i), slot, s});
+      const double s = cut.similarity(mapMemberships(lines[i], walls[slot], noise));
+      if (s >= cut.value) all.push_back({static_cast<int>(i), slot, s});
     }
   }
   return all;
@@ -229,7 +193,8 @@ bool assignAlone(NewLine& line, int index, const std::vector<Resemblance>& alike
 
 }  // namespace
 
-void clusterIntoMap(std::vector<NewLine>& lines, double cut, const MapNoise& noise, Walls& walls) {
+void clusterIntoMap(std::vector<NewLine>& lines, const AlphaCut& cut, const MapNoise& noise,
+                    Walls& walls) {
   const std::vector<Resemblance> alike = resemblances(lines, cut, noise, walls);
   Neighbourhoods sets(lines.size());
   for (std::size_t i = 0; i < alike.size(); ++i) {
@@ -242,7 +207,7 @@ void clusterIntoMap(std::vector<NewLine>& lines, double cut, const MapNoise& noi
     for (int j = i + 1; j < n; ++j) {
       const NewLine &a = lines[static_cast<std::size_t>(i)],
                     &b = lines[static_cast<std::size_t>(j)];
-      if (a.scan != b.scan && similarityOf(a, b) >= cut) sets.join(i, j);
+      if (similarityOf(a, b, noise, cut) >= cut.value) sets.join(i, j);
     }
   }
   std::vector<std::vector<int>> members(lines.size());
@@ -253,7 +218,7 @@ void clusterIntoMap(std::vector<NewLine>& lines, double cut, const MapNoise& noi
         assignAlone(lines[static_cast<std::size_t>(m[0])], m[0], alike, noise, walls))
       continue;
     const Neighbourhood neighbourhood(std::move(m), alike);
-    const Eigen::MatrixXd s = neighbourhood.matrix(lines, alike, walls);
+    const Eigen::MatrixXd s = neighbourhood.matrix(lines, alike, noise, cut, walls);
     const std::vector<int> group_of = groupsOf(s, cut);
     std::vector<std::vector<int>> groups(group_of.size());
     for (std::size_t i = 0; i < group_of.size(); ++i) {

@@ -2,6 +2,7 @@
 #include "cca_mrpt/mapping/map_similarity.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "cca_mrpt/mapping/cross.hpp"
 #include "cca_mrpt/mapping/gates.hpp"
@@ -9,37 +10,184 @@
 namespace cca {
 namespace {
 
-/// Squared distance of b's centroid from a's line, which is extended that far, over its variance.
-double offsetEvidence(const LineSegment& a, const Eigen::Vector2d& u, const LineSegment& b) {
-  const Eigen::Vector2d between = b.moments.mean - a.moments.mean;
-  const double along = u.dot(between), across = cross(u, between);
-  const double variance =
-      a.covariance(0, 0) + along * along * a.covariance(1, 1) + b.covariance(0, 0);
-  return variance > 0.0 ? across * across / variance : 0.0;
+/// m, across which a wall is still the same to even odds: of one look, and of many.
+constexpr double kGapOfLine = 0.4, kGapOfWall = 1.0;
+/// Gates of the distance of two faces side by side, in deviations of a return, and the least that
+/// they fall to [m]. On one side: each has its own pose error. Opposite: the line between them lies
+/// within two deviations of either.
+constexpr double kOneFront = 3.0 * M_SQRT2, kOneFrontLeast = 0.10;
+constexpr double kTwoFronts = 4.0, kTwoFrontsLeast = 0.06;
+/// Deviations of a return from the common line, as the mean over all that one of the two holds.
+constexpr double kFitGate = 3.3;
+/// Cosine beyond which lines are compared: the frame of one shows the other as d(t).
+constexpr double kComparable = 0.8;
+
+struct Extent {
+  double first, last;  // m, along a wall
+  double length() const { return last - first; }
+};
+
+Extent extentOf(const Wall& wall) {
+  return {wall.profile.first() * SupportProfile::kBinLength,
+          wall.profile.last() * SupportProfile::kBinLength};
 }
+
+Extent extentOf(const Wall& other, const Wall& frame) {
+  const Extent e = extentOf(other);
+  const double a = frame.toWall(other.toMap(e.first, 0.0)).x();
+  const double b = frame.toWall(other.toMap(e.last, 0.0)).x();
+  return {std::min(a, b), std::max(a, b)};
+}
+
+/// How far two extents reach into each other; negative where there is a gap.
+double overlapOf(const Extent& a, const Extent& b) {
+  return std::min(a.last, b.last) - std::max(a.first, b.first);
+}
+
+bool outgrown(const Extent& wall, const Extent& other) {
+  const double overlap = overlapOf(wall, other);
+  const double whole = wall.length() + other.length() - overlap;
+  return whole > kLongestWall && overlap + SupportProfile::kBinLength < other.length();
+}
+
+/// A line as the frame of a wall shows it, d = offset + slope (t - middle), and how well that is
+/// known: at the middle of what it stands on the two are uncorrelated.
+struct LateralLine {
+  double middle, offset, slope;            // m, m, rad
+  double offset_variance, slope_variance;  // m^2, rad^2
+
+  double at(double t) const { return offset + slope * (t - middle); }
+};
+
+/// @param variance  m^2, of one bin.
+LateralLine lateralLine(const BinSums& sums, double variance) {
+  const LateralFit fit = sums.fit();
+  const double middle = sums.t / sums.w, spread = sums.tt - sums.t * middle;
+  return {middle, fit.at(middle), fit.slope, variance / sums.w,
+          spread > variance ? variance / spread : 1.0};
+}
+
+LateralLine lateralLine(const LineSegment& line, const Wall& frame) {
+  const Eigen::Vector2d a = frame.toWall(line.start), b = frame.toWall(line.end);
+  const Eigen::Vector2d m = frame.toWall(line.moments.mean);
+  const double slope = (b.y() - a.y()) / (b.x() - a.x());
+  return {m.x(), a.y() + slope * (m.x() - a.x()), slope, line.covariance(0, 0),
+          line.covariance(1, 1)};
+}
+
+/// Chi-squares of the angle between two lines, and of their offset where it does not depend on it.
+struct Difference {
+  double angle, offset;
+};
+
+Difference difference(const LateralLine& a, const LateralLine& b) {
+  const double slopes = a.slope_variance + b.slope_variance;
+  const double t = (a.middle * a.slope_variance + b.middle * b.slope_variance) / slopes;
+  const double apart = b.middle - a.middle;
+  const double offsets = a.offset_variance + b.offset_variance +
+                         apart * apart * a.slope_variance * b.slope_variance / slopes;
+  const double angle = b.slope - a.slope, offset = b.at(t) - a.at(t);
+  return {angle * angle / slopes, offset * offset / offsets};
+}
+
+/// Mean squared distance [m^2] of what was added up from a line.
+double meanSquareOff(const BinSums& s, const LateralFit& line) {
+  const double o = line.offset, k = line.slope;
+  return (s.dd - 2.0 * (o * s.d + k * s.td) + 2.0 * o * k * s.t + k * k * s.tt) / s.w + o * o;
+}
+
+/// Whether the two hold hits beside each other. In the bin where one ends and the other goes on,
+/// both may.
+bool standSideBySide(const Wall& wall, const Wall& other) {
+  int common = 0;
+  for (int i = other.profile.first(); i < other.profile.last(); ++i) {
+    const SupportBin& bin = other.profile.bin(i);
+    if (bin.hits <= 0.0) continue;
+    if (wall.hitNear(other.toMap(bin.t / bin.hits, bin.d / bin.hits)) && ++common > 1) return true;
+  }
+  return false;
+}
+
+double square(double x) { return x * x; }
 
 }  // namespace
 
-Memberships mapMemberships(const LineSegment& a, const LineSegment& b, double gap,
-                           bool same_facing) {
-  const FittedLine line_a = fitLine(a.moments), line_b = fitLine(b.moments);
+Memberships mapMemberships(const NewLine& line, const Wall& wall, const MapNoise& noise) {
+  const double cosine = line.segment.direction().dot(wall.fittedDirection());
+  const BinSums& sums = wall.profile.sums();
+  if (std::abs(cosine) < kComparable || sums.w <= 0.0) return {};
+  const Eigen::Vector2d a = wall.toWall(line.segment.start), b = wall.toWall(line.segment.end);
+  const Extent seen{std::min(a.x(), b.x()), std::max(a.x(), b.x())}, known = extentOf(wall);
+  if (outgrown(known, seen)) return {};
+  const double sigma = noise.lateralSigma();
+  const LateralLine own = lateralLine(line.segment, wall);
+  const Difference apart = difference(lateralLine(sums, sigma * sigma), own);
+  const double off = own.offset - wall.fit.at(own.middle);
   Memberships mu;
-  const double sine = cross(line_a.direction, line_b.direction);
-  const double angle_variance = a.covariance(1, 1) + b.covariance(1, 1);
-  mu.orientation = angle_variance > 0.0 ? bell(sine * sine / angle_variance, kChiSquareGate1) : 1.0;
-  mu.offset =
-      bell(std::max(offsetEvidence(a, line_a.direction, b), offsetEvidence(b, line_b.direction, a)),
-           kChiSquareGate1);
-  mu.gap = bell(gap * gap, 1.0);
+  mu.orientation = bell(apart.angle, kChiSquareGate1);
+  mu.offset = bell(apart.offset, kChiSquareGate1);
+  mu.gap = bell(square(std::max(0.0, -overlapOf(known, seen))), square(kGapOfLine));
+  mu.fit = bell(square(off), square(kFitGate * sigma));
+  mu.overlap = cosine > 0.0 || wall.two_sided ? 1.0 : 0.0;
+  return mu;
+}
 
-  PointMoments joint = a.moments;
-  joint.add(b.moments);
-  const double growth =
-      fitLine(joint).residual_sum_sq - line_a.residual_sum_sq - line_b.residual_sum_sq;
-  const double variance =
-      0.5 * (a.covariance(0, 0) * a.moments.weight + b.covariance(0, 0) * b.moments.weight);
-  mu.fit = variance > 0.0 ? bell(std::max(0.0, growth) / variance, kChiSquareGate2) : 1.0;
-  mu.overlap = same_facing ? 1.0 : 0.0;
+Memberships mapMemberships(const NewLine& a, const NewLine& b, const MapNoise& noise) {
+  Wall frame;
+  frame.origin = a.segment.start;
+  frame.direction = a.segment.direction();
+  const double cosine = frame.direction.dot(b.segment.direction());
+  if (std::abs(cosine) < kComparable) return {};
+  const double b0 = frame.toWall(b.segment.start).x(), b1 = frame.toWall(b.segment.end).x();
+  const Extent of_a{0.0, a.segment.length()}, of_b{std::min(b0, b1), std::max(b0, b1)};
+  const LateralLine la = lateralLine(a.segment, frame), lb = lateralLine(b.segment, frame);
+  const Difference apart = difference(la, lb);
+  Memberships mu;
+  mu.orientation = bell(apart.angle, kChiSquareGate1);
+  mu.offset = bell(apart.offset, kChiSquareGate1);
+  mu.gap = bell(square(std::max(0.0, -overlapOf(of_a, of_b))), square(kGapOfLine));
+  mu.fit = bell(square(lb.offset - la.at(lb.middle)), square(kFitGate * noise.lateralSigma()));
+  mu.overlap = cosine > 0.0 ? 1.0 : 0.0;
+  return mu;
+}
+
+Memberships mapMemberships(const Wall& wall, const Wall& other, const MapNoise& noise) {
+  const double cosine = wall.fittedDirection().dot(other.fittedDirection());
+  if (std::abs(cosine) < kComparable) return {};
+  const Extent mine = extentOf(wall), theirs = extentOf(other, wall);
+  if (outgrown(mine, theirs)) return {};
+  const BinSums &a = wall.profile.sums(), b = sumsInFrameOf(wall, other);
+  if (a.w <= 0.0 || b.w <= 0.0) return {};
+  const double sigma = noise.lateralSigma(), variance = sigma * sigma;
+  Difference apart = difference(lateralLine(a, variance), lateralLine(b, variance));
+  const double overlap = overlapOf(mine, theirs);
+  const bool within = overlap > 0.5 * std::min(mine.length(), theirs.length());
+  const bool beside = within && standSideBySide(wall, other);
+  const double one = std::max(kOneFrontLeast, kOneFront * sigma);
+  const bool one_front = cosine > 0.0 || wall.two_sided || other.two_sided;
+  Memberships mu;
+  mu.overlap = one_front ? 1.0 : 0.0;
+  if (beside) {
+    // Parallels h apart let the residuals grow by h^2 w_a w_b / (w_a + w_b).
+    const double weight = a.w * b.w / (a.w + b.w);
+    const double faces = variance * (apart.angle + apart.offset) / weight;
+    const double two = std::max(kTwoFrontsLeast, kTwoFronts * sigma);
+    if (!one_front) mu.overlap = bell(faces, two * two);
+    // The error that parts them is common to all of their bins.
+    const double common = std::max(1.0, one * one * weight / (kChiSquareGate1 * variance));
+    apart.angle /= common;
+    apart.offset /= common;
+  }
+  // A stretch in another's gap, such as the niche of a door, has a bend at either end.
+  const double gate = (within && !beside ? 2.0 : 1.0) * kChiSquareGate1;
+  mu.orientation = bell(apart.angle, gate);
+  mu.offset = bell(apart.offset, gate);
+  mu.gap = bell(square(std::max(0.0, -overlap)), square(kGapOfWall));
+  BinSums joint = a;
+  joint.add(b);
+  const LateralFit line = joint.fit();
+  const double off = std::max(meanSquareOff(a, line), meanSquareOff(b, line));
+  mu.fit = bell(off, square(beside ? one : kFitGate * sigma));
   return mu;
 }
 

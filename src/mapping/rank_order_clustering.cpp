@@ -69,13 +69,14 @@ bool sortOnce(const Ones& ones, std::vector<int>* order, std::vector<int>* place
 
 }  // namespace
 
-std::vector<int> rankOrderGroups(const SimilarityMatrix& similarity, double cut) {
-  if (allAlike(similarity, cut)) return std::vector<int>(similarity.size(), 0);
-  const Ones ones = cutMatrix(similarity, cut);
+std::vector<int> rankOrderGroups(const SimilarityMatrix& similarity, const AlphaCut& cut) {
+  if (allAlike(similarity, cut.value)) return std::vector<int>(similarity.size(), 0);
+  const Ones ones = cutMatrix(similarity, cut.value);
   std::vector<int> order(static_cast<std::size_t>(similarity.size()));
   std::iota(order.begin(), order.end(), 0);
   std::vector<int> place = order, words(ones.column.size());
-  for (int sweep = 0; sweep < kMostRankOrderSweeps; ++sweep) {
+  const int sweeps = cut.without(Part::kRankOrder) ? 0 : kMostRankOrderSweeps;
+  for (int sweep = 0; sweep < sweeps; ++sweep) {
     if (!sortOnce(ones, &order, &place, &words)) break;
   }
   std::vector<int> group_of(order.size(), -1);
@@ -85,7 +86,8 @@ std::vector<int> rankOrderGroups(const SimilarityMatrix& similarity, double cut)
     for (int k = ones.begin[next]; k < ones.begin[next + 1]; ++k) {
       alike += group_of[ones.column[k]] == open ? 1 : 0;
     }
-    if (open < 0 || alike < members) {
+    const int enough = cut.without(Part::kCompleteLinkage) ? std::min(members, 1) : members;
+    if (open < 0 || alike < enough) {
       ++open;
       members = 0;
     }

@@ -39,6 +39,16 @@ double Memberships::similarity() const {
   return std::min({orientation, offset, gap, fit, overlap});
 }
 
+double AlphaCut::similarity(const Memberships& mu) const {
+  Memberships asked = mu;
+  if (without(Part::kOrientation)) asked.orientation = 1.0;
+  if (without(Part::kOffset)) asked.offset = 1.0;
+  if (without(Part::kGap)) asked.gap = 1.0;
+  if (without(Part::kFit)) asked.fit = 1.0;
+  if (without(Part::kOverlap)) asked.overlap = 1.0;
+  return asked.similarity();
+}
+
 double mostFitMembership(const FittedSegment& a, const FittedSegment& b,
                          double least_half_chi_square) {
   double evidence = least_half_chi_square, saved = -kLinePrice;

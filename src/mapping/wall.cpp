@@ -189,8 +189,6 @@ void refit(Wall& wall) {
 }
 
 void recut(Wall& wall, const MapNoise& noise, std::uint64_t& next_id) {
-  const BinRange all{wall.profile.first(), wall.profile.last()};
-  wall.whole = segmentOf(wall, {all, wall.profile.tally()}, noise);
   std::vector<MapLine> pieces;
   for (const Stretch& stretch : wall.profile.stretches()) {
     MapLine line;

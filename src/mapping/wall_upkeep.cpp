@@ -4,6 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cca_mrpt/mapping/map_similarity.hpp"
+#include "cca_mrpt/mapping/rank_order_clustering.hpp"
+
 namespace cca {
 namespace {
 
@@ -12,20 +15,11 @@ using Slot = Walls::Slot;
 /// nat, what a bend must save: one vertex, two coordinates of the longest wall at a bin's length,
 /// 2 ln(20 m / 5 cm).
 constexpr double kBendCost = 12.0;
-/// Share of it below which two walls are joined; less than 1, or cuts and joins would alternate.
-constexpr double kJoinShare = 0.6;
-constexpr double kLargestGap = 1.0;  // m, between two stretches of one wall
 /// Returns after which a wall is compared with its neighbours again, however many it has.
 constexpr double kMostBeforeCheck = 100.0;
-/// Gates of a lateral distance, in three deviations of a return, and the least that they fall to
-/// [m]: two walls with one front (each has its own pose error: sqrt 2), two fronts (the line
-/// between them lies within two deviations of either), a stretch side by side.
-constexpr double kSameFront = 1.42;
-constexpr double kSameFrontLeast = 0.10;
-constexpr double kTwoFronts = 1.33;
-constexpr double kTwoFrontsLeast = 0.06;
-constexpr double kStretch = 0.7;
-constexpr double kStretchLeast = 0.07;
+/// Two walls that are not one share out what lies side by side within so many deviations of a
+/// return, and at least within so much [m].
+constexpr double kStretch = 2.4, kStretchLeast = 0.08;
 constexpr double kSideBySide = 0.97;  // cosine
 constexpr double kReach = 0.2;  // m, how far a wall's hits lie off its extent in another frame
 
@@ -46,45 +40,6 @@ Extent extentOf(const Wall& other, const Wall& frame) {
   return {std::min(a, b), std::max(a, b)};
 }
 
-/// Whether the two hold hits beside each other. In the bin where one ends and the other goes on,
-/// both may.
-bool standSideBySide(const Wall& wall, const Wall& other) {
-  int common = 0;
-  for (int i = other.profile.first(); i < other.profile.last(); ++i) {
-    const SupportBin& bin = other.profile.bin(i);
-    if (bin.hits <= 0.0) continue;
-    if (wall.hitNear(other.toMap(bin.t / bin.hits, bin.d / bin.hits)) && ++common > 1) return true;
-  }
-  return false;
-}
-
-bool oneWall(const Wall& wall, const Wall& other, const MapNoise& noise) {
-  const double cosine = wall.fittedDirection().dot(other.fittedDirection());
-  if (std::abs(cosine) < 0.9) return false;
-  const Extent mine = extentOf(wall), theirs = extentOf(other, wall);
-  const double overlap = std::min(mine.last, theirs.last) - std::max(mine.first, theirs.first);
-  const double whole = mine.length() + theirs.length() - overlap;
-  if (-overlap > kLargestGap || (whole > kLongestWall && overlap < theirs.length())) return false;
-  const BinSums &a = wall.profile.sums(), b = sumsInFrameOf(wall, other);
-  if (a.w <= 0.0 || b.w <= 0.0) return false;
-  const bool same_side = cosine > 0.0 || wall.two_sided || other.two_sided;
-  const double sigma = noise.lateralSigma();
-  BinSums joint = a;
-  joint.add(b);
-  const double loss = std::max(0.0, joint.residual() - a.residual() - b.residual());
-  const bool beside = overlap > 0.5 * std::min(mine.length(), theirs.length());
-  if (beside && standSideBySide(wall, other)) {
-    // Of two faces with one front only one can be seen; of two with opposite fronts both can, where
-    // they lie far enough apart to be told apart. Parallels h apart lose h^2 w_a w_b / (w_a + w_b).
-    const double gate = same_side ? std::max(kSameFrontLeast, 3.0 * sigma * kSameFront)
-                                  : std::max(kTwoFrontsLeast, 3.0 * sigma * kTwoFronts);
-    return loss * joint.w < gate * gate * a.w * b.w;
-  }
-  // A stretch in another's gap, such as the niche of a door, has a bend at either end.
-  const double bends = beside ? 2.0 : 1.0;
-  return same_side && loss < 2.0 * sigma * sigma * kJoinShare * bends * kBendCost;
-}
-
 /// Where two walls that are not one run side by side all the same, the longer one takes it all.
 void shareOverlap(Slot a, Slot b, Walls& walls, const MapNoise& noise) {
   const double cosine = walls[a].fittedDirection().dot(walls[b].fittedDirection());
@@ -93,33 +48,70 @@ void shareOverlap(Slot a, Slot b, Walls& walls, const MapNoise& noise) {
   const Slot lesser = a_lesser ? a : b, greater = a_lesser ? b : a;
   const Extent mine = extentOf(walls[greater]), theirs = extentOf(walls[lesser], walls[greater]);
   if (mine.last < theirs.first - kReach || theirs.last < mine.first - kReach) return;
-  const double gate = std::max(kStretchLeast, 3.0 * noise.lateralSigma() * kStretch);
+  const double gate = std::max(kStretchLeast, kStretch * noise.lateralSigma());
   if (!yieldOverlap(walls[lesser], walls[greater], gate)) return;
   walls.touch(lesser);
   walls.touch(greater);
 }
 
-void mergeWithNeighbours(Slot slot, Walls& walls, const MapNoise& noise) {
-  const Extent extent = extentOf(walls[slot]);
-  std::vector<Slot> near;
-  walls.near(walls[slot].onLine(extent.first - 0.5), walls[slot].onLine(extent.last + 0.5), near);
-  for (const Slot other_slot : near) {
-    Wall& wall = walls[slot];
-    Wall& other = walls[other_slot];
-    if (other_slot == slot || other.profile.empty()) continue;
-    if (!oneWall(wall, other, noise)) {
-      shareOverlap(slot, other_slot, walls, noise);
-      if (walls[slot].profile.sums().w <= 0.0) return;
-      continue;
+/// Walls of the map are clustered as lines of a scan are: those near a wall that are alike, it and
+/// each other, make a group. @return  that of `slot`, without it.
+std::vector<Slot> groupOf(Slot slot, const std::vector<Slot>& near, const Walls& walls,
+                          const MapNoise& noise, const AlphaCut& cut) {
+  if (cut.without(Part::kWallsToWalls)) return {};
+  std::vector<Slot> members{slot};
+  std::vector<double> to_slot{1.0};
+  for (const Slot other : near) {
+    if (other == slot || walls[other].profile.empty()) continue;
+    const double s = cut.similarity(mapMemberships(walls[slot], walls[other], noise));
+    if (s < cut.value) continue;
+    members.push_back(other);
+    to_slot.push_back(s);
+  }
+  const int n = static_cast<int>(members.size());
+  SimilarityMatrix sim(n);
+  for (int i = 1; i < n; ++i) {
+    sim.set(0, i, to_slot[static_cast<std::size_t>(i)]);
+    for (int j = i + 1; j < n; ++j) {
+      const Wall &a = walls[members[static_cast<std::size_t>(i)]],
+                 &b = walls[members[static_cast<std::size_t>(j)]];
+      sim.set(i, j, cut.similarity(mapMemberships(a, b, noise)));
     }
-    const bool opposed = wall.fittedDirection().dot(other.fittedDirection()) < 0.0;
-    wall.two_sided = wall.two_sided || other.two_sided || opposed;
-    absorb(wall, other);
-    wall.hits += other.hits;
-    wall.visits = std::max(wall.visits, other.visits);
-    wall.pieces.insert(wall.pieces.end(), other.pieces.begin(), other.pieces.end());
-    refit(wall);
-    walls.remove(other_slot);
+  }
+  const std::vector<int> group_of = rankOrderGroups(sim, cut);
+  std::vector<Slot> group;
+  for (std::size_t i = 1; i < members.size(); ++i) {
+    if (group_of[i] == group_of[0]) group.push_back(members[i]);
+  }
+  return group;
+}
+
+void merge(Slot slot, Slot other_slot, Walls& walls) {
+  Wall &wall = walls[slot], &other = walls[other_slot];
+  const bool opposed = wall.fittedDirection().dot(other.fittedDirection()) < 0.0;
+  wall.two_sided = wall.two_sided || other.two_sided || opposed;
+  absorb(wall, other);
+  wall.hits += other.hits;
+  wall.visits = std::max(wall.visits, other.visits);
+  wall.pieces.insert(wall.pieces.end(), other.pieces.begin(), other.pieces.end());
+  walls.remove(other_slot);
+}
+
+/// Merges the wall with its group, and again, until it is alone.
+void mergeWithNeighbours(Slot slot, Walls& walls, const MapNoise& noise, const AlphaCut& cut) {
+  std::vector<Slot> near, group;
+  do {
+    const Extent extent = extentOf(walls[slot]);
+    walls.near(walls[slot].onLine(extent.first - 0.5), walls[slot].onLine(extent.last + 0.5), near);
+    group = groupOf(slot, near, walls, noise, cut);
+    for (const Slot other : group) merge(slot, other, walls);
+    if (!group.empty()) refit(walls[slot]);
+  } while (!group.empty());
+  if (cut.without(Part::kYielding)) return;
+  for (const Slot other : near) {
+    if (other == slot || walls[other].profile.empty()) continue;
+    shareOverlap(slot, other, walls, noise);
+    if (walls[slot].profile.sums().w <= 0.0) return;
   }
 }
 
@@ -169,11 +161,12 @@ bool changedMuch(const Wall& wall) {
 
 }  // namespace
 
-void seeToTouched(Walls& walls, const MapNoise& noise, std::uint64_t& next_id) {
+void seeToTouched(Walls& walls, const MapNoise& noise, const AlphaCut& cut,
+                  std::uint64_t& next_id) {
   std::vector<Slot>& touched = walls.touched();
   // What is cut off from a wall may be shared out so that the wall is bent again, and so on for
   // ever: there are no more cuts than walls that the scan has touched.
-  std::size_t cuts_left = touched.size();
+  std::size_t cuts_left = cut.without(Part::kBends) ? 0 : touched.size();
   for (std::size_t i = 0; i < touched.size(); ++i) {
     const Slot slot = touched[i];
     walls[slot].touched = false;
@@ -186,7 +179,7 @@ void seeToTouched(Walls& walls, const MapNoise& noise, std::uint64_t& next_id) {
     const bool changed = changedMuch(walls[slot]);
     if (cuts_left > 0 && splitWhereBent(slot, walls, noise)) --cuts_left;
     if (changed) {
-      mergeWithNeighbours(slot, walls, noise);
+      mergeWithNeighbours(slot, walls, noise, cut);
       if (!walls.prune(slot)) {
         walls.remove(slot);
         continue;

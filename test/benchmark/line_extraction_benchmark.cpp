@@ -6,7 +6,6 @@
 #include "cca_mrpt/mapping/k_means.hpp"
 #include "cca_mrpt/mapping/line_extraction.hpp"
 #include "cca_mrpt/mapping/point_clusters.hpp"
-#include "cca_mrpt/mapping/point_set.hpp"
 #include "cca_mrpt/mapping/poly_lines.hpp"
 #include "cca_mrpt/mapping/rank_order_clustering.hpp"
 #include "polygon_room.hpp"
@@ -137,13 +136,6 @@ void ExtractLinesAgainstWalls(benchmark::State& state) {
   state.SetComplexityN(state.range(0));
 }
 
-void ExtractLinesOfPoints(benchmark::State& state) {
-  std::vector<SpatialPoint> points;
-  appendPoints(scanWith(beamsOf(state), kWalls), {}, &points);
-  for (auto _ : state) benchmark::DoNotOptimize(extractLines(points));
-  state.SetComplexityN(state.range(0));
-}
-
 /// The two sorts alone, on the similarities of n segments in walls of eight.
 void RankOrderClustering(benchmark::State& state) {
   const int n = static_cast<int>(state.range(0));
@@ -166,11 +158,6 @@ AGAINST_BEAMS(RefineCorners);
 AGAINST_BEAMS(GroupInterrupted);
 AGAINST_BEAMS(PolyLines);
 AGAINST_BEAMS(ExtractLinesOfScan);
-BENCHMARK(ExtractLinesOfPoints)
-    ->RangeMultiplier(2)
-    ->Range(90, 2880)
-    ->Unit(benchmark::kMicrosecond)
-    ->Complexity();
 BENCHMARK(ExtractLinesAgainstWalls)
     ->RangeMultiplier(2)
     ->Range(4, 128)

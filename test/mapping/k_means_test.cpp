@@ -5,7 +5,6 @@
 
 #include <random>
 
-#include "cca_mrpt/mapping/point_clusters.hpp"
 #include "polygon_room.hpp"
 
 namespace cca {
@@ -78,20 +77,6 @@ TEST(KMeansInOrder, EqualsFullLloydWhereDepthAlternatesFromBeamToBeam) {
               fullLloyd(points.positions, evenSeeds(points.positions, k), 20));
   }
 }
-
-TEST(KMeans, EqualsFullLloydInThePlane) {
-  std::mt19937 random(9);
-  std::uniform_real_distribution<double> coordinate(-5.0, 5.0);
-  Points points;
-  for (int i = 0; i < 300; ++i) points.emplace_back(coordinate(random), coordinate(random));
-  for (int i = 0; i < 50; ++i) points.emplace_back(1.0, 0.1 * (i % 10));  // ties
-  for (const int k : {1, 2, 30, 100}) {
-    const Points seeds = evenSeeds(points, k);
-    EXPECT_EQ(kMeans(points, seeds, 20), fullLloyd(points, seeds, 20));
-  }
-}
-
-TEST(KMeans, OfNothingIsNothing) { EXPECT_TRUE(kMeans({}, {}, 5).empty()); }
 
 }  // namespace
 }  // namespace cca

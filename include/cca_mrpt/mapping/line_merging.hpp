@@ -5,6 +5,7 @@
 
 #include "cca_mrpt/mapping/description_length.hpp"
 #include "cca_mrpt/mapping/scan.hpp"
+#include "cca_mrpt/mapping/similarity.hpp"
 
 namespace cca {
 
@@ -12,10 +13,10 @@ namespace cca {
 using Runs = std::vector<FittedRun>;
 
 /// One round of SIM, ROC and merging among runs that follow one another.
-/// @param cut  alpha-cut of the similarity, (0, 1].
 /// @return     true where something merged.
 /// Cost: O(n) memberships, n = runs.
-bool mergeConsecutive(const ScanPoints& points, const RunFitter& fitter, double cut, Runs* runs);
+bool mergeConsecutive(const ScanPoints& points, const RunFitter& fitter, const AlphaCut& cut,
+                      Runs* runs);
 
 /// SIM and ROC among all lines: joins the pieces of walls that something hides in part.
 ///
@@ -23,6 +24,6 @@ bool mergeConsecutive(const ScanPoints& points, const RunFitter& fitter, double 
 /// @return      groups of indices into runs, each rising; ordered by their first.
 /// Cost: O(n^2) fits, n = lines, and the rays between those that fit.
 std::vector<std::vector<int>> groupInterrupted(const ScanPoints& points, const RunFitter& fitter,
-                                               double cut, const Runs& runs);
+                                               const AlphaCut& cut, const Runs& runs);
 
 }  // namespace cca

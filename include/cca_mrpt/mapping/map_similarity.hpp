@@ -1,22 +1,51 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "cca_mrpt/mapping/line_segment.hpp"
+#include <Eigen/Core>
+#include <cstddef>
+
+#include "cca_mrpt/mapping/map_noise.hpp"
 #include "cca_mrpt/mapping/similarity.hpp"
+#include "cca_mrpt/mapping/wall.hpp"
+#include "cca_mrpt/mapping/wall_index.hpp"
 
 namespace cca {
 
-/// The five memberships of two lines of the map frame, whose covariances hold the pose error.
-///
-/// As within a scan, each is a bell that stands at 1/2 at its gate; but there the evidence is
-/// weighed in points, which share one pose, and here in lines, which do not. mu_1, mu_2 and mu_4
-/// have their gates at the 99.9 % quantile of what noise and pose error alone would give; mu_5 does
-/// not ask whether the two lie side by side, for a second look at a wall does: it asks whether they
-/// show their faces to the same side.
-///
-/// @param gap         >= 0, stretch between the two over the longest that is closed.
-/// @param same_facing whether both can be the same face.
-Memberships mapMemberships(const LineSegment& a, const LineSegment& b, double gap,
-                           bool same_facing);
+/// A line of a new scan, in the map frame, its sensor on the left.
+struct NewLine {
+  LineSegment segment;                                  ///< the covariance holds the pose error too
+  Eigen::Vector2d viewpoint = Eigen::Vector2d::Zero();  ///< m, map frame
+  std::size_t scan = 0;                                 ///< in its batch
+  double own_offset_variance = 0.0;                     ///< m^2, range noise alone
+  double own_angle_variance = 0.0;                      ///< rad^2
+  WallIndex::Slot wall = -1;                            ///< where it belongs; -1 nowhere
+};
+
+// The five memberships of what the map knows and learns. Each is a bell() that stands at 1/2 at its
+// gate, and each prevents a mistake that no other sees:
+//
+//   orientation  a wall and what leaves it at an angle, however near its end
+//   offset       a wall and its parallel: a niche, a step, the next face on the same side
+//   gap          two walls of one line, a room or a door apart
+//   fit          what lies on the line that a short line promises, but off what both have shown
+//   overlap      the two faces of a thin wall, which lie side by side and look opposite ways
+//
+// The growth of the residuals by a common line parts exactly into one share of the angle and one of
+// the offset at the place where the two are uncorrelated: these are the first two, in units of
+// their variances. Gates are 99.9 % quantiles.
+
+/// A new line and a wall. From one look nobody can tell whether a face that looks the other way is
+/// that of a thin wall: overlap is 0 there, unless the wall is known to be two-sided.
+/// @return  all 0 where the wall would outgrow kLongestWall.
+Memberships mapMemberships(const NewLine& line, const Wall& wall, const MapNoise& noise);
+
+/// Two new lines, of different scans.
+Memberships mapMemberships(const NewLine& a, const NewLine& b, const MapNoise& noise);
+
+/// Two walls. What they hold has been seen often, each time at its own pose error: bins are
+/// independent, but of two fronts side by side only one can be seen, whatever part them.
+/// @return  all 0 where one wall would be longer than kLongestWall.
+/// Cost: O(1), and O(bins) where the two lie side by side.
+Memberships mapMemberships(const Wall& a, const Wall& b, const MapNoise& noise);
 
 }  // namespace cca

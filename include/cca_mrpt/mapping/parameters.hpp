@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include "cca_mrpt/mapping/ablation.hpp"
+
 namespace cca {
 
 /// The three input parameters of the Consecutive Clustering Algorithm; all else is tuned from the
@@ -9,6 +11,7 @@ struct CcaParameters {
   int points_per_cluster = 8;
   double similarity_cut = 0.5;
   int scans_per_batch = 1;
+  Ablation without;  ///< for studies of what the parts are worth; no parameter
 };
 
 /// Calls field(name, value, lowest, highest, unit, meaning) for each parameter: the one description

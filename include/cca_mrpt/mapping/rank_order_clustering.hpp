@@ -23,9 +23,8 @@ inline constexpr int kMostRankOrderSweeps = 10;
 /// neighbourhood a sweep, up to n sweeps, long after the groups stand: it stops at
 /// kMostRankOrderSweeps. Groups keep complete linkage in any order, and merging is repeated.
 ///
-/// @param cut  alpha-cut in (0, 1].
 /// @return     the group of each segment; groups are numbered from 0 on, in ROC order.
 /// Cost: O(m log n) a sweep for m likenesses.
-std::vector<int> rankOrderGroups(const SimilarityMatrix& similarity, double cut);
+std::vector<int> rankOrderGroups(const SimilarityMatrix& similarity, const AlphaCut& cut);
 
 }  // namespace cca

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "cca_mrpt/mapping/ablation.hpp"
 #include "cca_mrpt/mapping/description_length.hpp"
 
 namespace cca {
@@ -32,6 +33,15 @@ struct Memberships {
 
   /// The t-norm of the five, min.
   double similarity() const;
+};
+
+/// When two are one: where the least of their memberships reaches a cut.
+struct AlphaCut {
+  double value;      ///< (0, 1]
+  Ablation without;  ///< memberships left out count as 1
+
+  AlphaCut(double cut, Ablation left_out = {}) : value(cut), without(left_out) {}
+  double similarity(const Memberships& mu) const;
 };
 
 /// mu_4 alone: the cheapest, and the first to fail.

@@ -28,7 +28,6 @@ struct Wall {
   SupportProfile profile;
   LateralFit fit;
   double visits = 0.0;          ///< new lines that it took in, bounded
-  LineSegment whole;            ///< from first to last bin, for comparisons; map frame
   std::vector<MapLine> pieces;  ///< its occupied stretches
 
   std::vector<WallIndex::Cell> cells;  ///< where the index names this wall
@@ -73,7 +72,7 @@ bool yieldOverlap(Wall& lesser, Wall& greater, double gate);
 BinSums sumsInFrameOf(const Wall& wall, const Wall& other);
 /// Fits the line, and moves the frame onto it where the two have drifted apart.
 void refit(Wall& wall);
-/// Renews `whole` and `pieces`; a piece keeps the id of the old piece that it covers most, others
+/// Renews `pieces`; a piece keeps the id of the old piece that it covers most, others
 /// take new ones.
 void recut(Wall& wall, const MapNoise& noise, std::uint64_t& next_id);
 

@@ -4,6 +4,7 @@
 #include <cstdint>
 
 #include "cca_mrpt/mapping/map_noise.hpp"
+#include "cca_mrpt/mapping/similarity.hpp"
 #include "cca_mrpt/mapping/walls.hpp"
 
 namespace cca {
@@ -13,6 +14,6 @@ namespace cca {
 ///
 /// Both the cut and the join weigh description lengths: a line costs four coordinates, a bin off
 /// its line costs half its squared deviation against the noise of a single scan.
-void seeToTouched(Walls& walls, const MapNoise& noise, std::uint64_t& next_id);
+void seeToTouched(Walls& walls, const MapNoise& noise, const AlphaCut& cut, std::uint64_t& next_id);
 
 }  // namespace cca
