@@ -2,6 +2,7 @@
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
+#include <fstream>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
@@ -28,6 +29,15 @@ nlohmann::ordered_json toJson(const LogScore& score) {
     }
   }
   return json;
+}
+
+/// Lines of single scans stand in the frames of their sensors, and are no map.
+void refuseExtracted(const std::string& path) {
+  std::ifstream file(path);
+  std::string header;
+  std::getline(file, header);
+  if (header.rfind("scan_id,", 0) != 0) return;
+  throw std::runtime_error(path + ": holds the lines of single scans ('extract'), not of a map");
 }
 
 LogScore evaluateLog(const std::string& log, const std::vector<Segment2>& map) {
@@ -63,6 +73,7 @@ void addEvaluateCommand(CLI::App& program) {
   against->require_option(1);
   command->add_option("--out", options->out, "JSON file to write; default: standard output");
   command->callback([options] {
+    refuseExtracted(options->map);
     const auto map = evidence::loadSegments(options->map);
     const LogScore score =
         options->log.empty() ? evaluateWorld(options->world, map) : evaluateLog(options->log, map);

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "exploration_record.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 
-#include "cca_mrpt/evidence/statistics.hpp"
 #include "cca_mrpt/io/atomic_file.hpp"
+#include "cca_mrpt/io/local_frame.hpp"
 
 namespace cca::apps {
 
@@ -14,6 +15,13 @@ namespace {
 constexpr double kEveryDistance = 0.1, kEveryTurn = 0.25;  // m, rad, between kept scans
 
 double rounded(double value, double per_unit) { return std::round(value * per_unit) / per_unit; }
+
+double quantile(std::vector<double> values, double share) {
+  if (values.empty()) return 0.0;
+  const auto at = std::lround(share * static_cast<double>(values.size() - 1));
+  std::nth_element(values.begin(), values.begin() + at, values.end());
+  return values[static_cast<std::size_t>(at)];
+}
 
 }  // namespace
 
@@ -26,9 +34,13 @@ bool keepIfMoved(std::optional<Pose2>& last, const Pose2& now) {
   return true;
 }
 
-ExplorationRecord::ExplorationRecord(const Simulation& simulation, const std::string& folder)
+ExplorationRecord::ExplorationRecord(const Simulation& simulation, const Eigen::Vector2d& origin,
+                                     const Parameters& parameters, const std::string& folder)
     : folder_(folder),
+      parameters_(parameters),
+      origin_(origin),
       rawlog_(folder + "/run.rawlog", simulation.parameters().laser.range),
+      grid_(simulation.T_map_robot().position()),
       coverage_(simulation.world(), simulation.T_map_robot().position(),
                 simulation.parameters().robot.radius, simulation.parameters().laser.range) {}
 
@@ -39,7 +51,8 @@ void ExplorationRecord::add(const Cycle& cycle) {
   if (cycle.goal && (!goal_ || *goal_ != *cycle.goal)) ++goals_;
   goal_ = cycle.goal;
   const auto& [scan, T_map_robot, velocity, time] = cycle.believed;
-  rawlog_.insert(scan, T_map_robot.inverse() * scan.T_map_sensor, cycle.T_odom_robot, time);
+  rawlog_.insert(scan, T_map_robot.inverse() * scan.T_map_sensor,
+                 seenFrom(-origin_, cycle.T_odom_robot), time);
   if (keepIfMoved(last_insertion_, T_map_robot)) {
     grid_.insert(scan);
     believed_way_.push_back(T_map_robot);
@@ -54,7 +67,8 @@ void ExplorationRecord::look(const Pose2& T_map_robot, double time, double dista
 
 void ExplorationRecord::writeTrajectory(const Simulation& simulation) const {
   std::string text = "t,x,y,theta\n";
-  for (const auto& [time, T_map_robot] : simulation.trajectory()) {
+  for (const auto& [time, T_local_robot] : simulation.trajectory()) {
+    const Pose2 T_map_robot = seenFrom(-origin_, T_local_robot);
     char line[120];
     std::snprintf(line, sizeof line, "%.4f,%.6f,%.6f,%.6f\n", time, T_map_robot.x, T_map_robot.y,
                   T_map_robot.theta);
@@ -66,30 +80,37 @@ void ExplorationRecord::writeTrajectory(const Simulation& simulation) const {
 void ExplorationRecord::writeCoverage() {
   const std::vector<double> curve = coverage_.curve();
   std::string text = "t,distance,coverage\n";
-  for (std::size_t i = 0; i < curve.size(); ++i) {
+  for (std::size_t i = 0; i < looks_.size(); ++i) {
     char line[120];
-    std::snprintf(line, sizeof line, "%.3f,%.4f,%.6f\n", looks_[i].time, looks_[i].distance,
-                  curve[i]);
+    std::snprintf(line, sizeof line, "%.3f,%.4f,", looks_[i].time, looks_[i].distance);
     text += line;
+    std::snprintf(line, sizeof line, "%.6f", curve.empty() ? 0.0 : curve[i]);
+    text += (curve.empty() ? "" : line) + std::string("\n");
   }
   writeFile(folder_ + "/coverage.csv", text);
 }
 
 nlohmann::ordered_json ExplorationRecord::summary(const Simulation& simulation, const End& end) {
   nlohmann::ordered_json summary;
+  summary["program"] = "cca-mrpt " CCA_VERSION;
   summary["world"] = simulation.world().name;
   summary["finished"] = end.finished;
   summary["reason"] = end.reason;
   summary["distance_m"] = rounded(simulation.distance(), 1e4);
   summary["duration_s"] = rounded(simulation.time(), 1e4);
   summary["wall_s"] = rounded(end.wall_s, 1e3);
-  summary["coverage"] = rounded(coverage_.sofar().value_or(0.0), 1e6);
+  const auto seen = coverage_.sofar();
+  summary["coverage"] = seen ? nlohmann::json(rounded(*seen, 1e6)) : nullptr;  // nobody waited
   summary["goals"] = goals_;
   summary["collisions"] = simulation.collisions();
   summary["mover_contacts"] = simulation.moverContacts();
   summary["scans"] = scans();
-  summary["scan_us_median"] = rounded(evidence::quantile(work_us_, 0.5), 10.0);
-  summary["scan_us_p99"] = rounded(evidence::quantile(work_us_, 0.99), 10.0);
+  summary["scan_us_median"] = rounded(quantile(work_us_, 0.5), 10.0);
+  summary["scan_us_p99"] = rounded(quantile(work_us_, 0.99), 10.0);
+  const Pose2 start = seenFrom(-origin_, simulation.trajectory().front().T_map_robot);
+  summary["start"] = {{"x_m", start.x}, {"y_m", start.y}, {"yaw_deg", start.theta * 180.0 / M_PI}};
+  summary["parameters"] = parametersJson(
+      parameters_, {"run", "exploration", "robot", "laser", "odometry", "mapping", "icp"});
   return summary;
 }
 
@@ -101,6 +122,7 @@ MapProducts ExplorationRecord::products(const Simulation& simulation,
   products.poly_lines = explorer.lineMap().polyLines();
   products.trajectory = believed_way_;
   products.grid = grid_.grid();
+  products.origin = origin_;
   return products;
 }
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "cca_mrpt/io/map_products.hpp"
+#include "cca_mrpt/io/parameters.hpp"
 #include "cca_mrpt/io/rawlog_writer.hpp"
 #include "cca_mrpt/io/scan_grid.hpp"
 #include "cca_mrpt/navigation/explorer.hpp"
@@ -28,8 +29,11 @@ class ExplorationRecord {
     double wall_s = 0.0;
   };
 
+  /// @param parameters  as they are told in summary.json.
+  /// @param origin  m, map frame: where the simulation's frame lies; files are in the map frame.
   /// @throws std::runtime_error where the folder cannot be written to.
-  ExplorationRecord(const Simulation& simulation, const std::string& folder);
+  ExplorationRecord(const Simulation& simulation, const Eigen::Vector2d& origin,
+                    const Parameters& parameters, const std::string& folder);
 
   /// One cycle: what was, and what the robot made of it.
   struct Cycle {
@@ -46,6 +50,7 @@ class ExplorationRecord {
 
   long scans() const { return scans_; }
   int goals() const { return goals_; }
+  const Eigen::Vector2d& origin() const { return origin_; }
   Coverage& coverage() { return coverage_; }
   /// What the map's files are made from, as it stands.
   MapProducts products(const Simulation& simulation, const Explorer& explorer) const;
@@ -60,6 +65,8 @@ class ExplorationRecord {
   nlohmann::ordered_json summary(const Simulation& simulation, const End& end);
 
   std::string folder_;
+  Parameters parameters_;
+  Eigen::Vector2d origin_;
   RawlogWriter rawlog_;
   ScanGrid grid_;
   Coverage coverage_;

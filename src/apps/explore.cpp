@@ -7,12 +7,14 @@
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "background_work.hpp"
 #include "cca_mrpt/io/atomic_file.hpp"
 #include "cca_mrpt/io/icp_localizer.hpp"
 #include "cca_mrpt/io/late_library.hpp"
+#include "cca_mrpt/io/local_frame.hpp"
 #include "cca_mrpt/io/map_products.hpp"
 #include "cca_mrpt/navigation/explorer.hpp"
 #include "cca_mrpt/simulation/simulation.hpp"
@@ -22,7 +24,9 @@
 #include "interruption.hpp"
 #include "parameter_options.hpp"
 #include "progress.hpp"
+#include "tour_left.hpp"
 #include "within.hpp"
+#include "world_name.hpp"
 
 namespace cca::apps {
 
@@ -30,6 +34,8 @@ namespace {
 
 namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
+
+constexpr double kSmallestView = 60.0, kWidestSpacing = 5.0;  // deg
 
 struct ExploreOptions {
   std::string world, movers, out;
@@ -41,8 +47,14 @@ double secondsSince(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-Simulation makeSimulation(const ExploreOptions& options, const Parameters& parameters) {
-  World world = loadWorld(options.world);
+/// A simulated robot, and where its frame lies.
+struct Scene {
+  Simulation simulation;
+  Eigen::Vector2d origin;  ///< m, map frame; see localOrigin()
+};
+
+Scene makeScene(const ExploreOptions& options, const Parameters& parameters) {
+  World world = loadWorld(findWorld(options.world));
   for (const auto& key : world.unknown_keys) {
     std::fprintf(stderr, "cca-mrpt: %s: %s: is no known key and has no effect\n",
                  options.world.c_str(), key.c_str());
@@ -51,6 +63,7 @@ Simulation makeSimulation(const ExploreOptions& options, const Parameters& param
   const Pose2 T_map_start = start.empty()
                                 ? defaultStart(world, parameters.robot.radius)
                                 : Pose2{start[0], start[1], wrapAngle(start[2] * M_PI / 180.0)};
+  requireStandable(world, T_map_start, parameters.robot.radius);
   SimulationParameters simulated;
   simulated.robot = parameters.robot;
   simulated.laser = parameters.laser;
@@ -58,7 +71,13 @@ Simulation makeSimulation(const ExploreOptions& options, const Parameters& param
   simulated.seed = static_cast<std::uint64_t>(parameters.run.seed);
   std::vector<Mover> movers;
   if (!options.movers.empty()) movers = loadMovers(options.movers, world);
-  return Simulation(std::move(world), T_map_start, simulated, movers);
+  const Eigen::Vector2d origin = localOrigin(T_map_start.position());
+  world.seeFrom(origin);
+  for (Mover& mover : movers) {
+    mover.body.T_map_body = seenFrom(origin, mover.body.T_map_body);
+    for (auto& way_point : mover.way_points) way_point -= origin;
+  }
+  return {Simulation(std::move(world), seenFrom(origin, T_map_start), simulated, movers), origin};
 }
 
 /// The folder that was asked for, else a fresh one: out/WORLD-001, -002, ...
@@ -95,24 +114,42 @@ class Belief {
   std::optional<IcpLocalizer> icp_;
 };
 
-void showProgress(Progress& progress, const Simulation& simulation, ExplorationRecord& record,
-                  const Action& action, Clock::time_point begin) {
-  char detail[120], goal[40] = "none";
+/// "91.3 % seen, ", or nothing where it is not known.
+std::string share(const std::optional<double>& seen) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.1f %% seen, ", 100.0 * seen.value_or(0.0));
+  return seen ? text : "";
+}
+
+/// How far the robot still has to go, as far as it knows: to each frontier.
+double metresLeft(const Simulation& simulation, const Explorer& explorer) {
+  std::vector<Eigen::Vector2d> frontier;
+  for (const Cell& cell : explorer.planner().frontierCells().cells()) {
+    frontier.push_back(explorer.grid().centreOf(cell));
+  }
+  return tourLeft(simulation.T_map_robot().position(), frontier);
+}
+
+void showProgress(Progress& progress, const Simulation& simulation, const Explorer& explorer,
+                  ExplorationRecord& record, const Action& action, Clock::time_point begin) {
+  char detail[160], goal[40] = "none";
   if (action.goal)
-    std::snprintf(goal, sizeof goal, "%.1f, %.1f", action.goal->x(), action.goal->y());
-  std::snprintf(detail, sizeof detail, "%.0f m, %.0f s simulated, goal %s, %.0f scans/s",
-                simulation.distance(), simulation.time(), goal,
+    std::snprintf(goal, sizeof goal, "%.1f, %.1f", record.origin().x() + action.goal->x(),
+                  record.origin().y() + action.goal->y());
+  const double driven = simulation.distance(), left = metresLeft(simulation, explorer);
+  std::snprintf(detail, sizeof detail,
+                "%s%.0f m driven, %.0f m to go, %.0f s simulated, goal %s, %.0f scans/s",
+                share(record.coverage().sofar()).c_str(), driven, left, simulation.time(), goal,
                 static_cast<double>(record.scans()) / std::max(secondsSince(begin), 1e-3));
-  progress.show(record.coverage().sofar().value_or(0.0), detail);
+  progress.show(driven + left > 0.0 ? driven / (driven + left) : 0.0, detail);
 }
 
 // The line map and the files are kept beside the drive, on the second core: neither feeds back.
 ExplorationRecord::End drive(Simulation& simulation, Explorer& explorer, ExplorationRecord& record,
-                             const Parameters& parameters, Progress* progress,
-                             ExplorationWindow* window) {
+                             const Parameters& parameters, const Interruption& interruption,
+                             Progress* progress, ExplorationWindow* window) {
   const RunParameters& run = parameters.run;
   Belief belief(parameters, simulation.T_map_robot());
-  const Interruption interruption;
   const auto begin = Clock::now();
   BackgroundWork beside;
   while (!interruption.requested() && simulation.time() < run.longest_time) {
@@ -141,12 +178,21 @@ ExplorationRecord::End drive(Simulation& simulation, Explorer& explorer, Explora
     }
     if (progress && progress->isDue()) {
       beside.wait();
-      showProgress(*progress, simulation, record, action, begin);
+      showProgress(*progress, simulation, explorer, record, action, begin);
     }
   }
   beside.wait();
   return {false, interruption.requested() ? "interrupted" : "the longest simulated time is over",
           0.0};
+}
+
+/// What can be seen of a large world takes longer to work out than the robot drives: nobody who
+/// wants his map now has to wait for it.
+void awaitCoverage(Coverage& coverage, const Interruption& interruption) {
+  while (!coverage.sofar()) {
+    if (interruption.requested()) return coverage.giveUp();
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  }
 }
 
 std::unique_ptr<ExplorationWindow> openWindow(const World& world) {
@@ -155,34 +201,49 @@ std::unique_ptr<ExplorationWindow> openWindow(const World& world) {
   return std::unique_ptr<ExplorationWindow>(open(world));
 }
 
-void requireBeams(const Parameters& parameters) {
-  if (parameters.laser.beams > 1) return;
-  if (parameters.run.pose != "icp" && parameters.laser.caster != "mrpt") return;
-  throw CLI::ValidationError("--laser.beams", "MRPT's ICP and its caster need two beams at least");
+/// With less in view the robot drives where it has not looked, and touches walls.
+void requireLaser(const LaserParameters& laser) {
+  if (laser.field_of_view_deg < kSmallestView) {
+    throw CLI::ValidationError("--laser.field_of_view_deg",
+                               "to explore, the laser must see 60 deg at least");
+  }
+  const double spacing = laser.field_of_view_deg / std::max(laser.beams - 1, 1);
+  if (spacing > kWidestSpacing) {
+    throw CLI::ValidationError(
+        "--laser.beams",
+        "to explore, the laser needs a beam every 5 deg at least: " +
+            std::to_string(static_cast<int>(std::ceil(laser.field_of_view_deg / kWidestSpacing)) +
+                           1) +
+            " beams here");
+  }
 }
 
 void explore(const ExploreOptions& options, const Parameters& parameters) {
   const auto start = Clock::now();
-  requireBeams(parameters);
-  Simulation simulation = makeSimulation(options, parameters);
+  requireLaser(parameters.laser);
+  Scene scene = makeScene(options, parameters);
+  Simulation& simulation = scene.simulation;
   std::unique_ptr<ExplorationWindow> window;
   if (options.gui) window = openWindow(simulation.world());
   const std::string folder = chooseFolder(options, simulation.world().name);
   const FolderLock lock = prepareMapFolder(folder, options.force);
   Explorer explorer(parameters.mapping, parameters.robot, parameters.exploration);
-  ExplorationRecord record(simulation, folder);
+  ExplorationRecord record(simulation, scene.origin, parameters, folder);
   std::unique_ptr<Progress> progress;
   if (!options.quiet) progress = std::make_unique<Progress>("exploring");
-  auto end = drive(simulation, explorer, record, parameters, progress.get(), window.get());
+  const Interruption interruption;
+  auto end =
+      drive(simulation, explorer, record, parameters, interruption, progress.get(), window.get());
   progress.reset();
+  awaitCoverage(record.coverage(), interruption);
   end.wall_s = secondsSince(start);
   record.write(simulation, explorer, end);
   if (!options.quiet) {
     std::printf(
-        "%s: %s. %.1f %% seen, %.1f m driven in %.0f s, %d collisions, %.1f s of work\n"
+        "%s: %s. %s%.1f m driven in %.0f s, %d collisions, %.1f s of work\n"
         "picture  %s/map.png\nmap      %s/lines.csv\n",
         simulation.world().name.c_str(), end.reason.c_str(),
-        100.0 * record.coverage().sofar().value_or(0.0), simulation.distance(), simulation.time(),
+        share(record.coverage().sofar()).c_str(), simulation.distance(), simulation.time(),
         simulation.collisions(), end.wall_s, folder.c_str(), folder.c_str());
   }
   if (!end.finished) {
@@ -195,11 +256,14 @@ void explore(const ExploreOptions& options, const Parameters& parameters) {
 void addExploreCommand(CLI::App& program) {
   auto* command = program.add_subcommand("explore", "simulated exploration of a world");
   auto options = std::make_shared<ExploreOptions>();
-  command->add_option("WORLD", options->world, "world, a map_server YAML file")->required();
+  command
+      ->add_option("WORLD", options->world,
+                   "world: a map_server YAML file, or the name of one of ours, e.g. office")
+      ->required();
   command->add_option("--start", options->start, "X,Y,DEG: start pose, m and degrees")
       ->delimiter(',')
       ->expected(3)
-      ->check(within(-1e6, 1e6));
+      ->check(within(-2e7, 2e7));
   command->add_option("--movers", options->movers, "what moves about, a YAML file");
   command->add_flag("--gui", options->gui, "show the run in MRPT's 3-D window");
   command->add_option("--out", options->out, "folder for the results; else out/WORLD-001, ...");

@@ -2,7 +2,9 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <filesystem>
 #include <memory>
+#include <stdexcept>
 #include <string>
 
 #include "cca_mrpt/io/atomic_file.hpp"
@@ -32,11 +34,16 @@ std::string row(int scan_id, const LineSegment& line) {
 void addExtractCommand(CLI::App& program) {
   auto* command = program.add_subcommand("extract", "lines of each single scan, sensor frame");
   auto log = std::make_shared<std::string>(), out = std::make_shared<std::string>();
+  auto force = std::make_shared<bool>(false);
   command->add_option("LOG", *log, "laser log")->required();
   command->add_option("--out", *out, "CSV file to write")->required();
+  command->add_flag("--force", *force, "overwrite a file that is there");
   auto options = std::make_shared<ParameterOptions>(*command, std::vector<std::string>{"mapping"});
-  command->callback([log, out, options] {
+  command->callback([log, out, force, options] {
     const Parameters parameters = options->resolve();
+    if (!*force && std::filesystem::is_regular_file(*out)) {
+      throw std::runtime_error(*out + ": is there already (--force overwrites it)");
+    }
     auto reader = openLog(*log);
     std::string csv = kHeader;
     for (int id = 0; auto record = reader->next(); ++id) {

@@ -55,7 +55,7 @@ void printRun(const Json& info) {
   const Json& poses = info["poses"];
   row("poses", poses["corrected"].dump() + " corrected, " + poses["odometry"].dump() +
                    " odometry, " + poses["truth"].dump() + " true");
-  if (info["warnings"] != "") row("warnings", info["warnings"]);
+  for (const Json& warning : info["warnings"]) row("warning", warning);
 }
 
 }  // namespace

@@ -37,6 +37,7 @@ int withOutput(int status) {
 int main(int argc, char** argv) {
   CLI::App program{"Line maps from 2-D lasers, and exploration that brings them back", "cca-mrpt"};
   program.require_subcommand(1);
+  program.set_version_flag("--version", "cca-mrpt " CCA_VERSION);
 #ifdef CCA_ROS
   cca::addBagLogs();
 #endif
@@ -46,10 +47,16 @@ int main(int argc, char** argv) {
   cca::apps::addMapCommand(program);
   cca::apps::addRenderCommand(program);
   cca::apps::addGenerateWorldCommand(program);
+#ifdef CCA_EVIDENCE
   cca::apps::addCompareExtractorsCommand(program);
   cca::apps::addCompareStrategiesCommand(program);
   cca::apps::addTuneCommand(program);
   cca::apps::addEvaluateCommand(program);
+#else
+  program.footer(
+      "This build has no evaluate, compare-extractors, compare-strategies and tune\n"
+      "(cmake -D CCA_WITH_EVIDENCE=ON, as launch_scripts/test.sh builds it).");
+#endif
   if (argc > 1 && argv[1][0] != '-' && !isCommand(program, argv[1])) {
     std::fprintf(stderr, "%s is no command of cca-mrpt; see cca-mrpt --help\n", argv[1]);
     return kUsage;

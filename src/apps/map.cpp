@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <filesystem>
@@ -6,10 +7,11 @@
 #include <stdexcept>
 #include <string>
 
-#include "cca_mrpt/io/log_reader.hpp"
+#include "cca_mrpt/io/local_frame.hpp"
 #include "cca_mrpt/io/map_products.hpp"
 #include "cca_mrpt/io/pose_source.hpp"
 #include "cca_mrpt/io/scan_grid.hpp"
+#include "cca_mrpt/io/stray_places.hpp"
 #include "cca_mrpt/io/trajectory_error.hpp"
 #include "cca_mrpt/mapping/line_map.hpp"
 #include "commands.hpp"
@@ -30,10 +32,12 @@ struct MapOptions {
 struct MappedLog {
   LineMap map;
   ScanGrid grid;
-  std::vector<Pose2> trajectory;
-  std::vector<Pose2> judged, reference;  ///< poses for which a reference is known, and these
+  Eigen::Vector2d origin;  ///< m, of the frame that all this stands in
+  std::vector<Pose2> trajectory = {};
+  std::vector<Pose2> judged = {},
+                     reference = {};  ///< poses for which a reference is known, and these
   std::size_t beams = 0;
-  std::string warnings;  ///< what of the log could not be read, or was missed
+  std::string warnings = {};  ///< what of the log could not be read, or was missed
   bool interrupted = false;
 };
 
@@ -49,10 +53,26 @@ void insert(MappedLog& mapped, LogRecord record, const Pose2& T_map_robot) {
   }
 }
 
-MappedLog mapLog(const MapOptions& options, LogReader& log, const Parameters& parameters,
+/// "1 scan(s) far from all others, the first is number 12 at 1e+07, 3.2 m"; empty where there is
+/// none.
+std::string straysTold(const MappedLog& mapped) {
+  const std::vector<bool> stray = findStrays(mapped.trajectory);
+  const auto count = std::count(stray.begin(), stray.end(), true);
+  if (count == 0) return "";
+  const auto first =
+      static_cast<std::size_t>(std::find(stray.begin(), stray.end(), true) - stray.begin());
+  const Eigen::Vector2d place = mapped.origin + mapped.trajectory[first].position();
+  char text[160];
+  std::snprintf(text, sizeof text,
+                "%td scan(s) far from all others, the first is number %zu at %.9g, %.9g m", count,
+                first, place.x(), place.y());
+  return text;
+}
+
+MappedLog mapLog(const MapOptions& options, LocalLog& log, const Parameters& parameters,
                  const Interruption& interruption) try {
   PoseSource poses(poseKind(options.pose), parameters.icp);
-  MappedLog mapped{LineMap(parameters.mapping), {}, {}, {}, {}, 0, {}, false};
+  MappedLog mapped{LineMap(parameters.mapping), ScanGrid(log.start()), log.origin()};
   Progress progress("map");
   while (auto record = log.next()) {
     const Pose2 T_map_robot = poses.locate(*record);
@@ -62,29 +82,39 @@ MappedLog mapLog(const MapOptions& options, LogReader& log, const Parameters& pa
     if (mapped.interrupted) break;
   }
   mapped.map.finishBatch();
-  const std::string of_log = log.warnings(), of_poses = poses.warnings();
-  mapped.warnings = of_log + (of_log.empty() || of_poses.empty() ? "" : "; ") + of_poses;
+  for (const std::string& warning : {log.warnings(), poses.warnings(), straysTold(mapped)}) {
+    if (!mapped.warnings.empty() && !warning.empty()) mapped.warnings += "; ";
+    mapped.warnings += warning;
+  }
   return mapped;
 } catch (const std::runtime_error& error) {
   throw std::runtime_error(options.log + ": " + error.what());
 }
 
+/// Of the poses that have not gone astray.
 double pathLength(const std::vector<Pose2>& trajectory) {
+  const std::vector<bool> stray = findStrays(trajectory);
+  const Pose2* last = nullptr;
   double length = 0.0;
-  for (std::size_t k = 1; k < trajectory.size(); ++k) {
-    length += (trajectory[k].position() - trajectory[k - 1].position()).norm();
+  for (std::size_t k = 0; k < trajectory.size(); ++k) {
+    if (stray[k]) continue;
+    if (last) length += (trajectory[k].position() - last->position()).norm();
+    last = &trajectory[k];
   }
   return length;
 }
 
-MapProducts products(const MapOptions& options, const MappedLog& mapped) {
+MapProducts products(const MapOptions& options, const Parameters& parameters,
+                     const MappedLog& mapped) {
   MapProducts products;
   products.title = std::filesystem::path(options.log).filename().string();
   products.lines = mapped.map.lines();
   products.poly_lines = mapped.map.polyLines();
   products.trajectory = mapped.trajectory;
   products.grid = mapped.grid.grid();
+  products.origin = mapped.origin;
   auto& summary = products.summary;
+  summary["program"] = "cca-mrpt " CCA_VERSION;
   summary["log"] = options.log;
   summary["finished"] = !mapped.interrupted;
   summary["pose"] = options.pose;
@@ -92,6 +122,9 @@ MapProducts products(const MapOptions& options, const MappedLog& mapped) {
   summary["beams"] = mapped.beams;
   summary["distance_m"] = pathLength(mapped.trajectory);
   if (!mapped.warnings.empty()) summary["warnings"] = mapped.warnings;
+  std::vector<std::string> used{"mapping"};
+  if (options.pose == "icp") used.push_back("icp");
+  summary["parameters"] = parametersJson(parameters, used);
   // Poses taken from the log are their own reference, and would be called perfect.
   if (options.pose != "log" && options.pose != "truth" && !mapped.reference.empty()) {
     const TrajectoryError error = compareTrajectories(mapped.judged, mapped.reference);
@@ -120,13 +153,14 @@ void report(const MapOptions& options, const MapProducts& products, double secon
 void makeMap(const MapOptions& options, const Parameters& parameters) {
   const auto begin = std::chrono::steady_clock::now();
   const Interruption interruption;
-  const auto log = openLog(options.log);
+  LocalLog log(openLog(options.log));
   if (interruption.requested()) throw std::runtime_error("interrupted; no map was begun");
-  const bool is_new = !std::filesystem::exists(options.out);
+  std::error_code unknown;
+  const bool is_new = !std::filesystem::exists(options.out, unknown);
   const FolderLock folder = prepareMapFolder(options.out, options.force);
   const MappedLog mapped = [&] {
     try {
-      return mapLog(options, *log, parameters, interruption);
+      return mapLog(options, log, parameters, interruption);
     } catch (...) {  // a pose that the log lacks: nothing remains
       std::error_code holds_files;
       if (is_new) std::filesystem::remove(options.out, holds_files);
@@ -134,7 +168,7 @@ void makeMap(const MapOptions& options, const Parameters& parameters) {
     }
   }();
   tellWarnings(options.log, mapped.warnings);
-  MapProducts map = products(options, mapped);
+  MapProducts map = products(options, parameters, mapped);
   const std::chrono::duration<double> mapping = std::chrono::steady_clock::now() - begin;
   map.summary["mapping_s"] = mapping.count();
   writeMapFolder(options.out, map);

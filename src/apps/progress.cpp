@@ -3,6 +3,8 @@
 
 #include <unistd.h>
 
+#include <algorithm>
+#include <cmath>
 #include <cstdio>
 
 namespace cca::apps {
@@ -24,10 +26,12 @@ void Progress::show(double done, const std::string& detail) {
   if (!isDue()) return;
   last_ = Clock::now();
   shown_ = true;
-  std::fprintf(stderr, "\r\033[K%s: %3.0f %%, %s", what_.c_str(), 100.0 * done, detail.c_str());
+  // Whoever still shows progress is not done.
+  const double percent = std::min(std::floor(100.0 * done), 99.0);
+  std::fprintf(stderr, "\r\033[K%s: %3.0f %%, %s", what_.c_str(), percent, detail.c_str());
   if (done > kEnoughToForecast) {
     const double spent = std::chrono::duration<double>(last_ - begin_).count();
-    std::fprintf(stderr, ", %.0f s left", spent * (1.0 - done) / done);
+    std::fprintf(stderr, ", %.0f s left", std::max(1.0, spent * (1.0 - done) / done));
   }
   std::fflush(stderr);
 }

@@ -9,9 +9,10 @@
 #include <vector>
 
 #include "cca_mrpt/io/line_formats.hpp"
-#include "cca_mrpt/io/log_reader.hpp"
+#include "cca_mrpt/io/local_frame.hpp"
 #include "cca_mrpt/io/map_picture.hpp"
 #include "cca_mrpt/io/map_scene.hpp"
+#include "cca_mrpt/io/occupancy_files.hpp"
 #include "cca_mrpt/io/scan_grid.hpp"
 #include "cca_mrpt/io/video.hpp"
 #include "cca_mrpt/mapping/line_map.hpp"
@@ -50,8 +51,9 @@ std::string readFile(const std::string& path) {
 /// Puts a log's scans and poses below the map.
 void addLog(const std::string& path, MapProducts& products) {
   const auto log = openLog(path);
-  ScanGrid grid;
-  while (const auto record = log->next()) {
+  ScanGrid grid(wholeView(products).center());
+  while (auto record = log->next()) {
+    record->scan.T_map_sensor = seenFrom(products.origin, record->scan.T_map_sensor);
     grid.insert(record->scan);
     products.trajectory.push_back(record->scan.T_map_sensor * record->T_robot_sensor.inverse());
   }
@@ -59,26 +61,40 @@ void addLog(const std::string& path, MapProducts& products) {
   tellWarnings(path, log->warnings());
 }
 
-/// What lies beside a map of our own: its poly-lines, and without a log its grid and trajectory.
-void addWhatLiesBeside(const std::string& map, bool with_log, MapProducts& products) {
+/// What lies beside a map of our own: its poly-lines, and without a log its trajectory.
+void addChains(const std::string& map, bool with_log, MapProducts& products) {
   const auto folder = std::filesystem::path(map).parent_path();
   const std::string chains = (folder / "lines.geojson").string();
-  if (std::filesystem::path(map).filename() == "lines.csv" && std::filesystem::exists(chains)) {
-    auto [poly_lines, trajectory] = readLinesGeoJson(readFile(chains), chains);
-    products.poly_lines = std::move(poly_lines);
-    if (!with_log) products.trajectory = std::move(trajectory);
-  }
-  const std::string yaml = (folder / "map.yaml").string();
-  if (with_log || !std::filesystem::exists(yaml)) return;
-  auto grid = std::make_shared<mrpt::maps::COccupancyGridMap2D>();
-  if (grid->loadFromROSMapServerYAML(yaml)) products.grid = grid;
+  if (std::filesystem::path(map).filename() != "lines.csv" || !std::filesystem::exists(chains))
+    return;
+  auto [poly_lines, trajectory] = readLinesGeoJson(readFile(chains), chains);
+  products.poly_lines = std::move(poly_lines);
+  if (!with_log) products.trajectory = std::move(trajectory);
 }
 
-void renderPicture(const RenderOptions& options) {
+/// The same for its grid.
+void addGrid(const std::string& map, MapProducts& products) {
+  const auto yaml = std::filesystem::path(map).parent_path() / "map.yaml";
+  if (std::filesystem::exists(yaml)) {
+    products.grid = readOccupancyMap(yaml.string(), products.origin);
+  }
+}
+
+/// The frame of the lines' median, for what is drawn far from (0, 0).
+Eigen::Vector2d frameOf(const std::vector<MapLine>& lines) {
+  std::vector<Eigen::Vector2d> places;
+  for (const MapLine& line : lines) places.push_back(line.segment.start);
+  return localOrigin(medianPlace(places));
+}
+
+void renderPicture(RenderOptions options) {
   MapProducts products;
   products.title = std::filesystem::path(options.map).string();
   products.lines = readLinesCsv(readFile(options.map), options.map);
-  addWhatLiesBeside(options.map, !options.log.empty(), products);
+  addChains(options.map, !options.log.empty(), products);
+  products = seenFrom(frameOf(products.lines), std::move(products));
+  if (options.picture.view) options.picture.view->translate(-products.origin);
+  if (options.log.empty()) addGrid(options.map, products);
   if (!options.log.empty()) addLog(options.log, products);
   if (options.solid) {
     if (options.no_trajectory) products.trajectory.clear();
@@ -104,14 +120,15 @@ void renderVideo(const RenderOptions& options, const Parameters& parameters) {
   const Interruption interruption;
   Progress progress("render");
   for (const bool drawing : {false, true}) {
-    const auto log = openLog(options.log);
+    LocalLog log(openLog(options.log));
+    if (!drawing && picture.view) picture.view->translate(-log.origin());
     LineMap map(parameters.mapping);
-    ScanGrid grid;
+    ScanGrid grid(log.start());
     MapProducts products;
     products.title = std::filesystem::path(options.log).filename().string();
     products.grid = grid.grid();
     std::size_t scan = 0, frame = 0;
-    while (const auto record = log->next()) {
+    while (const auto record = log.next()) {
       map.insert(record->scan);
       grid.insert(record->scan);
       products.trajectory.push_back(record->scan.T_map_sensor * record->T_robot_sensor.inverse());
@@ -122,7 +139,7 @@ void renderVideo(const RenderOptions& options, const Parameters& parameters) {
       products.poly_lines = map.polyLines();
       writePicture(video.nextFrame(), products, picture);
       frame = scan * frames / scans;
-      progress.show(log->progress(), std::to_string(frame) + " frames");
+      progress.show(log.progress(), std::to_string(frame) + " frames");
     }
     products.lines = map.lines();
     if (!drawing && !picture.view) picture.view = wholeView(products);
@@ -173,7 +190,7 @@ void addRenderCommand(CLI::App& program) {
   command->add_option("--view", options->view, "X0,Y0,X1,Y1: what to show, m; default: all")
       ->delimiter(',')
       ->expected(4)
-      ->check(within(-1e7, 1e7));
+      ->check(within(-2e7, 2e7));
   command->add_flag("--no-background", options->no_background, "lines alone");
   command->add_flag("--no-trajectory", options->no_trajectory, "without the robot's way");
   command->add_flag("--no-caption", options->no_caption, "without title and numbers");

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "cca_mrpt/io/atomic_file.hpp"
 
+#include <signal.h>
 #include <unistd.h>
 
 #include <atomic>
@@ -8,6 +9,7 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <regex>
 #include <stdexcept>
 
 namespace cca {
@@ -55,6 +57,7 @@ void write(const std::string& to, std::string_view content, const std::string& p
 
 AtomicFile::AtomicFile(std::string path)
     : path_(std::move(path)), target_(behindLinks(path_)), temporary_(temporaryName(target_)) {
+  if (path_.empty()) throw std::runtime_error("a file to be written has an empty name");
   if (isDevice(target_)) throw std::runtime_error(path_ + ": is no regular file");
   errno = fs::is_directory(target_) ? EISDIR : 0;
   if (errno != 0) throw cannotWrite(path_);
@@ -71,10 +74,22 @@ void AtomicFile::commit() {
   if (std::rename(temporary_.c_str(), target_.c_str()) != 0) throw cannotWrite(path_);
 }
 
+void removeLeftovers(const std::string& folder) {
+  static const std::regex kTemporary(R"(\..*\.part-(\d{1,9})-\d+(\..*)?)");
+  std::error_code gone;
+  for (const auto& entry : fs::directory_iterator(folder, gone)) {
+    std::smatch parts;
+    const std::string name = entry.path().filename().string();
+    if (!std::regex_match(name, parts, kTemporary)) continue;
+    if (kill(std::stoi(parts[1]), 0) != 0 && errno == ESRCH) fs::remove(entry.path(), gone);
+  }
+}
+
 void makeFolder(const std::string& path) {
-  std::error_code error;
+  if (path.empty()) throw std::runtime_error("a folder to be made has an empty name");
+  std::error_code error, none;
   std::filesystem::create_directories(path, error);
-  if (error || !std::filesystem::is_directory(path)) {
+  if (error || !std::filesystem::is_directory(path, none)) {
     throw std::runtime_error(path + ": cannot be made a folder" +
                              (error ? ": " + error.message() : ""));
   }

@@ -29,6 +29,17 @@ double median(std::vector<double> values) {
 /// Adding 0 turns a negative zero into a plain one.
 double rounded(double value, double step) { return std::round(value / step) * step + 0.0; }
 
+/// What was joined by semicolons, one by one.
+Json listed(const std::string& warnings) {
+  Json list = Json::array();
+  for (std::size_t begin = 0; begin < warnings.size();) {
+    const std::size_t end = std::min(warnings.find("; ", begin), warnings.size());
+    list.push_back(warnings.substr(begin, end - begin));
+    begin = end + 2;
+  }
+  return list;
+}
+
 class Times {
  public:
   void add(const LogRecord& record) {
@@ -187,7 +198,7 @@ Json inspectLog(LogReader& log) {
   info["path_m"] = rounded(path.length(), 1e-3);
   info["turning_deg"] = rounded(kDegreesPerRadian * path.turning(), 0.1);
   info["poses"] = {{"corrected", corrected}, {"odometry", odometry}, {"truth", truth}};
-  info["warnings"] = log.warnings();
+  info["warnings"] = listed(log.warnings());
   return info;
 }
 

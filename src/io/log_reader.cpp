@@ -8,6 +8,7 @@
 
 #include "carmen_line.hpp"
 #include "carmen_reader.hpp"
+#include "child_log.hpp"
 #include "gzip_lines.hpp"
 #include "mrpt_objects.hpp"
 #include "rawlog_reader.hpp"
@@ -41,11 +42,16 @@ std::unique_ptr<LogReader> openAsWhatItIs(const std::string& path) {
   const std::string head = fileHead(path, kHead);
   if (head.empty()) throw std::runtime_error(path + ": is empty, or a damaged compressed file");
   for (const LogKind& kind : addedKinds()) {
-    if (kind.recognizes(head)) return kind.open(path);
+    if (kind.recognizes(head)) return readInChild(path, [&] { return kind.open(path); });
+  }
+  if (head.rfind("#ROSBAG", 0) == 0) {
+    throw std::runtime_error(path +
+                             ": is a ROS bag of version 1, or this program was built without"
+                             " ROS, and cannot read bags");
   }
   const std::string mrpt_class = mrptClassName(head);
-  if (isSimpleMap(mrpt_class)) return openSimpleMap(path);
-  if (!mrpt_class.empty()) return openRawlog(path);
+  if (isSimpleMap(mrpt_class)) return readInChild(path, [&] { return openSimpleMap(path); });
+  if (!mrpt_class.empty()) return readInChild(path, [&] { return openRawlog(path); });
   if (looksLikeCarmen(head)) return openCarmenLog(path);
   std::string known = "MRPT .rawlog and .simplemap, CARMEN .log";
   for (const LogKind& kind : addedKinds()) known += ", " + kind.name;

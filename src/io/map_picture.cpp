@@ -5,11 +5,13 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <cstring>
 #include <utility>
 #include <vector>
 
 #include "canvas.hpp"
 #include "cca_mrpt/io/line_formats.hpp"
+#include "cca_mrpt/io/stray_places.hpp"
 
 namespace cca {
 namespace {
@@ -18,8 +20,6 @@ using Box = Eigen::AlignedBox2d;
 
 constexpr double kMargin = 1.0;        // m around the map
 constexpr double kSmallestView = 2.0;  // m
-constexpr double kWidestGap = 200.0;   // m, more than a laser looks over
-constexpr double kStrayShare = 0.05;   // of the poses: fewer, beyond such a gap, have gone astray
 constexpr int kHeader = 64;            // pixels of a sheet of 1600
 constexpr double kThinnest = 0.5;      // of the strokes on a sheet of 1600 pixels
 
@@ -140,6 +140,23 @@ void drawCaption(Canvas& canvas, const MapProducts& products, double unit) {
   canvas.text(16.0 * unit, 51.0 * unit, 15.0 * unit, false, kSoftInk, numbers);
 }
 
+/// Beside the numbers, where the sheet is wide enough.
+void drawLegend(Canvas& canvas, double unit) {
+  const std::array<std::pair<Colour, const char*>, 5> entries{{{kStart, "start"},
+                                                               {kEnd, "end"},
+                                                               {kTrajectory, "way"},
+                                                               {kPalette.front(), "poly-line"},
+                                                               {kInk, "single line"}}};
+  constexpr double kBegin = 440.0, kNeeded = 950.0, kLetter = 8.0;  // pixels of a sheet of 1600
+  if (0.75 * canvas.width() < kNeeded * unit) return;  // the scale bar has the last quarter
+  double x = kBegin * unit;
+  for (const auto& [colour, meaning] : entries) {
+    canvas.bar(x, 43.0 * unit, 18.0 * unit, 6.0 * unit, colour);
+    canvas.text(x + 24.0 * unit, 51.0 * unit, 15.0 * unit, false, kSoftInk, meaning);
+    x += (48.0 + kLetter * static_cast<double>(std::strlen(meaning))) * unit;
+  }
+}
+
 void extendByKnownCells(Box& box, const mrpt::maps::COccupancyGridMap2D& grid) {
   for (int row = 0; row < static_cast<int>(grid.getSizeY()); ++row) {
     for (int column = 0; column < static_cast<int>(grid.getSizeX()); ++column) {
@@ -149,37 +166,10 @@ void extendByKnownCells(Box& box, const mrpt::maps::COccupancyGridMap2D& grid) {
   }
 }
 
-/// A line or a pose.
-struct Piece {
-  Box box;
-  double weight;
-};
-
-/// Leaves out what lies beyond a wide gap along an axis, where it is light.
-std::vector<Piece> withoutStrays(std::vector<Piece> pieces, Eigen::Index axis) {
-  std::sort(pieces.begin(), pieces.end(), [axis](const Piece& a, const Piece& b) {
-    return a.box.min()[axis] < b.box.min()[axis];
-  });
-  double all = 0.0;
-  for (const Piece& piece : pieces) all += piece.weight;
-  std::vector<Piece> kept;
-  for (auto first = pieces.begin(); first != pieces.end();) {
-    auto last = first;
-    double weight = 0.0, reach = first->box.max()[axis];
-    for (; last != pieces.end() && last->box.min()[axis] - reach <= kWidestGap; ++last) {
-      weight += last->weight;
-      reach = std::max(reach, last->box.max()[axis]);
-    }
-    if (weight >= kStrayShare * all) kept.insert(kept.end(), first, last);
-    first = last;
-  }
-  return kept;
-}
-
 }  // namespace
 
 Box wholeView(const MapProducts& products) {
-  std::vector<Piece> pieces;
+  std::vector<WeightedPlace> pieces;
   const bool has_poses = !products.trajectory.empty();
   for (const MapLine& line : products.lines) {
     const Box box = Box(line.segment.start).extend(line.segment.end);
@@ -187,8 +177,9 @@ Box wholeView(const MapProducts& products) {
   }
   for (const Pose2& pose : products.trajectory) pieces.push_back({Box(pose.position()), 1.0});
   Box box;
-  for (const Piece& piece : withoutStrays(withoutStrays(std::move(pieces), 0), 1)) {
-    box.extend(piece.box);
+  const std::vector<bool> stray = findStrays(pieces);
+  for (std::size_t k = 0; k < pieces.size(); ++k) {
+    if (!stray[k]) box.extend(pieces[k].box);
   }
   if (products.lines.empty() && products.grid) extendByKnownCells(box, *products.grid);
   if (box.isEmpty()) box.extend(Eigen::Vector2d::Zero());
@@ -210,6 +201,7 @@ void writePicture(const std::string& png_path, const MapProducts& products,
   drawLines(canvas, products, unit);
   if (options.trajectory) drawEnds(canvas, products.trajectory, unit);
   if (options.caption) drawCaption(canvas, products, unit);
+  if (options.caption) drawLegend(canvas, unit);
   drawScaleBar(canvas, options.caption, unit);
   canvas.writePng(png_path);
 }

@@ -3,9 +3,11 @@
 
 #include <filesystem>
 #include <stdexcept>
+#include <tuple>
 
 #include "cca_mrpt/io/atomic_file.hpp"
 #include "cca_mrpt/io/line_formats.hpp"
+#include "cca_mrpt/io/local_frame.hpp"
 #include "cca_mrpt/io/map_picture.hpp"
 #include "cca_mrpt/io/map_scene.hpp"
 #include "cca_mrpt/io/metric_map.hpp"
@@ -28,6 +30,9 @@ nlohmann::ordered_json summarize(const MapProducts& products) {
   double length = 0.0;
   for (const MapLine& line : products.lines) length += line.segment.length();
   auto summary = products.summary;
+  if (!products.origin.isZero()) {
+    summary["frame_origin_m"] = {products.origin.x(), products.origin.y()};
+  }
   summary["map_lines"] = products.lines.size();
   summary["map_poly_lines"] = products.poly_lines.size();
   summary["map_length_m"] = length;
@@ -43,6 +48,7 @@ FolderLock prepareMapFolder(const std::string& folder, bool overwrite) {
     throw std::runtime_error(summary + ": there is a map already (--force overwrites it)");
   }
   AtomicFile probe(summary);  // fails now, not after the work
+  removeLeftovers(folder);
   return FolderLock(folder);
 }
 
@@ -51,20 +57,35 @@ void withdrawSummary(const std::string& folder) {
   fs::remove(inFolder(folder, kSummary), none_there);
 }
 
+MapProducts seenFrom(const Eigen::Vector2d& p_frame, MapProducts products) {
+  products.origin += p_frame;
+  for (MapLine& line : products.lines) {
+    line.segment.start -= p_frame;
+    line.segment.end -= p_frame;
+    line.segment.moments.mean -= p_frame;
+  }
+  for (PolyLine& chain : products.poly_lines) {
+    for (auto& vertex : chain.vertices) vertex -= p_frame;
+  }
+  for (Pose2& pose : products.trajectory) pose = seenFrom(p_frame, pose);
+  return products;
+}
+
 void writeMapFolder(const std::string& folder, const MapProducts& products) {
   makeFolder(folder);
   withdrawSummary(folder);
-  const auto& [title, lines, poly_lines, trajectory, grid, summary] = products;
+  const MapProducts map = seenFrom(-products.origin, products);
+  const auto& [lines, poly_lines, trajectory] = std::tie(map.lines, map.poly_lines, map.trajectory);
   writeFile(inFolder(folder, "lines.csv"), linesCsv(lines));
   writeFile(inFolder(folder, "lines.geojson"), linesGeoJson(lines, poly_lines, trajectory));
   writeFile(inFolder(folder, "lines.svg"), linesSvg(lines, poly_lines, trajectory));
   writeFile(inFolder(folder, "lines.dxf"), linesDxf(lines, poly_lines, trajectory));
-  writePicture(inFolder(folder, "map.png"), products);
-  if (grid) {
-    writeOccupancyMap(inFolder(folder, "map"), *grid);
-    writeGridMap(inFolder(folder, "map.gridmap.gz"), *grid);
-  }
   writeLineMap(inFolder(folder, "map.linemap.gz"), lines);
+  if (products.grid) {
+    writeOccupancyMap(inFolder(folder, "map"), *products.grid, products.origin);
+    writeGridMap(inFolder(folder, "map.gridmap.gz"), *products.grid);
+  }
+  writePicture(inFolder(folder, "map.png"), products);
   writeScene(inFolder(folder, "scene.3Dscene"), products);
   writeFile(inFolder(folder, kSummary), summarize(products).dump(2, ' ', false, kReplace) + "\n");
 }

@@ -16,6 +16,7 @@
 #include "cca_mrpt/io/gzip_archive.hpp"
 #include "cca_mrpt/io/line_formats.hpp"
 #include "cca_mrpt/io/mrpt_scan.hpp"
+#include "gzip_lines.hpp"
 #include "mrpt_objects.hpp"
 
 IMPLEMENTS_SERIALIZABLE(CLineMap2D, mrpt::maps::CMetricMap, cca)
@@ -27,6 +28,7 @@ MRPT_INITIALIZER(registerLineMap) { mrpt::rtti::registerClass(CLASS_ID(cca::CLin
 namespace cca {
 namespace {
 
+constexpr std::size_t kHead = 64;    // bytes, that hold the name of the class
 constexpr double kWallHeight = 1.0;  // m, of the 3-D view
 
 /// Reads each described field of an .ini section, where the section has it.
@@ -287,7 +289,8 @@ void writeLineMap(const std::string& path, const std::vector<MapLine>& lines) {
 
 std::vector<MapLine> readLineMap(const std::string& path) {
   MrptObjects objects(path);
-  const auto map = std::dynamic_pointer_cast<CLineMap2D>(objects.next());
+  const bool is_one = mrptClassName(fileHead(path, kHead)) == "cca::CLineMap2D";
+  const auto map = is_one ? std::dynamic_pointer_cast<CLineMap2D>(objects.next()) : nullptr;
   if (map) return map->lines();
   throw std::runtime_error(path + ": no line map of MRPT's" +
                            (objects.fault().empty() ? "" : ": " + objects.fault()));

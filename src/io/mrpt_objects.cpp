@@ -3,22 +3,13 @@
 
 #include <algorithm>
 #include <cctype>
-#include <filesystem>
 #include <new>
 #include <stdexcept>
 
-#include "allocation_limit.hpp"
 #include "gzip_lines.hpp"
 
 namespace cca {
 namespace {
-
-/// What an object of a file of this size can need at most. Zipped, a file can grow by 1032 at most
-/// [zlib]; no object of a laser's log needs a gigabyte beyond a few times what is in its file.
-std::size_t mostMemory(std::size_t file_bytes) {
-  constexpr std::size_t kMegabyte = 1 << 20;
-  return std::min(64 * kMegabyte + 4 * 1032 * file_bytes, 1024 * kMegabyte + 16 * file_bytes);
-}
 
 /// MRPT's messages are several lines with a call stack; the cause stands after "Message:".
 std::string shortReason(const std::string& message) {
@@ -39,7 +30,6 @@ std::string shortReason(const std::string& message) {
 
 MrptObjects::MrptObjects(const std::string& path) {
   if (!file_.open(path)) throw std::runtime_error(path + ": cannot be opened");
-  most_memory_ = mostMemory(std::filesystem::file_size(path));
   bytes_ = unzippedBytes(path);
 }
 
@@ -47,14 +37,13 @@ mrpt::serialization::CSerializable::Ptr MrptObjects::next() {
   if (ended_) return nullptr;
   auto archive = mrpt::serialization::archiveFrom(file_);
   try {
-    const AllocationLimit limit(most_memory_);
     if (auto object = archive.ReadObject()) return object;
     fault_ = "an object of a class that is not known";
   } catch (const mrpt::serialization::CExceptionEOF&) {
     // MRPT's word for the end of the file, in the middle of an object too.
     if (!file_.checkEOF()) fault_ = "the compressed file is damaged";
   } catch (const std::bad_alloc&) {
-    fault_ = "unreadable from there on: an object claims more than a file of this size can hold";
+    throw;
   } catch (const std::exception& error) {
     fault_ = "unreadable from there on: " + shortReason(error.what());
   }

@@ -11,13 +11,13 @@
 namespace cca {
 
 /// The objects of a file of MRPT's, zipped or not, one by one, up to the first that cannot be read.
-/// One that claims more memory than a file of this size can fill is one of these.
+/// MRPT believes all numbers in a file, and may crash: see readInChild() for files of others.
 class MrptObjects {
  public:
   /// @throws std::runtime_error naming the file.
   explicit MrptObjects(const std::string& path);
 
-  /// The next object; null at the end of what can be read.
+  /// The next object; null at the end of what can be read. @throws std::bad_alloc.
   mrpt::serialization::CSerializable::Ptr next();
 
   /// Why reading stopped before the end of the file; empty where it did not.
@@ -28,8 +28,7 @@ class MrptObjects {
 
  private:
   mrpt::io::CFileGZInputStream file_;
-  std::size_t most_memory_;  ///< bytes, for one object
-  double bytes_;             ///< of the file, unzipped
+  double bytes_;  ///< of the file, unzipped
   std::string fault_;
   bool ended_ = false;
 };

@@ -120,6 +120,20 @@ void loadParameters(const std::string& ini_path, Parameters& p) {
   p = changed;
 }
 
+nlohmann::ordered_json parametersJson(const Parameters& p,
+                                      const std::vector<std::string>& sections) {
+  using Json = nlohmann::ordered_json;
+  Parameters copy = p;
+  Json json = Json::object();
+  for (const auto& field : listParameters(copy)) {
+    if (std::find(sections.begin(), sections.end(), field.section) == sections.end()) continue;
+    const std::string text = field.get();
+    const Json value = Json::parse(text, nullptr, false);
+    json[field.section][field.name] = value.is_discarded() ? Json(text) : value;
+  }
+  return json;
+}
+
 std::string dumpParameters(const Parameters& p) {
   Parameters copy = p;
   std::string text, section;

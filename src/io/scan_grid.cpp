@@ -8,9 +8,14 @@
 
 namespace cca {
 
-ScanGrid::ScanGrid()
-    : grid_(std::make_shared<mrpt::maps::COccupancyGridMap2D>(-5.0F, 5.0F, -5.0F, 5.0F,
-                                                              static_cast<float>(kResolution))) {
+constexpr float kFirstReach = 5.0F;  // m
+
+ScanGrid::ScanGrid(const Eigen::Vector2d& p_begin) {
+  const auto x = static_cast<float>(std::round(p_begin.x())),
+             y = static_cast<float>(std::round(p_begin.y()));
+  grid_ = std::make_shared<mrpt::maps::COccupancyGridMap2D>(x - kFirstReach, x + kFirstReach,
+                                                            y - kFirstReach, y + kFirstReach,
+                                                            static_cast<float>(kResolution));
   grid_->insertionOptions.considerInvalidRangesAsFreeSpace = false;
   grid_->insertionOptions.wideningBeamsWithDistance = false;
 }

@@ -27,7 +27,7 @@ void lookAround(const World& world, const Pose2& T_map_sensor, double max_range,
 }
 
 /// Cells in which a disc stands free wherever in the cell its centre is.
-Cells standable(const World& world, double radius) {
+Cells standable(const World& world, double radius, const std::atomic<bool>& given_up) {
   const double reach = radius / world.resolution();
   const int n = static_cast<int>(std::ceil(reach)) + 1;
   std::vector<std::pair<int, int>> disc;
@@ -38,7 +38,7 @@ Cells standable(const World& world, double radius) {
     }
   }
   Cells free(world.obstacles().size(), 1);
-  for (int iy = 0; iy < world.height(); ++iy) {
+  for (int iy = 0; iy < world.height() && !given_up; ++iy) {
     for (int ix = 0; ix < world.width(); ++ix) {
       if (!world.isObstacle(ix, iy)) continue;
       const bool buried = world.isObstacle(ix - 1, iy) && world.isObstacle(ix + 1, iy) &&
@@ -75,7 +75,7 @@ int nearestCell(const Cells& set, const World& world, const Eigen::Vector2d& p) 
 }
 
 /// The 4-connected part of a set that holds a cell. The set holds no outermost cell.
-Cells component(const Cells& set, int width, int first) {
+Cells component(const Cells& set, int width, int first, const std::atomic<bool>& given_up) {
   Cells reached(set.size(), 0);
   std::vector<int> open;
   const auto take = [&](int cell) {
@@ -84,7 +84,7 @@ Cells component(const Cells& set, int width, int first) {
     open.push_back(cell);
   };
   if (first >= 0) take(first);
-  while (!open.empty()) {
+  while (!open.empty() && !given_up) {
     const int cell = open.back();
     open.pop_back();
     for (int next : {cell - 1, cell + 1, cell - width, cell + width}) take(next);
@@ -95,16 +95,17 @@ Cells component(const Cells& set, int width, int first) {
 }  // namespace
 
 std::vector<unsigned char> visibleCells(const World& world, const Eigen::Vector2d& start,
-                                        double radius, double max_range) {
-  const Cells free = standable(world, radius);
+                                        double radius, double max_range,
+                                        const std::atomic<bool>& given_up) {
+  const Cells free = standable(world, radius, given_up);
   const Cells reach =
-      component(free, world.width(), nearestCell(free, world, world.toCells(start)));
+      component(free, world.width(), nearestCell(free, world, world.toCells(start)), given_up);
   Cells visible(free.size(), 0);
   const int step = std::max(1, static_cast<int>(std::lround(kSpacing / world.resolution())));
   int places = 0;
   for (int iy = 0; iy < world.height(); iy += step) {
     for (int ix = 0; ix < world.width(); ix += step) {
-      if (!reach[iy * world.width() + ix]) continue;
+      if (!reach[iy * world.width() + ix] || given_up) continue;
       const Eigen::Vector2d p =
           world.origin() + world.resolution() * Eigen::Vector2d(ix + 0.5, iy + 0.5);
       const double turn = std::fmod(kGolden * places++, 1.0) * 2.0 * M_PI / (kBeams - 1);
@@ -120,10 +121,18 @@ Coverage::Coverage(const World& world, const Eigen::Vector2d& start, double radi
     : world_(world),
       max_range_(max_range),
       pending_(std::async(std::launch::async,
-                          [&world, start, radius, max_range] {
-                            return visibleCells(world, start, radius, max_range);
+                          [this, start, radius] {
+                            return visibleCells(world_, start, radius, max_range_, given_up_);
                           })),
       seen_(world.obstacles().size(), 0) {}
+
+Coverage::~Coverage() { giveUp(); }
+
+void Coverage::giveUp() {
+  if (sofar()) return;
+  given_up_ = true;
+  pending_ = {};  // waits for the thread, which looks at the word every few milliseconds
+}
 
 void Coverage::look(const Pose2& T_map_sensor) {
   lookAround(world_, T_map_sensor, max_range_, [this](int cell) {
@@ -142,6 +151,7 @@ void Coverage::learnVisible() {
 
 std::vector<double> Coverage::curve() {
   learnVisible();
+  if (given_up_) return {};
   std::vector<double> shares;
   std::size_t seen = 0, next = 0;
   for (std::size_t up_to : seen_at_look_) {
@@ -152,6 +162,7 @@ std::vector<double> Coverage::curve() {
 }
 
 std::optional<double> Coverage::sofar() {
+  if (given_up_) return {};
   if (pending_.valid()) {
     if (pending_.wait_for(std::chrono::seconds(0)) != std::future_status::ready) return {};
     learnVisible();

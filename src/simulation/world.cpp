@@ -27,6 +27,11 @@ World::World(std::string world_name, int width, int height,
   }
 }
 
+void World::seeFrom(const Eigen::Vector2d& p_frame) {
+  origin_ -= p_frame;
+  if (start) start = Pose2{start->x - p_frame.x(), start->y - p_frame.y(), start->theta};
+}
+
 double World::clearance(const Eigen::Vector2d& p_map, double limit) const {
   const Eigen::Vector2d p = toCells(p_map);
   // Asked so that what is no number is not inside, and no huge one becomes a cell's.

@@ -52,7 +52,7 @@ mrpt::img::CImage loadImage(const YamlNode& file, const std::string& yaml_path) 
 Eigen::Vector2d readOrigin(const YamlNode& file) {
   const auto origin = file.numbers("origin", 3);
   for (double value : origin) {
-    if (std::abs(value) > 1e6) file.fail("origin", "is out of range, allowed is -1e6 to 1e6");
+    if (std::abs(value) > 1e7) file.fail("origin", "is out of range, allowed is -1e7 to 1e7");
   }
   if (origin[2] != 0.0) file.fail("origin", "a turned map is not supported, yaw must be 0");
   return {origin[0], origin[1]};

@@ -93,6 +93,9 @@ YamlNode YamlNode::load(const std::string& path) {
   std::ifstream file(path);
   const std::string text{std::istreambuf_iterator<char>(file), {}};
   if (!file) throw std::runtime_error(path + ": cannot be read");
+  if (text.find('\0') != std::string::npos) {
+    throw std::runtime_error(path + ": is no text ('cca-mrpt info' tells whether it is a log)");
+  }
   // MRPT's YAML library hangs on a malformed directive, and these files need none.
   if (text.rfind('%', 0) == 0 || text.find("\n%") != std::string::npos ||
       text.find("\r%") != std::string::npos) {
@@ -135,6 +138,7 @@ std::vector<std::string> YamlNode::keys() const {
 const YamlNode::Node& YamlNode::at(const std::string& key) const {
   const Node* value = find(key);
   if (!value) fail(key, "is missing");
+  if (value->isNullNode()) fail(key, "has no value");
   return *value;
 }
 

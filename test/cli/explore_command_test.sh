@@ -58,7 +58,7 @@ expect_error 1 "outside the world" explore "$maps/two_rooms.yaml" --start=-5,1,0
 expect_error 1 "outside the world" explore "$maps/two_rooms.yaml" --start=1e6,1,0 --out d
 expect_error 1 "nothing beyond the robot's radius" explore "$maps/two_rooms.yaml" --laser-range 0.2 --out d
 expect_error 2 "start" explore "$maps/two_rooms.yaml" --start=nan,1,0 --out d
-expect_error 2 "beams" explore "$maps/two_rooms.yaml" --laser.beams 1 --laser.caster mrpt --out d
+expect_error 2 "beams" explore "$maps/two_rooms.yaml" --laser.beams 1 --out d
 expect_error 2 "explroe is no command" explroe "$maps/two_rooms.yaml"
 expect_error 2 "strategy" explore "$maps/two_rooms.yaml" --strategy clairvoyance --out d
 expect_error 2 "laser-range" explore "$maps/two_rooms.yaml" --laser-range -3 --out d
@@ -92,6 +92,52 @@ wait $!
 [ $? -eq 1 ] || fail "an interrupted run did not end with status 1"
 grep -q '"finished": false' e/summary.json || fail "an interrupted run left no summary"
 grep -q interrupted e.txt || fail "an interrupted run did not tell so: $(cat e.txt)"
+
+# So it does in a hall whose true coverage takes minutes to work out, and at once.
+{ printf 'P5\n2400 2400\n255\n'; head -c 5760000 /dev/zero | tr '\0' '\376'; } >hall.pgm
+printf 'image: hall.pgm\nresolution: 0.05\norigin: [0, 0, 0]\noccupied_thresh: 0.65\nfree_thresh: 0.196\nstart: [60, 60, 0]\n' >hall.yaml
+"$program" explore hall.yaml --laser-range 30 --out hall >/dev/null 2>hall.txt &
+while [ -z "$(ls -A hall 2>/dev/null)" ] && kill -0 $!; do sleep 0.1; done
+sleep 1
+begin=$SECONDS
+kill -TERM $!
+wait $!
+[ $? -eq 1 ] || fail "an interrupted run in a hall did not end with status 1"
+[ $((SECONDS - begin)) -le 20 ] || fail "an interrupted run in a hall took $((SECONDS - begin)) s to be saved"
+grep -q '"coverage": null' hall/summary.json && [ -s hall/lines.csv ] || fail "the hall's map was not saved"
+
+# Far from the origin all is as it is near it: the same run, with other numbers.
+for far in 4000 10000000; do
+  sed "s/^origin:.*/origin: [$far, -$far, 0.0]/; s/^image: */&/" "$maps/two_rooms.yaml" >two_rooms.yaml
+  cp "$maps/two_rooms.png" .
+  start=$(awk -F'[][, ]+' '/^start:/ {printf "%.3f,%.3f,%g", $2 + f, $3 - f, $4}' f=$far "$maps/two_rooms.yaml")
+  sed -i '/^start:/d' two_rooms.yaml
+  "$program" explore two_rooms.yaml --seed 7 ${start:+--start="$start"} --out far_$far --quiet || fail "origin $far: status $?"
+  grep -q '"finished": true' far_$far/summary.json || fail "origin $far: not finished"
+  python3 - a/lines.csv far_$far/lines.csv $far <<'END' || fail "origin $far: other lines"
+import csv, sys
+near, far = ([[float(r[k]) for k in ("x1", "y1", "x2", "y2")] for r in csv.DictReader(open(p))] for p in sys.argv[1:3])
+shift = float(sys.argv[3])
+assert len(near) == len(far) > 5, (len(near), len(far))
+for a, b in zip(near, far):
+    moved = (b[0] - shift, b[1] + shift, b[2] - shift, b[3] + shift)
+    assert max(abs(p - q) for p, q in zip(a, moved)) < 0.02, (a, moved)
+END
+done
+
+# One of ours by its name; what is too little to explore with; who it was.
+"$program" explore two_rooms --seed 7 --out named --quiet || fail "a world by its name: status $?"
+cmp named/lines.csv a/lines.csv || fail "a world by its name is another"
+expect_error 2 "a beam every 5 deg" explore two_rooms --laser.beams 2 --out d
+expect_error 2 "60 deg at least" explore two_rooms --laser.field_of_view_deg 1 --out d
+case "$("$program" --version)" in "cca-mrpt "[0-9]*.[0-9]*.[0-9]*) ;; *) fail "--version" ;; esac
+python3 - <<'END' || fail "summary.json does not tell how the run was made"
+import json
+s = json.load(open("named/summary.json"))
+p = s["parameters"]
+assert s["program"].startswith("cca-mrpt ") and p["run"]["seed"] == 7 and p["run"]["pose"] == "truth"
+assert p["exploration"]["strategy"] == "view_tour" and p["laser"]["beams"] == 361 and p["robot"]["radius"] > 0
+END
 
 # generate-world gives the shipped bytes, and overwrites nothing unasked.
 "$program" generate-world maze --out worlds >/dev/null || fail "generate-world"

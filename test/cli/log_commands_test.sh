@@ -50,7 +50,7 @@ check "info reads a log" "$program" info room.log
 grep -q '^scans *40$' last.out || { echo "FAILED: info does not count 40 scans"; failed=1; }
 check "info as JSON" "$program" info --json room.log.gz
 cp last.out info.json
-check "its JSON is valid" python3 -c 'import json; assert json.load(open("info.json"))["scans"] == 40'
+check "its JSON is valid" python3 -c 'import json; i = json.load(open("info.json")); assert i["scans"] == 40 and i["warnings"] == []'
 
 check "map makes a map" "$program" map room.log.gz --out map
 for file in lines.csv lines.geojson lines.svg lines.dxf map.png map.pgm map.yaml map.gridmap.gz \
@@ -93,6 +93,9 @@ refuses 1 "holds no true poses" "$program" map room.log --pose truth --out truth
 refuses 2 "pose" "$program" map room.log --pose gps --out gps
 
 check "extract writes segments" "$program" extract room.log --out lines.csv
+refuses 1 "is there already" "$program" extract room.log --out lines.csv
+check "extract overwrites where it may" "$program" extract room.log --out lines.csv --force
+refuses 1 "lines of single scans" "$program" evaluate lines.csv --log room.log
 head -1 lines.csv | grep -q '^scan_id,x1,y1,x2,y2' || { echo "FAILED: header of extract"; failed=1; }
 
 check "render draws a map over its scans" "$program" render map/lines.csv --log room.log --out a.png --size 500
@@ -166,6 +169,40 @@ check "content counts, not the name" "$program" info misnamed.rawlog
 refuses 2 "LOG" "$program" info
 refuses 1 "cannot be made a folder" "$program" map room.log --out room.log
 [ ! -e letter ] || { echo "FAILED: a folder was made for a log that is none"; failed=1; }
+
+# A log far from the origin gives the same map there, picture and grid and all.
+awk '/^FLASER/ { for (f = 184; f <= 187; f += 3) { $f = sprintf("%.3f", $f + 1e7); $(f + 1) = "4000000" } } { print }' \
+  room.log >utm.log
+check "a log at UTM's coordinates" "$program" map utm.log --out utm --quiet
+check "gives the same map" python3 - <<'END'
+import csv
+near, far = ([[float(r[k]) for k in ("x1", "y1", "x2", "y2")] for r in csv.DictReader(open(p + "/lines.csv"))] for p in ("map", "utm"))
+assert len(near) == len(far) == 3
+for a, b in zip(near, far):
+    assert max(abs(a[k] - (b[k] - (4e6 if k % 2 else 1e7))) for k in range(4)) < 1e-3, (a, b)
+assert open("map/map.pgm", "rb").read() == open("utm/map.pgm", "rb").read()
+END
+check "render draws it there" "$program" render utm/lines.csv --out utm.png --size 300
+check "and near" "$program" render map/lines.csv --out near.png --size 300
+check "one pose gone astray" sh -c 'awk "/^FLASER/ && ++n == 3 { \$184 = \"1e7\" } { print }" room.log | head -n 21 >stray.log'
+check "costs no map" "$program" map stray.log --out stray
+grep -q "1 scan(s) far from all others" last.err || { echo "FAILED: the stray scan is not told"; cat last.err; failed=1; }
+check "nor the length of the way" python3 -c 'import json; assert json.load(open("stray/summary.json"))["distance_m"] < 10'
+
+# What is left of a run that was killed goes with the next one.
+touch map/.map.part-999999999-0.png
+check "map over a killed one" "$program" map room.log --out map --force --quiet
+[ ! -e map/.map.part-999999999-0.png ] || { echo "FAILED: a killed run's file is still there"; failed=1; }
+
+# Names that lead nowhere.
+ln -s loop loop
+refuses 1 "loop: cannot be made a folder" "$program" map room.log --out loop
+refuses 1 "loop" "$program" map loop --out d
+refuses 1 "empty name" "$program" map room.log --out ""
+refuses 1 "empty name" "$program" extract room.log --out ""
+refuses 1 "is no text" "$program" explore room.log.gz --out d
+printf 'image: a.png\nresolution:\norigin: [0, 0, 0]\n' >half.yaml
+refuses 1 "resolution: has no value" "$program" explore half.yaml --out d
 
 # Ctrl-C while the log is opened leaves nothing; while it is mapped, what there is. Four hundred
 # rooms in a row keep the program busy long enough for both.

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <mrpt/img/CImage.h>
 #include <mrpt/opengl/COpenGLScene.h>
+#include <unistd.h>
 
 #include <cmath>
 #include <filesystem>
@@ -187,6 +188,17 @@ TEST(MapFolder, FailedWriteLeavesTheOldFile) {
   }
   EXPECT_EQ(read(folder / "a.txt"), "old");
   EXPECT_EQ(std::distance(fs::directory_iterator(folder.path()), {}), 1);
+}
+
+TEST(MapFolder, IsClearedOfWhatAKilledRunHasLeft) {
+  const TemporaryFolder folder;
+  const std::string mine = ".map.part-" + std::to_string(getpid()) + "-3.png";
+  for (const std::string& name : {std::string(".map.part-999999999-0.png"), mine}) {
+    std::ofstream(folder / name) << "half";
+  }
+  static_cast<void>(prepareMapFolder(folder.path(), false));
+  EXPECT_FALSE(fs::exists(folder / ".map.part-999999999-0.png"));
+  EXPECT_TRUE(fs::exists(folder / mine));  // its program lives
 }
 
 TEST(MapFolder, IsOneRunsAtATime) {

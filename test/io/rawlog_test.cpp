@@ -4,7 +4,10 @@
 #include <mrpt/io/CFileGZOutputStream.h>
 #include <mrpt/io/CMemoryStream.h>
 #include <mrpt/maps/CSimpleMap.h>
+#include <mrpt/obs/CActionCollection.h>
+#include <mrpt/obs/CActionRobotMovement2D.h>
 #include <mrpt/obs/CObservationOdometry.h>
+#include <mrpt/obs/CSensoryFrame.h>
 #include <mrpt/poses/CPose3DPDFGaussian.h>
 #include <mrpt/serialization/CArchive.h>
 #include <sys/resource.h>
@@ -217,6 +220,41 @@ TEST(Rawlog, AnObjectThatClaimsGigabytesIsRefusedBeforeItTakesThem) {
   rusage used{};
   getrusage(RUSAGE_SELF, &used);
   EXPECT_LT(used.ru_maxrss, 400'000);  // kB
+}
+
+/// A log of pairs of movement and scan, the second of which has one byte that MRPT trusts in vain.
+TEST(Rawlog, OneWrongByteThatEndsItsReaderEndsTheLogOnly) {
+  mrpt::io::CMemoryStream stream;
+  auto archive = mrpt::serialization::archiveFrom(stream);
+  for (int k = 0; k < 2; ++k) {
+    mrpt::obs::CActionRobotMovement2D wheels;
+    wheels.estimationMethod = mrpt::obs::CActionRobotMovement2D::emOdometry;
+    wheels.rawOdometryIncrementReading = mrpt::poses::CPose2D(0.123456789, 0.0, 0.0);
+    mrpt::obs::CActionCollection actions;
+    actions.insert(wheels);
+    mrpt::obs::CSensoryFrame frame;
+    frame.insert(
+        std::make_shared<mrpt::obs::CObservation2DRangeScan>(toMrpt(someScan(), {}, kMaxRange)));
+    archive << actions << frame;
+  }
+  const std::string bytes(static_cast<const char*>(stream.getRawBufferData()),
+                          stream.getTotalBytesCount());
+  const std::string name = "CActionRobotMovement2D";
+  const std::size_t second = bytes.find(name, bytes.find(name) + 1) + name.size();
+  const TemporaryFolder folder;
+  // Whatever byte of the movement's head is wrong, the scans before it are there.
+  for (std::size_t at = second; at < second + 24; ++at) {
+    for (const char wrong : {'\x07', '\x7f', '\xff'}) {
+      std::string damaged = bytes;
+      damaged[at] = wrong;
+      const std::string path = folder / "damaged.rawlog";
+      std::ofstream(path, std::ios::binary) << damaged;
+      const auto log = openLog(path);
+      EXPECT_TRUE(log->next().has_value()) << at;
+      while (log->next()) {
+      }
+    }
+  }
 }
 
 TEST(SimpleMap, GivesStoredPosesAsCorrected) {

@@ -29,6 +29,9 @@ class AtomicFile {
   std::string path_, target_, temporary_;
 };
 
+/// Removes what AtomicFiles have left in a folder whose program was killed.
+void removeLeftovers(const std::string& folder);
+
 /// Makes a folder, and those that it lies in; one that is there stays as it is. @throws
 /// std::runtime_error naming the folder and the reason.
 void makeFolder(const std::string& path);

@@ -30,9 +30,9 @@ void writePicture(const std::string& png_path, const MapProducts& products,
                   const PictureOptions& options = {});
 
 /// What writePicture() shows where no view is given: all lines and the trajectory, where there are
-/// no lines the known part of the grid, and a margin. What lies beyond a gap of 200 m with less
-/// than a twentieth of the poses (of the lines' length, where there is no trajectory) is left out,
-/// for one wild pose would shrink the rest to a dot.
+/// no lines the known part of the grid, and a margin. What has gone astray (findStrays(), by the
+/// poses, or by the lines' length where there is no trajectory) is left out, for one wild pose
+/// would shrink the rest to a dot.
 Eigen::AlignedBox2d wholeView(const MapProducts& products);
 
 }  // namespace cca

@@ -14,7 +14,8 @@
 
 namespace cca {
 
-/// What a run brings home: all that the files of a map's folder are made from.
+/// What a run brings home: all that the files of a map's folder are made from. It stands in a frame
+/// of its own, for the grid could not be far from (0, 0); the files are written in the map frame.
 struct MapProducts {
   std::string title;  ///< for people: the log's or the world's name
   std::vector<MapLine> lines;
@@ -22,17 +23,23 @@ struct MapProducts {
   std::vector<Pose2> trajectory;  ///< T_map_robot, in order of time; may be empty
   /// Occupancy of the same place (see ScanGrid); null: no map.pgm, no background in the picture.
   std::shared_ptr<const mrpt::maps::COccupancyGridMap2D> grid;
+  /// m, map frame: where the frame of all this lies, see localOrigin().
+  Eigen::Vector2d origin = Eigen::Vector2d::Zero();
   /// Goes into summary.json, in this order, followed by the map's own numbers.
   nlohmann::ordered_json summary = nlohmann::ordered_json::object();
 };
 
 /// Writes a map's folder: lines.csv, lines.geojson, lines.svg, lines.dxf, map.png, map.pgm and
 /// map.yaml, map.gridmap.gz, map.linemap.gz, scene.3Dscene, summary.json (last: where it is, all is
-/// there).
+/// there). MRPT's own grid and scene hold single-precision numbers and stay in the products' frame;
+/// where that is not the map frame, summary.json has its place as `frame_origin_m`.
 ///
 /// The folder is made where it is missing. Each file appears whole or not at all.
 /// @throws std::runtime_error naming the file and the reason.
 void writeMapFolder(const std::string& folder, const MapProducts& products);
+
+/// The same map, seen from a frame that lies at p_frame in its own. The grid stays where it is.
+MapProducts seenFrom(const Eigen::Vector2d& p_frame, MapProducts products);
 
 /// Takes back what says that all is there, before the first of the files is replaced.
 void withdrawSummary(const std::string& folder);

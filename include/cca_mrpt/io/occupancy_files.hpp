@@ -3,6 +3,8 @@
 
 #include <mrpt/maps/COccupancyGridMap2D.h>
 
+#include <Eigen/Core>
+#include <memory>
 #include <string>
 
 namespace cca {
@@ -10,9 +12,16 @@ namespace cca {
 /// Writes NAME.pgm and NAME.yaml in map_server's trinary format: occupied 0, free 254, unknown 205;
 /// rows from the top, origin at the lower left corner. NAME is a path without extension.
 /// MRPT's loadFromROSMapServerYAML() and ROS's map_server read them.
+/// @param p_frame  m, map frame: where the grid's frame lies.
 /// @throws std::runtime_error naming the file and the reason.
 void writeOccupancyMap(const std::string& path_without_extension,
-                       const mrpt::maps::COccupancyGridMap2D& grid);
+                       const mrpt::maps::COccupancyGridMap2D& grid,
+                       const Eigen::Vector2d& p_frame = Eigen::Vector2d::Zero());
+
+/// Reads what writeOccupancyMap() wrote, as it looks from a frame that lies at p_frame.
+/// @return  null where it cannot be read.
+std::shared_ptr<mrpt::maps::COccupancyGridMap2D> readOccupancyMap(const std::string& yaml_path,
+                                                                  const Eigen::Vector2d& p_frame);
 
 /// Writes MRPT's own file of the grid (.gridmap.gz), with full probabilities.
 /// @throws std::runtime_error naming the file and the reason.

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
@@ -61,6 +62,11 @@ std::vector<ParameterField> listParameters(Parameters& p);
 ///         cannot be read, a line that is none of an .ini file, an unknown section or key, a key
 ///         given twice, or a bad value. p is then unchanged.
 void loadParameters(const std::string& ini_path, Parameters& p);
+
+/// Some sections' parameters, {section: {name: value}}, numbers and flags as such: for
+/// summary.json.
+nlohmann::ordered_json parametersJson(const Parameters& p,
+                                      const std::vector<std::string>& sections);
 
 /// An .ini text with every key at its present value, its unit, range and meaning as comments;
 /// loadParameters() reads it back.

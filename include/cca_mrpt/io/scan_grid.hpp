@@ -9,10 +9,12 @@
 
 namespace cca {
 
-/// The occupancy grid that accompanies a line map: scans in MRPT's grid at 5 cm.
+/// The occupancy grid that accompanies a line map: scans in MRPT's grid at 5 cm, from 5 m around
+/// where they begin on. Of no use farther than some kilometres from (0, 0): it is kept in floats.
 class ScanGrid {
  public:
-  ScanGrid();
+  /// @param p_begin  m: about where the scans begin; within 10 000 km, see localOrigin().
+  explicit ScanGrid(const Eigen::Vector2d& p_begin = Eigen::Vector2d::Zero());
 
   /// Takes a scan at its T_map_sensor. Beams without return free the space up to the scan's
   /// free_range_without_return, none where that is 0.

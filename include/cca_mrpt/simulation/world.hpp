@@ -45,6 +45,8 @@ class World {
   Eigen::Vector2d toCells(const Eigen::Vector2d& p_map) const {
     return (p_map - origin_) / resolution_;
   }
+  /// The same world, seen from a frame that lies at p_frame: origin and start move.
+  void seeFrom(const Eigen::Vector2d& p_frame);
   /// @param limit  m; obstacles farther away than this are not looked for.
   /// @return       m, distance from a point to the nearest obstacle cell, 0 inside one and beyond
   ///               the grid, at most limit. Cost: cells within the limit.
