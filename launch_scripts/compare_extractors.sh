@@ -1,10 +1,10 @@
 #!/usr/bin/env bash
-# Regenerates docs/comparison.md: compare_extractors.sh [LOG...]
+# Regenerates docs/comparison.md and its tables in docs/log/: compare_extractors.sh [LOG...]
 # Without logs: the one that mrpt-common installs, and CARMEN logs in $CCA_SHARED_DATA/logs.
 set -eu
 cd "$(dirname "$0")/.."
 ./launch_scripts/install_dependencies.sh --tests
-program=$(launch_scripts/build_program.sh)
+program=$(launch_scripts/build_program.sh --evidence)
 
 worlds=()
 for truth in maps/*.truth.csv; do worlds+=("${truth%.truth.csv}.yaml"); done
@@ -20,4 +20,5 @@ out=$(mktemp -d)
 trap 'rm -rf "$out"' EXIT
 "$program" compare-extractors "${worlds[@]}" ${logs[@]+"${logs[@]}"} --scans 20 --polygons 60 \
   --noise 0,0.01,0.03,0.1 --out "$out"
-/usr/bin/python3 launch_scripts/comparison_report.py "$out" docs/comparison.md docs/images
+/usr/bin/python3 launch_scripts/comparison_report.py "$out" docs/comparison.md \
+  docs/log/comparison_tables.md docs/images

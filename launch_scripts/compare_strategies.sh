@@ -8,7 +8,7 @@
 # Without worlds: those of maps/, and five random ones.
 set -eu
 cd "$(dirname "$0")/.."
-program=$(launch_scripts/build_program.sh)
+program=$(launch_scripts/build_program.sh --evidence)
 out=${OUT:-out/strategies}
 worlds=()
 while [ $# -gt 0 ] && [[ $1 == *.yaml ]]; do

@@ -2,10 +2,11 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Tables and plots of `cca-mrpt compare-extractors`.
 
-usage: comparison_report.py DIR DOCUMENT.md IMAGES
+usage: comparison_report.py DIR DOCUMENT.md TABLES.md IMAGES
 
-Reads DIR/comparison.csv, draws IMAGES/comparison_*.png, and puts the tables between the lines
-`<!-- begin NAME -->` and `<!-- end NAME -->` of the document.
+Reads DIR/comparison.csv, draws IMAGES/comparison_*.png, and puts verdicts, losses and
+tables between the lines `<!-- begin NAME -->` and `<!-- end NAME -->` of the document and of the page of
+tables.
 """
 import collections
 import csv
@@ -178,9 +179,9 @@ def replace(document, name, lines):
 
 
 def main():
-    if len(sys.argv) != 4:
+    if len(sys.argv) != 5:
         raise SystemExit(__doc__)
-    folder, document, images = sys.argv[1:]
+    folder, document, all_tables, images = sys.argv[1:]
     results, scans = read(os.path.join(folder, "comparison.csv"))
     os.makedirs(images, exist_ok=True)
     forest(results, scans, os.path.join(images, "comparison_ranks.png"))
@@ -189,7 +190,7 @@ def main():
     tables = []
     for group, table in results.items():
         tables += ["", "### " + title(group, scans[group]), ""] + markdown(table)
-    replace(document, "tables", tables)
+    replace(all_tables, "tables", tables)
     paired = [line for g, table in results.items() for line in verdicts(g, table, scans[g])]
     replace(document, "verdicts", ["", "| scans | figure | better than CCA | level | worse |",
                                    "|---|---|---|---|---|"] + paired)

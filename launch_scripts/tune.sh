@@ -4,7 +4,7 @@
 set -eu
 cd "$(dirname "$0")/.."
 ./launch_scripts/install_dependencies.sh --tests
-program=$(launch_scripts/build_program.sh)
+program=$(launch_scripts/build_program.sh --evidence)
 mkdir -p out
 worlds=()
 for truth in maps/*.truth.csv; do worlds+=("${truth%.truth.csv}.yaml"); done

@@ -10,6 +10,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <sstream>
 #include <stdexcept>
 
 namespace cca {
@@ -49,6 +50,22 @@ std::string joined(const std::vector<std::string>& words) {
   std::string all;
   for (const auto& word : words) all += (all.empty() ? "" : ", ") + word;
   return all;
+}
+
+/// The first key of a YAML text that neither its line nor a deeper one gives a value; empty: none.
+std::string keyWithoutValue(const std::string& text) {
+  std::istringstream lines(text);
+  std::string key;
+  std::size_t indent = 0;
+  for (std::string line; std::getline(lines, line);) {
+    const std::size_t begin = line.find_first_not_of(" \t\r");
+    if (begin == std::string::npos || line[begin] == '#') continue;
+    if (!key.empty() && begin <= indent && line[begin] != '-') return key;
+    const std::size_t last = line.find_last_not_of(" \t\r");
+    key = line[last] == ':' ? line.substr(begin, last - begin) : "";
+    indent = begin;
+  }
+  return key;
 }
 
 /// Whether nothing but one colon, white space and comments stands from the end of a key to the
@@ -107,7 +124,9 @@ YamlNode YamlNode::load(const std::string& path) {
   try {
     node.loadFromText(text);
   } catch (const std::exception&) {
-    throw std::runtime_error(path + ": is not valid YAML");
+    const std::string key = keyWithoutValue(text);
+    throw std::runtime_error(path + (key.empty() ? "" : ": " + key) +
+                             (key.empty() ? ": is not valid YAML" : ": has no value"));
   }
   if (node.isNullNode() || !node.isMap()) {
     throw std::runtime_error(path + ": holds no 'key: value' lines");
@@ -138,7 +157,6 @@ std::vector<std::string> YamlNode::keys() const {
 const YamlNode::Node& YamlNode::at(const std::string& key) const {
   const Node* value = find(key);
   if (!value) fail(key, "is missing");
-  if (value->isNullNode()) fail(key, "has no value");
   return *value;
 }
 
