@@ -43,7 +43,7 @@ mrpt::serialization::CSerializable::Ptr MrptObjects::next() {
     // MRPT's word for the end of the file, in the middle of an object too.
     if (!file_.checkEOF()) fault_ = "the compressed file is damaged";
   } catch (const std::bad_alloc&) {
-    throw;
+    fault_ = "unreadable from there on: an object claims more than a file of this size can hold";
   } catch (const std::exception& error) {
     fault_ = "unreadable from there on: " + shortReason(error.what());
   }

@@ -17,7 +17,7 @@ class MrptObjects {
   /// @throws std::runtime_error naming the file.
   explicit MrptObjects(const std::string& path);
 
-  /// The next object; null at the end of what can be read. @throws std::bad_alloc.
+  /// The next object; null at the end of what can be read.
   mrpt::serialization::CSerializable::Ptr next();
 
   /// Why reading stopped before the end of the file; empty where it did not.

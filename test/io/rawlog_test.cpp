@@ -188,11 +188,15 @@ TEST(Rawlog, TruncatedLogGivesWhatCouldBeRead) {
   EXPECT_NE(log->warnings(), "");
 }
 
-/// Two scans as a rawlog, the second of which claims another number of beams than it has.
+/// A scan, where the wheels were, and a scan as a rawlog; the second scan claims another number of
+/// beams than it has.
 std::string logThatClaims(std::uint32_t beams) {
   mrpt::io::CMemoryStream stream;
   auto archive = mrpt::serialization::archiveFrom(stream);
   archive << toMrpt(someScan(), {}, kMaxRange);
+  mrpt::obs::CObservationOdometry wheels;
+  wheels.timestamp = mrpt::Clock::fromDouble(1.0);
+  archive << wheels;
   const std::size_t second = stream.getTotalBytesCount();
   archive << toMrpt(someScan(), {}, kMaxRange);
   std::string bytes(static_cast<const char*>(stream.getRawBufferData()),
