@@ -68,6 +68,7 @@ fuzzers() {
 part dependencies ./launch_scripts/install_dependencies.sh --tests
 part layers test/checks/layers.sh
 part format test/checks/format.sh
+part pages test/checks/pages.sh
 part build release
 if [ $all = ON ]; then
   part tests tests
