@@ -14,6 +14,7 @@
 #include "cca_mrpt/io/stray_places.hpp"
 #include "cca_mrpt/io/trajectory_error.hpp"
 #include "cca_mrpt/mapping/line_map.hpp"
+#include "cca_mrpt/slam/slam.hpp"
 #include "commands.hpp"
 #include "interruption.hpp"
 #include "log_warnings.hpp"
@@ -24,7 +25,7 @@ namespace cca::apps {
 namespace {
 
 struct MapOptions {
-  std::string log, out, pose = "log";
+  std::string log, out, pose;  // no pose source named: see chosenPoses()
   bool force = false, quiet = false;
 };
 
@@ -34,6 +35,9 @@ struct MappedLog {
   ScanGrid grid;
   Eigen::Vector2d origin;  ///< m, of the frame that all this stands in
   std::vector<Pose2> trajectory = {};
+  std::vector<double> times = {};  ///< s, of each scan
+  PoseGraph graph = {};            ///< of SLAM
+  std::size_t loops = 0;           ///< of SLAM
   std::vector<Pose2> judged = {},
                      reference = {};  ///< poses for which a reference is known, and these
   std::size_t beams = 0;
@@ -47,6 +51,7 @@ void insert(MappedLog& mapped, LogRecord record, const Pose2& T_map_robot) {
   mapped.grid.insert(record.scan);
   mapped.beams += record.scan.size();
   mapped.trajectory.push_back(T_map_robot);
+  mapped.times.push_back(record.has_time ? record.time : 0.0);
   if (const auto reference = referencePose(record)) {
     mapped.judged.push_back(T_map_robot);
     mapped.reference.push_back(*reference);
@@ -69,10 +74,9 @@ std::string straysTold(const MappedLog& mapped) {
   return text;
 }
 
-MappedLog mapLog(const MapOptions& options, LocalLog& log, const Parameters& parameters,
-                 const Interruption& interruption) try {
-  PoseSource poses(poseKind(options.pose), parameters.icp);
-  MappedLog mapped{LineMap(parameters.mapping), ScanGrid(log.start()), log.origin()};
+/// @return  what had to be done without.
+std::string locateScanByScan(LocalLog& log, PoseSource poses, MappedLog& mapped,
+                             const Interruption& interruption) {
   Progress progress("map");
   while (auto record = log.next()) {
     const Pose2 T_map_robot = poses.locate(*record);
@@ -81,8 +85,55 @@ MappedLog mapLog(const MapOptions& options, LocalLog& log, const Parameters& par
     mapped.interrupted = interruption.requested();
     if (mapped.interrupted) break;
   }
+  return poses.warnings();
+}
+
+/// Line SLAM: the whole log is gone through before the first line is drawn. It begins where the log
+/// does, for then its errors can be told.
+/// @return  what had to be done without.
+std::string locateBySlam(LocalLog& log, MappedLog& mapped, const Interruption& interruption) {
+  std::vector<LogRecord> records;
+  std::optional<Slam> slam;
+  std::size_t without_odometry = 0;
+  Progress progress("locate");
+  while (auto record = log.next()) {
+    if (!slam) slam.emplace(referencePose(*record).value_or(logPose(*record)));
+    slam->step(record->scan, record->T_robot_sensor, record->odometry);
+    without_odometry += !record->odometry;
+    records.push_back(std::move(*record));
+    progress.show(log.progress(), std::to_string(records.size()) + " scans, " +
+                                      std::to_string(slam->loops().size()) + " loops closed");
+    mapped.interrupted = interruption.requested();
+    if (mapped.interrupted) break;
+  }
+  if (!slam) return "";
+  if (!mapped.interrupted) slam->finish();
+  const std::vector<Pose2> trajectory = slam->trajectory();
+  for (std::size_t k = 0; k < records.size(); ++k) {
+    insert(mapped, std::move(records[k]), trajectory[k]);
+  }
+  mapped.graph = slam->keyFrames().graph;
+  mapped.loops = slam->loops().size();
+  if (without_odometry == 0) return "";
+  return std::to_string(without_odometry) + " scan(s) without odometry, located by the laser alone";
+}
+
+/// Where nobody says where poses come from: the log's own where somebody corrected them, else SLAM.
+std::string chosenPoses(const std::string& log) {
+  const auto first = openLog(log)->next();
+  return first && first->corrected ? "log" : "slam";
+}
+
+MappedLog mapLog(const MapOptions& options, LocalLog& log, const Parameters& parameters,
+                 const Interruption& interruption) try {
+  MappedLog mapped{LineMap(parameters.mapping), ScanGrid(log.start()), log.origin()};
+  const PoseKind kind = poseKind(options.pose);
+  const std::string of_poses =
+      kind == PoseKind::kSlam
+          ? locateBySlam(log, mapped, interruption)
+          : locateScanByScan(log, PoseSource(kind, parameters.icp), mapped, interruption);
   mapped.map.finishBatch();
-  for (const std::string& warning : {log.warnings(), poses.warnings(), straysTold(mapped)}) {
+  for (const std::string& warning : {log.warnings(), of_poses, straysTold(mapped)}) {
     if (!mapped.warnings.empty() && !warning.empty()) mapped.warnings += "; ";
     mapped.warnings += warning;
   }
@@ -111,6 +162,8 @@ MapProducts products(const MapOptions& options, const Parameters& parameters,
   products.lines = mapped.map.lines();
   products.poly_lines = mapped.map.polyLines();
   products.trajectory = mapped.trajectory;
+  products.times = mapped.times;
+  products.graph = mapped.graph;
   products.grid = mapped.grid.grid();
   products.origin = mapped.origin;
   auto& summary = products.summary;
@@ -121,6 +174,10 @@ MapProducts products(const MapOptions& options, const Parameters& parameters,
   summary["scans"] = mapped.trajectory.size();
   summary["beams"] = mapped.beams;
   summary["distance_m"] = pathLength(mapped.trajectory);
+  if (mapped.graph.size() > 0) {
+    summary["key_frames"] = mapped.graph.size();
+    summary["loops"] = mapped.loops;
+  }
   if (!mapped.warnings.empty()) summary["warnings"] = mapped.warnings;
   std::vector<std::string> used{"mapping"};
   if (options.pose == "icp") used.push_back("icp");
@@ -150,7 +207,8 @@ void report(const MapOptions& options, const MapProducts& products, double secon
               options.out.c_str());
 }
 
-void makeMap(const MapOptions& options, const Parameters& parameters) {
+void makeMap(MapOptions options, const Parameters& parameters) {
+  if (options.pose.empty()) options.pose = chosenPoses(options.log);
   const auto begin = std::chrono::steady_clock::now();
   const Interruption interruption;
   LocalLog log(openLog(options.log));
@@ -188,9 +246,11 @@ void addMapCommand(CLI::App& program) {
   command->add_option("LOG", options->log, "MRPT .rawlog or .simplemap, CARMEN .log, ROS .bag")
       ->required();
   command->add_option("--out", options->out, "folder to write the map to")->required();
-  command->add_option("--pose", options->pose, "where the poses come from")
-      ->check(CLI::IsMember({"log", "odometry", "icp", "truth"}))
-      ->capture_default_str();
+  command
+      ->add_option("--pose", options->pose,
+                   "where the poses come from; by default the log's own where it holds corrected "
+                   "ones, else line SLAM")
+      ->check(CLI::IsMember({"log", "slam", "odometry", "icp", "truth"}));
   command->add_flag("--force", options->force, "overwrite a map that is there");
   command->add_flag("--quiet", options->quiet, "print nothing but errors");
   auto parameters =

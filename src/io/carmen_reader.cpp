@@ -167,7 +167,8 @@ class CarmenReader : public LogReader {
     record.scan.ranges = logged.ranges;
     for (double& range : record.scan.ranges) range = judged(range, logged.max_range);
     if (survey_.mounting_holds) record.T_robot_sensor = logged.robot.inverse() * logged.laser;
-    record.corrected = logged.laser * record.T_robot_sensor.inverse();
+    // Where the robot's pose is the laser's, the wheels have written both: nothing is corrected.
+    if (!survey_.mounting_holds) record.corrected = logged.laser * record.T_robot_sensor.inverse();
     if (survey_.rewritten) {
       if (survey_.has_odometry) record.odometry = chain_.pose();
       last_laser_ = logged.laser;

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "cca_mrpt/io/map_products.hpp"
 
+#include <algorithm>
 #include <filesystem>
 #include <stdexcept>
 #include <tuple>
+#include <vector>
 
 #include "cca_mrpt/io/atomic_file.hpp"
 #include "cca_mrpt/io/line_formats.hpp"
@@ -39,6 +41,15 @@ nlohmann::ordered_json summarize(const MapProducts& products) {
   return summary;
 }
 
+std::vector<StampedPose> stamped(const std::vector<double>& times,
+                                 const std::vector<Pose2>& trajectory) {
+  std::vector<StampedPose> poses;
+  for (std::size_t k = 0; k < std::min(times.size(), trajectory.size()); ++k) {
+    poses.push_back({times[k], trajectory[k]});
+  }
+  return poses;
+}
+
 }  // namespace
 
 FolderLock prepareMapFolder(const std::string& folder, bool overwrite) {
@@ -68,6 +79,9 @@ MapProducts seenFrom(const Eigen::Vector2d& p_frame, MapProducts products) {
     for (auto& vertex : chain.vertices) vertex -= p_frame;
   }
   for (Pose2& pose : products.trajectory) pose = seenFrom(p_frame, pose);
+  for (int k = 0; k < products.graph.size(); ++k) {
+    products.graph.place(k, seenFrom(p_frame, products.graph.pose(k)));
+  }
   return products;
 }
 
@@ -87,6 +101,12 @@ void writeMapFolder(const std::string& folder, const MapProducts& products) {
   }
   writePicture(inFolder(folder, "map.png"), products);
   writeScene(inFolder(folder, "scene.3Dscene"), products);
+  if (!map.times.empty()) {
+    const std::vector<StampedPose> poses = stamped(map.times, trajectory);
+    writeFile(inFolder(folder, "poses.csv"), posesCsv(poses));
+    writeFile(inFolder(folder, "poses.tum"), posesTum(poses));
+  }
+  if (map.graph.size() > 0) writeFile(inFolder(folder, "graph.g2o"), graphG2o(map.graph));
   writeFile(inFolder(folder, kSummary), summarize(products).dump(2, ' ', false, kReplace) + "\n");
 }
 

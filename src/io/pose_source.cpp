@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "cca_mrpt/io/pose_source.hpp"
 
+#include <cassert>
 #include <stdexcept>
 
 namespace cca {
@@ -11,18 +12,19 @@ Pose2 needed(const std::optional<Pose2>& pose, const char* what) {
   return *pose;
 }
 
+}  // namespace
+
 Pose2 logPose(const LogRecord& record) {
   return record.scan.T_map_sensor * record.T_robot_sensor.inverse();
 }
-
-}  // namespace
 
 PoseKind poseKind(const std::string& name) {
   if (name == "log") return PoseKind::kLog;
   if (name == "odometry") return PoseKind::kOdometry;
   if (name == "icp") return PoseKind::kIcp;
   if (name == "truth") return PoseKind::kTruth;
-  throw std::runtime_error("pose source '" + name + "': one of log, odometry, icp, truth");
+  if (name == "slam") return PoseKind::kSlam;
+  throw std::runtime_error("pose source '" + name + "': one of log, slam, odometry, icp, truth");
 }
 
 std::optional<Pose2> referencePose(const LogRecord& record) {
@@ -31,6 +33,7 @@ std::optional<Pose2> referencePose(const LogRecord& record) {
 
 Pose2 PoseSource::locate(const LogRecord& record) {
   if (kind_ == PoseKind::kLog) return logPose(record);
+  assert(kind_ != PoseKind::kSlam);
   if (kind_ == PoseKind::kTruth) return needed(record.truth, "true poses");
   // Errors can be told only where the first pose is the reference's.
   const Pose2 start = referencePose(record).value_or(logPose(record));

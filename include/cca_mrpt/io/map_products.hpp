@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "cca_mrpt/io/folder_lock.hpp"
+#include "cca_mrpt/io/pose_files.hpp"
 #include "cca_mrpt/mapping/line_map.hpp"
 #include "cca_mrpt/mapping/pose2.hpp"
 
@@ -25,14 +26,18 @@ struct MapProducts {
   std::shared_ptr<const mrpt::maps::COccupancyGridMap2D> grid;
   /// m, map frame: where the frame of all this lies, see localOrigin().
   Eigen::Vector2d origin = Eigen::Vector2d::Zero();
+  /// s, of each pose of the trajectory, for poses.csv and poses.tum; empty: no such files.
+  std::vector<double> times;
+  PoseGraph graph;  ///< for graph.g2o; empty: no such file
   /// Goes into summary.json, in this order, followed by the map's own numbers.
   nlohmann::ordered_json summary = nlohmann::ordered_json::object();
 };
 
 /// Writes a map's folder: lines.csv, lines.geojson, lines.svg, lines.dxf, map.png, map.pgm and
-/// map.yaml, map.gridmap.gz, map.linemap.gz, scene.3Dscene, summary.json (last: where it is, all is
-/// there). MRPT's own grid and scene hold single-precision numbers and stay in the products' frame;
-/// where that is not the map frame, summary.json has its place as `frame_origin_m`.
+/// map.yaml, map.gridmap.gz, map.linemap.gz, scene.3Dscene, poses.csv, poses.tum, graph.g2o,
+/// summary.json (last: where it is, all is there). MRPT's own grid and scene hold single-precision
+/// numbers and stay in the products' frame; where that is not the map frame, summary.json has its
+/// place as `frame_origin_m`.
 ///
 /// The folder is made where it is missing. Each file appears whole or not at all.
 /// @throws std::runtime_error naming the file and the reason.

@@ -16,14 +16,16 @@ enum class PoseKind {
   kOdometry,  ///< the wheels alone
   kIcp,       ///< MRPT's ICP-SLAM, started from the odometry
   kTruth,     ///< of a simulation
+  kSlam,      ///< line SLAM over the whole log (cca::Slam): no PoseSource gives it scan by scan
 };
 
-/// @throws std::runtime_error telling what is allowed: log, odometry, icp, truth.
+/// @throws std::runtime_error telling what is allowed: log, slam, odometry, icp, truth.
 PoseKind poseKind(const std::string& name);
 
 /// Gives every scan of a log its pose.
 class PoseSource {
  public:
+  /// @param kind  any but kSlam.
   explicit PoseSource(PoseKind kind, const IcpParameters& icp = {}) : kind_(kind), icp_(icp) {}
 
   /// @return  T_map_robot; odometry and ICP start where the log's own poses do. Where a scan has no
@@ -41,6 +43,9 @@ class PoseSource {
   std::optional<IcpLocalizer> localizer_;
   std::size_t unguided_ = 0;  ///< scans that ICP had no odometry for
 };
+
+/// T_map_robot of the scan as the log has it: corrected, else its odometry.
+Pose2 logPose(const LogRecord& record);
 
 /// The pose that a run can be judged by: the truth, else what a SLAM system had stored.
 std::optional<Pose2> referencePose(const LogRecord& record);
