@@ -4,6 +4,7 @@
 #include <ceres/ceres.h>
 
 #include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
 #include <Eigen/LU>
 #include <array>
 #include <cmath>
@@ -55,10 +56,13 @@ class EdgeError : public ceres::SizedCostFunction<3, 3, 3> {
 /// Where no information is, a pose is still no farther off than this.
 const Eigen::Vector3d kVague(1e-2, 1e-2, 1e-1);  // 1/m^2, 1/m^2, 1/rad^2
 
-Eigen::Matrix3d turned(const Eigen::Matrix3d& covariance, double angle) {
-  Eigen::Matrix3d R = Eigen::Matrix3d::Identity();
-  R.topLeftCorner<2, 2>() << std::cos(angle), -std::sin(angle), std::sin(angle), std::cos(angle);
-  return R * covariance * R.transpose();
+/// The covariance of an edge, the same in all directions, and so in all axes: (m^2, m^2, rad^2).
+Eigen::Vector3d spreadOf(const GraphEdge& edge) {
+  Eigen::Matrix3d information = edge.information;
+  information.diagonal() += kVague;
+  const Eigen::Matrix3d covariance = information.inverse();
+  const double across = 0.5 * covariance.topLeftCorner<2, 2>().trace();
+  return {across, across, covariance(2, 2)};
 }
 
 /// The kernel of loops: three deviations are ordinary.
@@ -75,6 +79,7 @@ int PoseGraph::add(const Pose2& T_map_node) {
 void PoseGraph::connect(const GraphEdge& edge) {
   const int number = static_cast<int>(edges_.size());
   edges_.push_back(edge);
+  spreads_.push_back(spreadOf(edge));
   edges_of_[static_cast<std::size_t>(edge.from)].push_back(number);
   edges_of_[static_cast<std::size_t>(edge.to)].push_back(number);
 }
@@ -92,28 +97,24 @@ std::vector<RelativeCovariance> PoseGraph::surroundings(int node, double most_si
   std::vector<bool> done(poses_.size(), false);
   std::priority_queue<Reached> open;
   open.push({0.0, node, Eigen::Matrix3d::Zero()});
-  const Pose2 T_node_map = pose(node).inverse();
+  const Eigen::Matrix2d to_node = Eigen::Rotation2Dd(-pose(node).theta).toRotationMatrix();
   while (!open.empty()) {
     const Reached here = open.top();
     open.pop();
     if (done[static_cast<std::size_t>(here.node)]) continue;
     done[static_cast<std::size_t>(here.node)] = true;
     found.push_back({here.node, here.covariance});
-    const Pose2 T_node_here = T_node_map * pose(here.node);
     for (const int number : edges_of_[static_cast<std::size_t>(here.node)]) {
       const GraphEdge& edge = edges_[static_cast<std::size_t>(number)];
       const int next = edge.from == here.node ? edge.to : edge.from;
       if (done[static_cast<std::size_t>(next)]) continue;
-      Eigen::Matrix3d information = edge.information;
-      information.diagonal() += kVague;
       // In the axes of the node that all is seen from; the arm turns heading errors into positions.
-      const Pose2 T_node_from = T_node_map * pose(edge.from);
-      const Eigen::Matrix3d step = turned(information.inverse(), T_node_from.theta);
-      const Pose2 T_node_next = T_node_map * pose(next);
+      const Eigen::Vector2d arm = to_node * (pose(next).position() - pose(here.node).position());
       Eigen::Matrix3d J = Eigen::Matrix3d::Identity();
-      J(0, 2) = -(T_node_next.y - T_node_here.y);
-      J(1, 2) = T_node_next.x - T_node_here.x;
-      const Eigen::Matrix3d covariance = J * here.covariance * J.transpose() + step;
+      J(0, 2) = -arm.y();
+      J(1, 2) = arm.x();
+      Eigen::Matrix3d covariance = J * here.covariance * J.transpose();
+      covariance.diagonal() += spreads_[static_cast<std::size_t>(number)];
       const double variance = covariance.topLeftCorner<2, 2>().trace();
       if (variance > most_sigma * most_sigma) continue;
       open.push({variance, next, covariance});
@@ -141,6 +142,7 @@ double optimisePoses(const std::vector<GraphEdge>& edges, std::vector<Pose2>& po
   problem.SetParameterBlockConstant(values.front().data());
   ceres::Solver::Options options;
   options.linear_solver_type = ceres::SPARSE_NORMAL_CHOLESKY;
+  options.sparse_linear_algebra_library_type = ceres::EIGEN_SPARSE;  // no threads of its own
   options.max_num_iterations = most_iterations;
   options.num_threads = 1;  // the same sums in the same order, whatever the machine
   options.logging_type = ceres::SILENT;

@@ -21,7 +21,12 @@ constexpr double kLeastSearch = 0.2, kLeastTurn = 0.2;
 
 /// Two loops speak of one place where they lie this near [m] to each other.
 constexpr double kNeighbourWay = 12.0;
-constexpr int kSettleAfter = 15;  // frames
+/// Poses are solved for again when the graph has grown by this, and by this share: all solutions of
+/// a drive together cost a few of the last one.
+constexpr int kSettleAfter = 15, kSettleShare = 10;
+/// The past has been corrected where a pose of it has moved by this since the last time [m]: about
+/// what the maps made from it can tell.
+constexpr double kCorrection = 0.05;
 
 bool isCredible(const LoopVerdict& verdict) {
   return verdict.agreement > 0.8 && verdict.common > 0.15 &&
@@ -32,6 +37,10 @@ Eigen::Matrix3d turned(const Eigen::Matrix3d& matrix, double angle) {
   Eigen::Matrix3d R = Eigen::Matrix3d::Identity();
   R.topLeftCorner<2, 2>() << std::cos(angle), -std::sin(angle), std::sin(angle), std::cos(angle);
   return R * matrix * R.transpose();
+}
+
+bool isFinite(const Pose2& pose) {
+  return pose.position().allFinite() && std::isfinite(pose.theta);
 }
 
 /// How a heading error of the frame turns a position in it.
@@ -83,16 +92,18 @@ SlamPose Slam::step(const Scan& scan, const Pose2& T_robot_sensor,
   ScanSurface surface = scanSurface(scan);
   std::optional<Pose2> wheel_step;
   std::optional<Pose2> T_odom_sensor;
-  if (T_odom_robot) T_odom_sensor = *T_odom_robot * T_robot_sensor;
-  if (T_odom_sensor && last_odom_sensor_)
+  if (T_odom_robot && isFinite(*T_odom_robot)) T_odom_sensor = *T_odom_robot * T_robot_sensor;
+  if (T_odom_sensor && last_odom_sensor_) {
     wheel_step = last_odom_sensor_->inverse() * *T_odom_sensor;
-  if (T_odom_sensor) last_odom_sensor_ = T_odom_sensor;
+  }
+  last_odom_sensor_ = T_odom_sensor;
 
   SlamPose result;
   if (frames_.size() == 0) {
     T_map_sensor_ = T_map_start_ * T_robot_sensor;
     frames_.surfaces.push_back(std::move(surface));
     frames_.graph.add(T_map_sensor_);
+    at_version_.push_back(T_map_sensor_);
     view_ = {0};
     passed_.push_back({0, {}, T_robot_sensor});
     result.T_map_robot = T_map_start_;
@@ -144,6 +155,7 @@ void Slam::addKeyFrame(ScanSurface surface, const Pose2& T_map_sensor, const Pos
                        const Eigen::Matrix3d& wheels_information) {
   frames_.surfaces.push_back(std::move(surface));
   const int frame = frames_.graph.add(T_map_sensor);
+  at_version_.push_back(T_map_sensor);
   const GraphEdge wheel_edge{frame - 1, frame, wheels, wheels_information, false};
   wheel_edges_.push_back(wheel_edge);
   frames_.graph.connect(wheel_edge);
@@ -191,7 +203,8 @@ void Slam::closeLoops(int frame) {
   }
   if (closed) waiting_.clear();
   unsettled_ = closed || unsettled_;
-  const bool is_due = closed || (unsettled_ && frame - last_optimised_ >= kSettleAfter);
+  const bool is_due = closed || (unsettled_ && frame - last_optimised_ >=
+                                                   std::max(kSettleAfter, frame / kSettleShare));
   if (!is_due) return;
   frames_.graph.optimise();
   if (closed) {
@@ -204,6 +217,19 @@ void Slam::closeLoops(int frame) {
   }
   last_optimised_ = frame;
   unsettled_ = false;
+  countVersion();
+}
+
+void Slam::countVersion() {
+  double moved = 0.0;
+  for (std::size_t k = 0; k < at_version_.size(); ++k) {
+    moved = std::max(
+        moved,
+        (frames_.graph.pose(static_cast<int>(k)).position() - at_version_[k].position()).norm());
+  }
+  if (moved <= kCorrection) return;
+  for (int k = 0; k < frames_.size(); ++k)
+    at_version_[static_cast<std::size_t>(k)] = frames_.graph.pose(k);
   ++version_;
 }
 

@@ -59,6 +59,8 @@ constexpr double kShrink = 0.7;
 constexpr double kLeastReach = 0.1;
 constexpr double kReachPerSigma = 4.0;
 constexpr int kMostRounds = 12;
+/// A tenth of what a match is worth.
+constexpr double kSettled = 5e-4, kSettledTurn = 1e-4;
 
 }  // namespace
 
@@ -138,7 +140,7 @@ MatchResult matchSurface(const ScanSurface& query, const Pose2& start, const Pos
     result.T_map_query.y += step.y();
     result.T_map_query.theta = wrapAngle(result.T_map_query.theta + step.z());
     const bool is_finest = scale.reach <= least;
-    if (is_finest && step.head<2>().norm() < 1e-4 && std::abs(step.z()) < 1e-5) break;
+    if (is_finest && step.head<2>().norm() < kSettled && std::abs(step.z()) < kSettledTurn) break;
     scale.reach = std::max(least, kShrink * scale.reach);
     scale.sigma = scale.reach / kReachPerSigma;
   }

@@ -46,6 +46,7 @@ class PoseGraph {
  private:
   std::vector<Pose2> poses_;
   std::vector<GraphEdge> edges_;
+  std::vector<Eigen::Vector3d> spreads_;  ///< of each edge, for surroundings()
   std::vector<std::vector<int>> edges_of_;  ///< of each node
 };
 

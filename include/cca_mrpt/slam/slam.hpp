@@ -16,7 +16,7 @@ struct SlamPose {
   Eigen::Matrix3d covariance =
       Eigen::Matrix3d::Zero();  ///< (x, y) map axes, theta: of the last match
   double agreement = 0.0;       ///< of the scan with what was seen before, [0, 1]
-  int version = 0;              ///< counts corrections of the past
+  int version = 0;  ///< counts corrections of the past by more than 5 cm
 };
 
 /// Line SLAM: poses from wheels and laser, with loops.
@@ -52,6 +52,7 @@ class Slam {
   void closeLoops(int frame);
   bool agree(const LoopVerdict& a, const LoopVerdict& b) const;
   void accept(const LoopVerdict& verdict);
+  void countVersion();
   Pose2 searched(const ScanSurface& surface, const PoseBelief& prior) const;
 
   Pose2 T_map_start_;
@@ -68,6 +69,7 @@ class Slam {
   Eigen::Matrix3d covariance_ = Eigen::Matrix3d::Zero();
   std::vector<LoopVerdict> verdicts_, waiting_, loops_;
   int version_ = 0;
+  std::vector<Pose2> at_version_;  ///< poses of the frames as whoever holds a map knows them
   int last_optimised_ = 0;
   bool unsettled_ = false;  ///< the graph has loops that its poses have not been solved for
 };

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "cca_mrpt/slam/motion_prior.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace cca {
+namespace {
+
+const Eigen::Matrix3d kSure = 1e-8 * Eigen::Matrix3d::Identity();
+
+TEST(MotionPrior, LearnsThatTheWheelsTurnShort) {
+  MotionPrior prior;
+  const Pose2 wheels{0.5, 0.0, 0.1}, truth{0.5, 0.0, 0.1 - 0.03};
+  for (int k = 0; k < 50; ++k) {
+    const Pose2 step = k % 2 == 0 ? wheels : Pose2{0.5, 0.0, 0.0};
+    const double error = k % 2 == 0 ? -0.03 : -0.025;
+    const MotionBelief belief = prior.predict(step);
+    prior.learn(step, belief, {0.5, 0.0, step.theta + error}, kSure);
+  }
+  EXPECT_NEAR(prior.predict(wheels).T_before_after.theta, truth.theta, 0.003);
+}
+
+TEST(MotionPrior, TrustsWheelsThatHaveProvedGood) {
+  MotionPrior prior;
+  const Pose2 step{0.5, 0.0, 0.1};
+  const double before = prior.predict(step).covariance.trace();
+  for (int k = 0; k < 100; ++k) prior.learn(step, prior.predict(step), step, kSure);
+  EXPECT_LT(prior.predict(step).covariance.trace(), 0.1 * before);
+}
+
+TEST(MotionPrior, LearnsNothingWhereMatchesKnowNothing) {
+  MotionPrior prior;
+  const Pose2 step{0.5, 0.0, 0.0};
+  const double before = prior.predict(step).covariance(0, 0);
+  for (int k = 0; k < 100; ++k) {
+    const MotionBelief belief = prior.predict(step);
+    prior.learn(step, belief, belief.T_before_after, belief.covariance);
+  }
+  EXPECT_GT(prior.predict(step).covariance(0, 0), 0.3 * before);
+}
+
+TEST(MotionPrior, WithoutWheelsTheRobotGoesOnAsItWent) {
+  MotionPrior prior;
+  const Pose2 step{0.3, 0.0, 0.05};
+  prior.learn(std::nullopt, prior.predict(std::nullopt), step, kSure);
+  const MotionBelief belief = prior.predict(std::nullopt);
+  EXPECT_EQ(belief.T_before_after.x, step.x);
+  EXPECT_GT(belief.covariance(0, 0), 0.01);
+}
+
+}  // namespace
+}  // namespace cca

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "cca_mrpt/slam/pose_graph.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace cca {
+namespace {
+
+const Eigen::Matrix3d kInformation = Eigen::Vector3d(1e4, 1e4, 4e4).asDiagonal();
+
+/// Poses on a square of 10 m a side, as wheels that turn long have them.
+PoseGraph drifted(double drift) {
+  PoseGraph graph;
+  Pose2 pose;
+  graph.add(pose);
+  for (int k = 1; k < 40; ++k) {
+    const Pose2 truth{1.0, 0.0, k % 10 == 0 ? M_PI_2 : 0.0};
+    const Pose2 step{1.0, 0.0, truth.theta + drift};
+    pose = pose * step;
+    graph.add(pose);
+    graph.connect({k - 1, k, step, kInformation, false});
+  }
+  return graph;
+}
+
+TEST(PoseGraph, ALoopBringsTheSquareBackTogether) {
+  PoseGraph graph = drifted(0.01);
+  EXPECT_GT((graph.pose(39).position() - Eigen::Vector2d(0.0, 1.0)).norm(), 1.0);
+  graph.connect({39, 0, {1.0, 0.0, M_PI_2}, 100.0 * kInformation, true});
+  EXPECT_GT(graph.optimise(), 1.0);
+  EXPECT_LT((graph.pose(39).position() - Eigen::Vector2d(0.0, 1.0)).norm(), 0.1);
+  EXPECT_EQ(graph.pose(0).x, 0.0) << "the first stays";
+}
+
+TEST(PoseGraph, OneFalseLoopAmongTrueOnesIsOutvoted) {
+  PoseGraph graph = drifted(0.0);
+  graph.connect({39, 0, {1.0, 0.0, M_PI_2}, kInformation, true});
+  graph.connect({38, 0, {2.0, 0.0, M_PI_2}, kInformation, true});
+  graph.connect({35, 5, {4.0, 3.0, 0.5}, kInformation, true});  // false
+  graph.optimise();
+  EXPECT_LT((graph.pose(20).position() - Eigen::Vector2d(10.0, 10.0)).norm(), 0.3);
+}
+
+TEST(PoseGraph, SurroundingsGrowLessCertainAlongTheWay) {
+  const PoseGraph graph = drifted(0.0);
+  const auto all = graph.surroundings(0, 100.0);
+  ASSERT_EQ(all.size(), 40u);
+  double last = -1.0;
+  for (std::size_t k = 0; k < all.size(); ++k) {
+    EXPECT_EQ(all[k].node, static_cast<int>(k));
+    const double variance = all[k].covariance.topLeftCorner<2, 2>().trace();
+    EXPECT_GT(variance, last);
+    last = variance;
+  }
+  EXPECT_LT(graph.surroundings(0, 0.05).size(), 20u);
+}
+
+TEST(PoseGraph, NothingMovesWhereNothingIsKnown) {
+  PoseGraph graph;
+  EXPECT_EQ(graph.optimise(), 0.0);
+  graph.add({});
+  graph.add({1.0, 2.0, 3.0});
+  EXPECT_EQ(graph.optimise(), 0.0);
+  EXPECT_EQ(graph.pose(1).x, 1.0);
+}
+
+}  // namespace
+}  // namespace cca
