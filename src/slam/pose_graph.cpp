@@ -65,9 +65,6 @@ Eigen::Vector3d spreadOf(const GraphEdge& edge) {
   return {across, across, covariance(2, 2)};
 }
 
-/// The kernel of loops: three deviations are ordinary.
-constexpr double kLoopKernel = 3.0;
-
 }  // namespace
 
 int PoseGraph::add(const Pose2& T_map_node) {
@@ -125,8 +122,20 @@ std::vector<RelativeCovariance> PoseGraph::surroundings(int node, double most_si
 
 double PoseGraph::optimise() { return optimisePoses(edges_, poses_, 20); }
 
+double PoseGraph::closeLoops() {
+  const std::vector<Pose2> before = poses_;
+  for (const double wider : {100.0, 10.0, 1.0}) {
+    optimisePoses(edges_, poses_, 20, wider * kLoopKernel);
+  }
+  double largest = 0.0;
+  for (std::size_t k = 0; k < before.size(); ++k) {
+    largest = std::max(largest, (poses_[k].position() - before[k].position()).norm());
+  }
+  return largest;
+}
+
 double optimisePoses(const std::vector<GraphEdge>& edges, std::vector<Pose2>& poses,
-                     int most_iterations) {
+                     int most_iterations, double kernel) {
   if (poses.size() < 2 || edges.empty()) return 0.0;
   std::vector<std::array<double, 3>> values(poses.size());
   for (std::size_t i = 0; i < poses.size(); ++i)
@@ -134,7 +143,7 @@ double optimisePoses(const std::vector<GraphEdge>& edges, std::vector<Pose2>& po
   ceres::Problem problem;
   for (const GraphEdge& edge : edges) {
     problem.AddResidualBlock(new EdgeError(edge),
-                             edge.is_loop ? new ceres::CauchyLoss(kLoopKernel) : nullptr,
+                             edge.is_loop ? new ceres::CauchyLoss(kernel) : nullptr,
                              values[static_cast<std::size_t>(edge.from)].data(),
                              values[static_cast<std::size_t>(edge.to)].data());
   }

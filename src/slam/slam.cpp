@@ -206,15 +206,15 @@ void Slam::closeLoops(int frame) {
   const bool is_due = closed || (unsettled_ && frame - last_optimised_ >=
                                                    std::max(kSettleAfter, frame / kSettleShare));
   if (!is_due) return;
-  frames_.graph.optimise();
   if (closed) {
+    frames_.graph.closeLoops();
     for (const int other : framesInView(frames_, frame, frames_.graph.pose(frame), kViewFrames)) {
       if (other >= frame - kViewFrames) continue;
-      if (const auto edge = matchEdge(frames_, other, frame, {0.3, 0.08}))
-        frames_.graph.connect(*edge);
+      const auto edge = matchEdge(frames_, other, frame, {0.3, 0.08});
+      if (edge) frames_.graph.connect(*edge);
     }
-    frames_.graph.optimise();
   }
+  frames_.graph.optimise();
   last_optimised_ = frame;
   unsettled_ = false;
   countVersion();

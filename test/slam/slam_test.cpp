@@ -20,10 +20,10 @@ double worstError(const std::vector<Pose2>& poses, const std::vector<Pose2>& tru
 
 struct Drive {
   test::WalledWorld world = test::ringWithNiches();
-  std::vector<Pose2> way = test::driveAroundRing(0.4);
-  std::vector<Pose2> wheels = test::wheelsOf(way, world);
+  std::vector<Pose2> way, wheels;
   std::vector<Scan> scans;
-  explicit Drive(double field_of_view = M_PI) {
+  explicit Drive(double field_of_view = M_PI, double step = 0.4)
+      : way(test::driveAroundRing(step)), wheels(test::wheelsOf(way, world)) {
     for (const Pose2& pose : way) scans.push_back(world.scan(pose, 181, field_of_view, 0.01, 8.0));
   }
 };
@@ -53,7 +53,7 @@ TEST(Slam, TakesTheLaserFromWhereItIsMounted) {
 }
 
 TEST(Slam, NeedsNoWheelsWhereTheLaserSeesEnough) {
-  Drive drive(2.0 * M_PI);
+  Drive drive(2.0 * M_PI, 0.1);
   Slam slam(drive.way.front());
   for (std::size_t k = 0; k < drive.way.size(); ++k) slam.step(drive.scans[k], {}, std::nullopt);
   slam.finish();

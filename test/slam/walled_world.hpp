@@ -81,7 +81,8 @@ inline WalledWorld ringWithNiches() {
   return world;
 }
 
-/// Once around that block and on to the middle of the first side again; a pose every `step` m.
+/// Once around that block and on to the middle of the first side again; a pose every `step` m, and
+/// 75 degrees a metre.
 inline std::vector<Pose2> driveAroundRing(double step) {
   const std::vector<Eigen::Vector2d> corners{{10, 1}, {19, 1}, {19, 15}, {1, 15},
                                              {1, 1},  {19, 1}, {19, 8}};
@@ -91,9 +92,10 @@ inline std::vector<Pose2> driveAroundRing(double step) {
     const double heading = std::atan2(leg.y(), leg.x());
     if (!way.empty()) {
       const double turn = wrapAngle(heading - way.back().theta);
-      for (int i = 1; i < 3; ++i) {
-        way.push_back(
-            {corners[k].x(), corners[k].y(), wrapAngle(heading - turn * (1.0 - i / 3.0))});
+      const int turns = static_cast<int>(std::ceil(1.2 / step));
+      for (int i = 1; i < turns; ++i) {
+        const double left = turn * (1.0 - static_cast<double>(i) / turns);
+        way.push_back({corners[k].x(), corners[k].y(), wrapAngle(heading - left)});
       }
     }
     for (double s = 0.0; s < leg.norm(); s += step) {

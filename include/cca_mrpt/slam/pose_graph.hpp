@@ -42,17 +42,24 @@ class PoseGraph {
   /// Least squares over all poses but the first, which stays. @return the largest move, m.
   /// Cost: a sparse Cholesky factorisation per iteration.
   double optimise();
+  /// The same where loops are new, and the poses may be far from what they ask for: the kernel that
+  /// forgives errors begins wide and narrows (graduated non-convexity).
+  double closeLoops();
 
  private:
   std::vector<Pose2> poses_;
   std::vector<GraphEdge> edges_;
-  std::vector<Eigen::Vector3d> spreads_;  ///< of each edge, for surroundings()
+  std::vector<Eigen::Vector3d> spreads_;    ///< of each edge, for surroundings()
   std::vector<std::vector<int>> edges_of_;  ///< of each node
 };
 
-/// The poses that agree best with all edges, the first held. Loops are weighted by a robust kernel.
-/// @return the largest move, m.
+/// Errors of loops are forgiven from so many deviations on (Cauchy).
+inline constexpr double kLoopKernel = 3.0;
+
+/// The poses that agree best with all edges, the first held.
+/// @param kernel  of loops, deviations.
+/// @return        the largest move, m.
 double optimisePoses(const std::vector<GraphEdge>& edges, std::vector<Pose2>& poses,
-                     int most_iterations);
+                     int most_iterations, double kernel = kLoopKernel);
 
 }  // namespace cca

@@ -16,7 +16,7 @@ struct SlamPose {
   Eigen::Matrix3d covariance =
       Eigen::Matrix3d::Zero();  ///< (x, y) map axes, theta: of the last match
   double agreement = 0.0;       ///< of the scan with what was seen before, [0, 1]
-  int version = 0;  ///< counts corrections of the past by more than 5 cm
+  int version = 0;              ///< counts corrections of the past by more than 5 cm
 };
 
 /// Line SLAM: poses from wheels and laser, with loops.
