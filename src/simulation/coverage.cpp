@@ -126,7 +126,7 @@ Coverage::Coverage(const World& world, const Eigen::Vector2d& start, double radi
                           })),
       seen_(world.obstacles().size(), 0) {}
 
-Coverage::~Coverage() { giveUp(); }
+Coverage::~Coverage() { given_up_ = true; }  // and the future waits for its thread
 
 void Coverage::giveUp() {
   if (sofar()) return;
