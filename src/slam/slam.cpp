@@ -5,8 +5,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "cca_mrpt/slam/correlative_search.hpp"
-
 namespace cca {
 namespace {
 
@@ -18,6 +16,12 @@ constexpr int kSearchLevels = 3;
 constexpr double kSearchSigmas = 3.0;
 constexpr double kWidestSearch = 1.0, kWidestTurn = 1.0;
 constexpr double kLeastSearch = 0.2, kLeastTurn = 0.2;
+constexpr double kFirstReach = 0.3;  // m, of a match
+constexpr std::size_t kJudges = 3;   // frames that say how well a scan agrees with them
+constexpr double kAgree = 0.2;       // m, within which rays do
+/// A scan that agrees less is looked for in all directions; nearly all that are right agree by
+/// more.
+constexpr double kDoubtful = 0.6, kClearlyBetter = 0.2, kVague = 1e-3;
 
 /// Two loops speak of one place where they lie this near [m] to each other.
 constexpr double kNeighbourWay = 12.0;
@@ -60,7 +64,7 @@ bool Slam::isNewPlace(const Pose2& T_map_sensor, const ScanSurface& surface) con
          (turn >= kFrameTurn && !surface.is_full_turn);
 }
 
-Pose2 Slam::searched(const ScanSurface& surface, const PoseBelief& prior) const {
+SearchWindow Slam::windowOf(const PoseBelief& prior) {
   const Eigen::Matrix3d covariance = prior.information.inverse();
   const double sigma = std::sqrt(0.5 * covariance.topLeftCorner<2, 2>().trace());
   const double turn_sigma = std::sqrt(covariance(2, 2));
@@ -68,6 +72,11 @@ Pose2 Slam::searched(const ScanSurface& surface, const PoseBelief& prior) const 
   window.centre = prior.mean;
   window.half_width = std::clamp(kSearchSigmas * sigma, kLeastSearch, kWidestSearch);
   window.half_turn = std::clamp(kSearchSigmas * turn_sigma, kLeastTurn, kWidestTurn);
+  window.prior_information = prior.information.diagonal();
+  return window;
+}
+
+Pose2 Slam::searched(const ScanSurface& surface, SearchWindow window) const {
   std::vector<Eigen::Vector2d> points, query;
   for (const PlacedSurface& placed : frames_.placed(view_)) {
     for (const auto& point : placed.surface->points) {
@@ -78,13 +87,26 @@ Pose2 Slam::searched(const ScanSurface& surface, const PoseBelief& prior) const 
     if (point.position.norm() < kSearchReach) query.push_back(point.position);
   }
   query = thinned(query, kSearchSpacing);
-  if (query.empty()) return prior.mean;
-  window.prior_information = prior.information.diagonal();
+  if (query.empty()) return window.centre;
   window.prior_weight = 1.0 / (kIndependent * 3.0 * static_cast<double>(query.size()));
-  const LikelihoodPyramid pyramid(points, prior.mean.position(), kSearchReach + window.half_width,
-                                  kSearchLevels, kSearchCell);
+  const LikelihoodPyramid pyramid(points, window.centre.position(),
+                                  kSearchReach + window.half_width, kSearchLevels, kSearchCell);
   const auto found = searchPose(query, pyramid, window, 0.2);
-  return found ? found->T_map_query : prior.mean;
+  return found ? found->T_map_query : window.centre;
+}
+
+Slam::Located Slam::located(const ScanSurface& surface, const PoseBelief& prior,
+                            const SearchWindow& window) const {
+  const std::vector<PlacedSurface> references = frames_.placed(view_);
+  Located found;
+  found.match = matchSurface(surface, searched(surface, window), prior, references, kFirstReach);
+  SightCount sights;
+  for (std::size_t i = 0; i < references.size() && i < kJudges; ++i) {
+    sights += compareSights(*references[i].surface, surface,
+                            references[i].T_map_sensor.inverse() * found.match.T_map_query, kAgree);
+  }
+  found.agreement = sights.agreement();
+  return found;
 }
 
 SlamPose Slam::step(const Scan& scan, const Pose2& T_robot_sensor,
@@ -124,21 +146,26 @@ SlamPose Slam::step(const Scan& scan, const Pose2& T_robot_sensor,
       carried(wheels_covariance_, wheel_arm) + turned(motion.covariance, T_frame_wheels_.theta);
   T_frame_wheels_ = T_frame_wheels_ * motion.T_before_after;
 
-  const Pose2 start = searched(surface, prior);
-  const std::vector<PlacedSurface> references = frames_.placed(view_);
-  const MatchResult match = matchSurface(surface, start, prior, references, 0.3);
+  Located found = located(surface, prior, windowOf(prior));
+  if (found.agreement < kDoubtful && !surface.points.empty()) {
+    // Somebody has turned the robot, or the wheels have told nothing of a turn.
+    SearchWindow anywhere;
+    anywhere.centre = prior.mean;
+    anywhere.half_width = kWidestSearch;
+    anywhere.half_turn = M_PI;
+    PoseBelief vague = prior;
+    vague.information *= kVague;
+    const Located other = located(surface, vague, anywhere);
+    if (other.agreement > found.agreement + kClearlyBetter) found = other;
+  }
+  const MatchResult& match = found.match;
   const Pose2 before = T_map_sensor_;
   T_map_sensor_ = match.paired > 0.0 ? match.T_map_query : prior.mean;
   covariance_ = match.paired > 0.0 ? Eigen::Matrix3d(match.posterior.inverse()) : prior_covariance;
   motion_.learn(wheel_step, motion, before.inverse() * T_map_sensor_,
                 turned(covariance_, -before.theta));
 
-  SightCount sights;
-  for (std::size_t i = 0; i < references.size() && i < 3; ++i) {
-    sights += compareSights(*references[i].surface, surface,
-                            references[i].T_map_sensor.inverse() * T_map_sensor_, 0.2);
-  }
-  result.agreement = sights.agreement();
+  result.agreement = found.agreement;
   if (isNewPlace(T_map_sensor_, surface)) {
     addKeyFrame(std::move(surface), T_map_sensor_, T_frame_wheels_, wheels_covariance_.inverse());
     T_map_sensor_ = frames_.graph.pose(frames_.size() - 1);

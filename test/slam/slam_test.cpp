@@ -89,6 +89,20 @@ TEST(Slam, ScansOfNothingAreDrivenThroughOnTheWheels) {
   EXPECT_LT(worstError(slam.trajectory(), drive.way), 0.3);
 }
 
+TEST(Slam, ATurnThatTheWheelsKnowNothingOfIsFound) {
+  Drive drive;
+  std::vector<Pose2> wheels = drive.wheels;
+  const std::size_t lifted = 20;
+  const Pose2 turned{0.0, 0.0, 1.4};
+  for (std::size_t k = lifted; k < wheels.size(); ++k) {
+    wheels[k] = wheels[lifted - 1] * turned.inverse() * (wheels[lifted - 1].inverse() * wheels[k]);
+  }
+  Slam slam(drive.way.front());
+  for (std::size_t k = 0; k < drive.way.size(); ++k) slam.step(drive.scans[k], {}, wheels[k]);
+  slam.finish();
+  EXPECT_LT(worstError(slam.trajectory(), drive.way), 0.3);
+}
+
 TEST(Slam, BadInputNeitherCrashesNorPoisonsThePose) {
   Drive drive;
   const double nan = std::numeric_limits<double>::quiet_NaN();

@@ -4,6 +4,7 @@
 #include <optional>
 #include <vector>
 
+#include "cca_mrpt/slam/correlative_search.hpp"
 #include "cca_mrpt/slam/key_frames.hpp"
 #include "cca_mrpt/slam/loop_closing.hpp"
 #include "cca_mrpt/slam/motion_prior.hpp"
@@ -53,7 +54,14 @@ class Slam {
   bool agree(const LoopVerdict& a, const LoopVerdict& b) const;
   void accept(const LoopVerdict& verdict);
   void countVersion();
-  Pose2 searched(const ScanSurface& surface, const PoseBelief& prior) const;
+  struct Located {
+    MatchResult match;
+    double agreement = 0.0;  ///< with the frames in view
+  };
+  static SearchWindow windowOf(const PoseBelief& prior);
+  Pose2 searched(const ScanSurface& surface, SearchWindow window) const;
+  Located located(const ScanSurface& surface, const PoseBelief& prior,
+                  const SearchWindow& window) const;
 
   Pose2 T_map_start_;
   KeyFrames frames_;
