@@ -7,6 +7,7 @@
 /// sub-command's callback, which throws std::runtime_error where the run fails.
 namespace cca::apps {
 
+void addAblateCommand(CLI::App& program);
 void addExploreCommand(CLI::App& program);
 void addExtractCommand(CLI::App& program);
 void addInfoCommand(CLI::App& program);

@@ -51,10 +51,11 @@ int main(int argc, char** argv) {
   cca::apps::addCompareExtractorsCommand(program);
   cca::apps::addCompareStrategiesCommand(program);
   cca::apps::addTuneCommand(program);
+  cca::apps::addAblateCommand(program);
   cca::apps::addEvaluateCommand(program);
 #else
   program.footer(
-      "This build has no evaluate, compare-extractors, compare-strategies and tune\n"
+      "This build has no ablate, evaluate, compare-extractors, compare-strategies and tune\n"
       "(cmake -D CCA_WITH_EVIDENCE=ON, as launch_scripts/test.sh builds it).");
 #endif
   if (argc > 1 && argv[1][0] != '-' && !isCommand(program, argv[1])) {

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# compare-extractors and tune as a user runs them: evidence_test.sh PROGRAM MAPS
+# compare-extractors, tune and ablate as a user runs them: evidence_test.sh PROGRAM MAPS
 set -eu
 program=$1 maps=$2
 tmp=$(mktemp -d)
@@ -47,4 +47,12 @@ status=0; tune --out "$tmp/x" --points-per-cluster 0,5 >/dev/null 2>&1 || status
 [ $status -eq 2 ] || fail "a level out of range is a usage error, got $status"
 status=0; "$program" tune "$maps/maze.yaml" --out "$tmp/x" --similarity-cut 0.5 >/dev/null 2>&1 || status=$?
 [ $status -eq 2 ] || fail "a single level is a usage error, got $status"
+
+# ablate: a row for what is reached and one for each part, alike from run to run.
+ablate() { "$program" ablate "$maps/two_rooms.yaml" --seeds 1 --scans 1 --poses 4; }
+ablate >"$tmp/ablation.md" 2>/dev/null
+[ "$(grep -c '^| .*K-means\|^| mu_[1-5], ' "$tmp/ablation.md")" -eq 6 ] || fail "every part has its row"
+ablate 2>/dev/null | diff "$tmp/ablation.md" - || fail "the same study gives the same table"
+status=0; "$program" ablate >/dev/null 2>&1 || status=$?
+[ $status -eq 2 ] || fail "nothing to study is a usage error, got $status"
 echo passed

@@ -1,0 +1,20 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: BSD-3-Clause
+# Regenerates the table of docs/ablation.md: ablation.sh [LOG...]
+# Without logs: CARMEN logs in $CCA_SHARED_DATA/logs. OPTIONS are those of 'cca-mrpt ablate'.
+set -eu
+cd "$(dirname "$0")/.."
+program=$(launch_scripts/build_program.sh --evidence)
+worlds=()
+for truth in maps/*.truth.csv; do worlds+=("${truth%.truth.csv}.yaml"); done
+logs=("$@")
+if [ ${#logs[@]} -eq 0 ]; then
+  for log in "${CCA_SHARED_DATA:-../shared/data}"/logs/*.log.gz; do
+    [ -f "$log" ] && logs+=("$log")
+  done
+fi
+table=$(mktemp)
+trap 'rm -f "$table"' EXIT
+[ ${#logs[@]} -eq 0 ] || options=(--log "${logs[@]}")
+"$program" ablate "${worlds[@]}" ${options[@]+"${options[@]}"} ${OPTIONS:-} | tee "$table"
+sed -i -e '/<!-- begin table -->/,/<!-- end table -->/{//!d}' -e "/<!-- begin table -->/r $table" docs/ablation.md
