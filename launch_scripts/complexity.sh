@@ -9,9 +9,7 @@ build=${1:-build}
 for what in line_extraction line_map; do
   name=${what}_benchmark
   cmake --build "$build" --target "$name" -j"$(nproc)"
-  # With ROS in the build, catkin gathers the programs in one folder.
-  program=$(find "$build" -name "$name" -type f -perm -u+x | head -n 1)
-  "$program" --benchmark_min_time=0.1 --benchmark_out="$build/$name.json" \
+  "$build/test/$name" --benchmark_min_time=0.1 --benchmark_out="$build/$name.json" \
     --benchmark_out_format=json
   /usr/bin/python3 launch_scripts/plot_complexity.py "$build/$name.json" \
     "docs/images/complexity_$what.svg"

@@ -44,20 +44,7 @@ start() {  # start NAME COMMAND...: in the background, with a log
 }
 give_up() { echo "$1" >&2; tail -n 20 "$work"/*.log >&2; exit 1; }
 
-# The view: the whole world with a rim, as large as it fits.
-read -r scale x y < <(/usr/bin/python3 - "$world" "$width" "$height" <<'PYTHON'
-import os, sys, yaml
-from PIL import Image
-path, width, height = sys.argv[1], int(sys.argv[2]), int(sys.argv[3])
-world = yaml.safe_load(open(path))
-columns, rows = Image.open(os.path.join(os.path.dirname(path), world["image"])).size
-w, h = columns * world["resolution"], rows * world["resolution"]
-print(round(0.96 * min(width / w, height / h), 4),
-      round(world["origin"][0] + w / 2, 4), round(world["origin"][1] + h / 2, 4))
-PYTHON
-)
-sed -e "s/^\( *Scale:\).*/\1 $scale/" -e "s/^\( *X:\) 5$/\1 $x/" -e "s/^\( *Y:\) 3$/\1 $y/" \
-  "$here/cca.rviz" >"$work/view.rviz"
+read -r scale x y < <(VIEW_ONLY=1 VIEW_WIDTH=$width VIEW_HEIGHT=$height "$here/view.sh" "$world")
 
 port=$(/usr/bin/python3 -c 'import socket; s = socket.socket(); s.bind(("", 0)); print(s.getsockname()[1])')
 export ROS_HOME=$work ROS_HOSTNAME=localhost ROS_MASTER_URI=http://localhost:$port
@@ -70,7 +57,7 @@ start Xvfb Xvfb -displayfd 4 -screen 0 "${width}x${height}x24" -nolisten tcp
 timeout 30 bash -c "until [ -s '$work/display' ]; do sleep 0.1; done" || give_up "Xvfb does not start"
 DISPLAY=:$(cat "$work/display")
 export DISPLAY LIBGL_ALWAYS_SOFTWARE=1 QT_X11_NO_MITSHM=1
-start rviz rviz --fullscreen -d "$work/view.rviz"
+VIEW_WIDTH=$width VIEW_HEIGHT=$height start rviz "$here/view.sh" "$world" rviz --fullscreen
 start explore "$node" _world:="$world" _speed:=10 _out:="$work/map" "$@"
 
 timeout 40 bash -c 'until rostopic info /line_markers 2>/dev/null | grep -q "/rviz"; do sleep 0.5; done' ||

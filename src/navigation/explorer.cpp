@@ -96,6 +96,11 @@ Action Explorer::step(const Observation& observation) {
   return navigate(observation);
 }
 
+void Explorer::map(const Scan& scan) {
+  agreement_.add(compareWithMap(scan, line_map_.walls()));
+  line_map_.insert(scan);
+}
+
 Action Explorer::navigate(const Observation& observation) {
   const Eigen::Vector2d robot = observation.T_map_robot.position();
   if (!start_map_ && robot.allFinite()) start_map_ = robot;

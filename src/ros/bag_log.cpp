@@ -5,7 +5,6 @@
 #include <rosbag/bag.h>
 #include <rosbag/view.h>
 #include <sensor_msgs/LaserScan.h>
-#include <tf2/buffer_core.h>
 #include <tf2_msgs/TFMessage.h>
 
 #include <algorithm>
@@ -13,8 +12,10 @@
 #include <stdexcept>
 
 #include "cca_mrpt/io/log_reader.hpp"
+#include "cca_mrpt/mapping/missing_returns.hpp"
 #include "cca_mrpt/ros/pose_message.hpp"
 #include "cca_mrpt/ros/scan_message.hpp"
+#include "cca_mrpt/ros/transforms.hpp"
 
 namespace cca {
 namespace {
@@ -22,50 +23,17 @@ namespace {
 constexpr const char* kMapFrame = "map";
 constexpr const char* kOdomFrame = "odom";
 
-std::string withoutSlash(const std::string& frame) {
-  return !frame.empty() && frame.front() == '/' ? frame.substr(1) : frame;
+/// All of a bag's: poses are wanted at times before the next one is read.
+std::vector<Transforms::Message> transformsOf(const rosbag::Bag& bag) {
+  std::vector<Transforms::Message> messages;
+  rosbag::View view(bag, rosbag::TopicQuery({"/tf", "/tf_static", "tf", "tf_static"}));
+  for (const auto& message : view) {
+    const auto transforms = message.instantiate<tf2_msgs::TFMessage>();
+    const bool is_static = message.getTopic().find("static") != std::string::npos;
+    if (transforms) messages.push_back({*transforms, is_static});
+  }
+  return messages;
 }
-
-/// All transforms of a bag at once: poses are wanted at times before the next one is read.
-class Transforms {
- public:
-  explicit Transforms(const rosbag::Bag& bag)
-      : buffer_(std::max(ros::Duration(1.0), length(bag) + ros::Duration(10.0))) {
-    rosbag::View view(bag, rosbag::TopicQuery({"/tf", "/tf_static", "tf", "tf_static"}));
-    for (const auto& message : view) {
-      const auto transforms = message.instantiate<tf2_msgs::TFMessage>();
-      if (!transforms) continue;
-      const bool is_static = message.getTopic().find("static") != std::string::npos;
-      for (auto transform : transforms->transforms) {
-        transform.header.frame_id = withoutSlash(transform.header.frame_id);
-        transform.child_frame_id = withoutSlash(transform.child_frame_id);
-        buffer_.setTransform(transform, "bag", is_static);
-      }
-    }
-  }
-
-  bool knows(const std::string& frame) const { return buffer_._frameExists(frame); }
-
-  /// T_target_source; nothing where tf does not know it at that time, or it is not planar.
-  std::optional<PlanarPose> find(const std::string& target, const std::string& source,
-                                 const ros::Time& time) const {
-    std::string why_not;
-    if (!buffer_.canTransform(target, source, time, &why_not)) return std::nullopt;
-    try {
-      return planarPose(buffer_.lookupTransform(target, source, time).transform);
-    } catch (const std::runtime_error&) {
-      return std::nullopt;
-    }
-  }
-
- private:
-  static ros::Duration length(const rosbag::Bag& bag) {
-    rosbag::View all(bag);
-    return all.size() == 0 ? ros::Duration(0.0) : all.getEndTime() - all.getBeginTime();
-  }
-
-  tf2::BufferCore buffer_;
-};
 
 /// The topics of one message type, the one with most messages first.
 std::string busiestTopic(const rosbag::Bag& bag, const std::string& type) {
@@ -82,15 +50,15 @@ class BagLog : public LogReader {
  public:
   explicit BagLog(const std::string& path)
       : bag_(path, rosbag::bagmode::Read),
-        transforms_(bag_),
+        transforms_(transformsOf(bag_)),
         view_(bag_, rosbag::TopicQuery({busiestTopic(bag_, "sensor_msgs/LaserScan"),
                                         busiestTopic(bag_, "nav_msgs/Odometry")})),
         at_(view_.begin()) {
     messages_ = std::max<std::size_t>(view_.size(), 1);
-    base_ = transforms_.knows("base_link")        ? "base_link"
-            : transforms_.knows("base_footprint") ? "base_footprint"
-                                                  : "";
-    has_map_ = !base_.empty() && transforms_.find(kMapFrame, base_, ros::Time()).has_value();
+    base_ = transforms_.hasFrame("base_link")        ? "base_link"
+            : transforms_.hasFrame("base_footprint") ? "base_footprint"
+                                                     : "";
+    has_map_ = !base_.empty() && find(kMapFrame, base_, ros::Time()).has_value();
   }
 
   std::optional<LogRecord> next() override try {
@@ -107,7 +75,7 @@ class BagLog : public LogReader {
       text += (text.empty() ? "" : "; ") + std::to_string(count) + " " + what + " left out";
     };
     tell(left_out_, "impossible or tilted scan(s)");
-    tell(unplaced_, "scan(s) from before the first pose in 'map'");
+    tell(unplaced_, "scan(s) that tf has no pose in 'map' for");
     return text;
   }
 
@@ -124,10 +92,20 @@ class BagLog : public LogReader {
       auto record = makeRecord(*message);
       left_out_ += !record;
       if (!record || !place(*record)) continue;
+      missing_returns_.judge(record->scan);
       ++at_;
       ++read_;
       return record;
     }
+    return std::nullopt;
+  }
+
+  /// T_target_source; nothing where tf does not know it at that time, or it is not planar.
+  std::optional<PlanarPose> find(const std::string& target, const std::string& source,
+                                 const ros::Time& time) const try {
+    if (!transforms_.has(target, source, time)) return std::nullopt;
+    return transforms_.lookup(target, source, time);
+  } catch (const std::runtime_error&) {
     return std::nullopt;
   }
 
@@ -154,19 +132,26 @@ class BagLog : public LogReader {
     }
     record.time = time.toSec();
     record.has_time = !message.header.stamp.isZero();
-    const std::string laser = withoutSlash(message.header.frame_id);
+    const std::string laser = frameName(message.header.frame_id);
     const std::string base = base_.empty() ? laser : base_;
     PlanarPose mounting;
-    if (const auto found = transforms_.find(base, laser, time)) {
+    if (const auto found = find(base, laser, time)) {
       mounting = *found;
-    } else if (transforms_.knows(laser) && !base_.empty() && laser != base_) {
+    } else if (transforms_.hasFrame(laser) && !base_.empty() && laser != base_) {
       return std::nullopt;
     }
     placeScan(record.scan, mounting);
     record.T_robot_sensor = mounting.pose;
-    if (const auto pose = transforms_.find(kMapFrame, base, time)) record.corrected = pose->pose;
-    if (const auto pose = transforms_.find(kOdomFrame, base, time)) record.odometry = pose->pose;
+    if (const auto pose = find(kMapFrame, base, time)) record.corrected = pose->pose;
+    if (const auto pose = find(kOdomFrame, base, time)) record.odometry = pose->pose;
     if (!record.odometry) record.odometry = wheels_;
+    // At once, as who listens to tf has it: put together from the others it differs in the last
+    // bit.
+    if (const auto pose = find(kMapFrame, laser, time)) {
+      record.scan.T_map_sensor = pose->pose;
+    } else if (record.corrected) {
+      record.scan.T_map_sensor = *record.corrected * mounting.pose;
+    }
     return record;
   }
 
@@ -177,7 +162,9 @@ class BagLog : public LogReader {
     if (record.corrected) {
       if (record.odometry) T_map_odom_ = *record.corrected * record.odometry->inverse();
       has_map_ = true;
-    } else if (T_map_odom_ && record.odometry) {
+      return true;
+    }
+    if (T_map_odom_ && record.odometry) {
       record.corrected = *T_map_odom_ * *record.odometry;
     } else if (has_map_) {
       ++unplaced_;
@@ -196,6 +183,7 @@ class BagLog : public LogReader {
   std::string base_;
   bool has_map_ = false;  ///< tf knows the base in `map`, at some time
   std::optional<Pose2> wheels_, T_map_odom_;
+  MissingReturns missing_returns_;
   std::string fault_;
   std::size_t read_ = 0, left_out_ = 0, unplaced_ = 0;
 };

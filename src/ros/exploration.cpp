@@ -8,7 +8,8 @@ namespace {
 
 /// The explorer's clock does not count longer gaps between its steps: the robot was held meanwhile,
 /// and standing still was no lack of progress.
-constexpr double kLongestStep = 0.5;  // s
+constexpr double kLongestStep = 0.5;           // s
+constexpr double kLongestContradiction = 5.0;  // s
 
 const char* wordFor(ExplorationStatus status) {
   switch (status) {
@@ -41,7 +42,8 @@ Exploration::Exploration(ros::NodeHandle& node, ros::NodeHandle& private_node, S
 }
 
 Velocity Exploration::step(Observation observation, const ros::Time& stamp) {
-  own_time_ += std::clamp(observation.time - last_time_, 0.0, kLongestStep);
+  const double passed = std::clamp(observation.time - last_time_, 0.0, kLongestStep);
+  own_time_ += passed;
   last_time_ = observation.time;
   if (mode_ == Mode::kStopped || finished_) return {};
   observation.time = own_time_;
@@ -51,12 +53,28 @@ Velocity Exploration::step(Observation observation, const ros::Time& stamp) {
   publisher_.show(explorer_, *record_.grid.grid(), observation.T_map_robot, action.goal, stamp);
   // The whole first: who hears "finished" finds the last map and way.
   if (action.status == ExplorationStatus::kFinished) finish(stamp);
+  failed_ = isContradicted(passed);
+  if (failed_ && !finished_) finish(stamp);
   tell(action);
   return finished_ ? Velocity{} : action.velocity;
 }
 
+bool Exploration::isContradicted(double seconds) {
+  const bool is_poor = agreement().recent() < kPoorAgreement;
+  contradicted_for_ = is_poor ? contradicted_for_ + seconds : 0.0;
+  return contradicted_for_ > kLongestContradiction ||
+         (finished_ && agreement().overall() < kPoorAgreement);
+}
+
 void Exploration::tell(const Action& action) {
-  state_ = std::string(wordFor(action.status)) + ": " + action.reason;
+  const bool at_odds = contradicted_for_ > 0.0;
+  if (at_odds) {
+    ROS_WARN_THROTTLE(5.0, "scans contradict the map: %.1f %% of their returns agree with it",
+                      100.0 * agreement().recent());
+  }
+  state_ = failed_ ? "failed: scans contradict the map; the pose is lost, or the scans are wrong"
+                   : std::string(wordFor(action.status)) + ": " + action.reason +
+                         (at_odds ? "; scans contradict the map" : "");
   publisher_.showStatus(state_);
 }
 
@@ -68,7 +86,8 @@ void Exploration::finish(const ros::Time& stamp) {
 
 MapProducts Exploration::products() const {
   MapProducts products = record_.products(settings_.title, explorer_.lineMap());
-  products.summary["finished"] = finished_;
+  products.summary["finished"] = finished_ && !failed_;
+  products.summary["agreement"] = agreement().overall();
   products.summary["reason"] = state_;
   return products;
 }
@@ -90,6 +109,8 @@ void Exploration::setMode(Mode mode) {
 
 bool Exploration::onStart(std_srvs::Trigger::Request& /*request*/,
                           std_srvs::Trigger::Response& response) {
+  if (failed_) finished_ = failed_ = false;  // somebody has found the robot, or its laser's fault
+  contradicted_for_ = 0.0;
   response.success = !finished_;
   response.message = finished_ ? "the exploration has finished" : "exploring";
   if (response.success) setMode(Mode::kRunning);
@@ -112,7 +133,8 @@ bool Exploration::onHome(std_srvs::Trigger::Request& /*request*/,
   {
     const std::lock_guard<std::mutex> lock(saver_.mutex());
     explorer_.returnToStart();
-    finished_ = false;
+    finished_ = failed_ = false;
+    contradicted_for_ = 0.0;
   }
   setMode(Mode::kRunning);
   return true;

@@ -36,7 +36,9 @@ class Exploration {
 
   /// Neither paused, stopped nor finished.
   bool drives() const { return mode_ == Mode::kRunning && !finished_; }
+  /// Also where it failed.
   bool finished() const { return finished_; }
+  const ScanAgreement& agreement() const { return explorer_.agreement(); }
   /// Told as the status while the robot has to stand: why.
   void wait(const std::string& reason) { publisher_.showStatus("waiting: " + reason); }
   const std::string& state() const { return state_; }
@@ -55,6 +57,7 @@ class Exploration {
   void finish(const ros::Time& stamp);
   MapProducts products() const;
   void tell(const Action& action);
+  bool isContradicted(double seconds);
 
   Settings settings_;
   Explorer explorer_;
@@ -62,8 +65,9 @@ class Exploration {
   ExplorationPublisher publisher_;
   MapSaver saver_;
   Mode mode_;
-  bool finished_ = false;
+  bool finished_ = false, failed_ = false;
   double own_time_ = 0.0, last_time_ = 0.0;  // s
+  double contradicted_for_ = 0.0;            // s, that scans and map have been at odds
   std::string state_;
   std::vector<ros::ServiceServer> services_;
 };

@@ -2,6 +2,7 @@
 #include "exploration_publisher.hpp"
 
 #include <geometry_msgs/PoseStamped.h>
+#include <nav_msgs/MapMetaData.h>
 #include <nav_msgs/OccupancyGrid.h>
 #include <std_msgs/String.h>
 
@@ -23,6 +24,7 @@ ExplorationPublisher::ExplorationPublisher(ros::NodeHandle& node, std::string ma
     : map_frame_(std::move(map_frame)),
       lines_(node, map_frame_),
       map_(node.advertise<nav_msgs::OccupancyGrid>("map", 1, true)),
+      map_metadata_(node.advertise<nav_msgs::MapMetaData>("map_metadata", 1, true)),
       frontiers_(node.advertise<visualization_msgs::MarkerArray>("frontier_markers", 1, true)),
       goal_(node.advertise<geometry_msgs::PoseStamped>("goal", 5)),
       trajectory_(node.advertise<nav_msgs::Path>("trajectory", 1, true)),
@@ -80,7 +82,9 @@ void ExplorationPublisher::showAll(const Explorer& explorer,
                                    const mrpt::maps::COccupancyGridMap2D& grid,
                                    const ros::Time& stamp) {
   lines_.publish(explorer.lineMap().lines(), stamp);
-  map_.publish(gridMessage(grid, header(stamp)));
+  const nav_msgs::OccupancyGrid map = gridMessage(grid, header(stamp));
+  map_.publish(map);
+  map_metadata_.publish(map.info);
   std::vector<Eigen::Vector2d> frontier;
   const auto& exploration_grid = explorer.grid();
   for (const Cell cell : explorer.planner().frontierCells().cells()) {

@@ -36,7 +36,7 @@ class ExplorationPublisher {
 
   std::string map_frame_;
   LinePublisher lines_;
-  ros::Publisher map_, frontiers_, goal_, trajectory_, status_;
+  ros::Publisher map_, map_metadata_, frontiers_, goal_, trajectory_, status_;
   ros::WallTime lines_shown_, map_shown_;
   nav_msgs::Path way_;
   std::optional<Eigen::Vector2d> shown_goal_;

@@ -78,7 +78,7 @@ void exploreSimulated(const Settings& settings, ros::NodeHandle& node,
     if (robot.scanIsDue()) {
       const ros::WallTime begin = ros::WallTime::now();
       velocity = exploration.step(robot.scan(), robot.now());
-      diagnostics.scanUsed((ros::WallTime::now() - begin).toSec());
+      diagnostics.scanUsed((ros::WallTime::now() - begin).toSec(), exploration.agreement());
       diagnostics.setState(exploration.state());
     }
     robot.tick(exploration.drives() ? velocity : Velocity{});
@@ -109,7 +109,28 @@ void explore() {
   }
 }
 
+const NodeDescription kNode{
+    "explore",
+    "explores a simulated world, or with a robot that is out there (_world:=none)\n\n"
+    "_name:=value [default]\n"
+    "  world [two_rooms] map_server YAML file, or the name of one in maps/; none: the robot's\n"
+    "  config [] .ini file, read first\n"
+    "  autostart [true] false: waits for the service ~start\n"
+    "  out [cca_map] folder for the map\n"
+    "  save_at_end [true], exit_at_end [false]\n"
+    "  map_frame [map], odom_frame [odom], base_frame [base_link], laser_frame [laser]\n"
+    "with a robot\n"
+    "  pose [tf] tf: a localisation gives map -> odom; odometry: this node does, and trusts it\n"
+    "  scan_timeout [0.3] s without a usable scan until the robot is stopped\n"
+    "in a simulated world\n"
+    "  start_pose [the world's] X,Y,DEG\n"
+    "  speed [1] simulated seconds a second; other than 1 needs /use_sim_time\n"
+    "  scan_rate [10] Hz\n"
+    "  seed [1] of all that is random\n"
+    "  record [] bag to write",
+    {"mapping", "exploration", "robot", "laser", "odometry"}};
+
 }  // namespace
 }  // namespace cca
 
-int main(int argc, char** argv) { return cca::runNode(argc, argv, "explore", cca::explore); }
+int main(int argc, char** argv) { return cca::runNode(argc, argv, cca::kNode, cca::explore); }

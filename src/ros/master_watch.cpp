@@ -67,7 +67,7 @@ void registerAgain() {
     }
   }
   for (const char* name :
-       {"start", "stop", "pause", "home", "save", "get_loggers", "set_logger_level"}) {
+       {"start", "stop", "pause", "home", "save", "reset", "get_loggers", "set_logger_level"}) {
     const std::string service = ros::this_node::getName() + "/" + name;
     if (!ros::ServiceManager::instance()->lookupServicePublication(service)) continue;
     const std::string uri = "rosrpc://" + ros::network::getHost() + ":" +

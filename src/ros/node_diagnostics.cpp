@@ -17,7 +17,8 @@ NodeDiagnostics::NodeDiagnostics(ros::NodeHandle& node, ros::NodeHandle& private
                                 [this](const ros::WallTimerEvent&) { updater_.force_update(); });
 }
 
-void NodeDiagnostics::scanUsed(double seconds_spent) {
+void NodeDiagnostics::scanUsed(double seconds_spent, const ScanAgreement& agreement) {
+  agreement_ = agreement;
   ++scans_;
   const auto n = static_cast<double>(scans_ - scans_reported_);
   mean_ += (seconds_spent - mean_) / n;
@@ -36,6 +37,8 @@ void NodeDiagnostics::report(diagnostic_updater::DiagnosticStatusWrapper& status
   }
   if (rate <= 0.0) {
     status.summary(Status::WARN, "no scans");
+  } else if (agreement_.recent() < kPoorAgreement) {
+    status.summary(Status::WARN, "scans contradict the map");
   } else if (dropped > dropped_reported_) {
     status.summary(Status::WARN, "scans are being dropped");
   } else {
@@ -46,6 +49,8 @@ void NodeDiagnostics::report(diagnostic_updater::DiagnosticStatusWrapper& status
   status.add("scans dropped", dropped);
   status.add("time per scan, mean [ms]", 1e3 * mean_);
   status.add("time per scan, longest [ms]", 1e3 * longest_);
+  status.add("agreement of scans and map", agreement_.recent());
+  status.add("agreement since the start", agreement_.overall());
   if (!state_.empty()) status.add("state", state_);
   last_report_ = now;
   scans_reported_ = scans_, dropped_reported_ = dropped;

@@ -8,17 +8,20 @@
 #include <map>
 #include <string>
 
+#include "cca_mrpt/mapping/scan_agreement.hpp"
+
 namespace cca {
 
 /// What /diagnostics tells once a second: rate of the scans in use, scans dropped by reason, time
-/// spent on a scan, and the node's state.
+/// spent on a scan, how far scans and map agree, and the node's state.
 class NodeDiagnostics {
  public:
   using Dropped = std::function<const std::map<std::string, long>&()>;
 
   NodeDiagnostics(ros::NodeHandle& node, ros::NodeHandle& private_node, Dropped dropped);
 
-  void scanUsed(double seconds_spent);
+  /// @param agreement  of scans and map, with this scan.
+  void scanUsed(double seconds_spent, const ScanAgreement& agreement);
   void setState(const std::string& state) { state_ = state; }
 
  private:
@@ -30,6 +33,7 @@ class NodeDiagnostics {
   ros::WallTime last_report_;
   long scans_ = 0, scans_reported_ = 0, dropped_reported_ = 0;
   double mean_ = 0.0, longest_ = 0.0;  // s a scan, since the last report
+  ScanAgreement agreement_;
   std::string state_;
 };
 

@@ -5,11 +5,13 @@
 #include <ros/ros.h>
 #include <ros/xmlrpc_manager.h>
 
+#include <algorithm>
 #include <atomic>
 #include <csignal>
 #include <cstdio>
 #include <exception>
 
+#include "cca_mrpt/io/parameters.hpp"
 #include "master_watch.hpp"
 
 namespace cca {
@@ -28,9 +30,29 @@ void onShutdownRequest(XmlRpc::XmlRpcValue& /*request*/, XmlRpc::XmlRpcValue& re
   response = ros::xmlrpc::responseInt(1, "", 0);
 }
 
+void printHelp(const NodeDescription& node) {
+  std::printf("%s: %s\n\n", node.name.c_str(), node.about.c_str());
+  std::printf("of the program, as _section/name:=value [default]\n");
+  Parameters defaults;
+  for (const auto& field : listParameters(defaults)) {
+    const auto& sections = node.sections;
+    if (std::find(sections.begin(), sections.end(), field.section) == sections.end()) continue;
+    std::printf("  %s/%s [%s] %s; %s\n", field.section.c_str(), field.name.c_str(),
+                field.get().c_str(), field.meaning.c_str(), field.allowed.c_str());
+  }
+}
+
 }  // namespace
 
-int runNode(int argc, char** argv, const std::string& name, const std::function<void()>& body) {
+int runNode(int argc, char** argv, const NodeDescription& node, const std::function<void()>& body) {
+  const auto asks_for_help = [](const std::string& word) {
+    return word == "--help" || word == "-h";
+  };
+  if (std::any_of(argv + 1, argv + argc, asks_for_help)) {
+    printHelp(node);
+    return 0;
+  }
+  const std::string& name = node.name;
   ros::init(argc, argv, name, ros::init_options::NoSigintHandler);
   if (argc > 1) {  // ROS has taken its own out
     std::fprintf(stderr, "%s: '%s' is not expected; parameters are given as _name:=value\n",

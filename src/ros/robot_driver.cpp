@@ -73,7 +73,7 @@ void RobotDriver::use(const PlacedScan& placed) {
   command(exploration_.step(observation, placed.stamp));
   // The clock of the laser's computer may be ahead of ours: that is no clock set back.
   last_step_ = std::min(placed.stamp, ros::Time::now());
-  diagnostics_.scanUsed((ros::WallTime::now() - begin).toSec());
+  diagnostics_.scanUsed((ros::WallTime::now() - begin).toSec(), exploration_.agreement());
 }
 
 void RobotDriver::watch() {

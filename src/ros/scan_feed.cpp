@@ -12,6 +12,7 @@ namespace {
 constexpr double kSmallestSeeingFraction = 0.1;  // below it a laser is covered or broken
 constexpr double kFurthestFuture = 1.0;          // s; clocks of two computers differ by less
 constexpr std::size_t kLongestQueue = 50;        // scans that wait for tf
+constexpr double kLongWait = 1.0;                // s; no localisation takes as long
 
 }  // namespace
 
@@ -67,40 +68,54 @@ void ScanFeed::receive(const sensor_msgs::LaserScan& message) {
   serve();
 }
 
-bool ScanFeed::placed(const Waiting& w, std::string* why_not) const {
-  return transforms_.knows(frames_.map, w.frame, w.middle, why_not) &&
-         (frames_.robot.empty() ||
-          transforms_.knows(frames_.map, frames_.robot, w.middle, why_not));
+bool ScanFeed::hasPose(const Waiting& w) const {
+  const Transforms& tf = transforms_.transforms();
+  return tf.has(frames_.map, w.frame, w.middle) &&
+         (frames_.robot.empty() || tf.has(frames_.map, frames_.robot, w.middle));
+}
+
+std::string ScanFeed::whyNoPose(const Waiting& w) const {
+  const Transforms& tf = transforms_.transforms();
+  const bool lacks_laser = !tf.has(frames_.map, w.frame, w.middle);
+  return tf.whyNot(frames_.map, lacks_laser ? w.frame : frames_.robot);
 }
 
 void ScanFeed::serve() {
-  std::string why_not;
-  const auto has_pose = [&](const Waiting& w) { return placed(w, &why_not); };
+  const auto has_pose = [this](const Waiting& w) { return hasPose(w); };
   for (;;) {
     const auto next = std::find_if(waiting_.begin(), waiting_.end(), has_pose);
     if (next == waiting_.end()) break;
     // tf comes in the order of time: what stands before a scan with a pose will never have one.
-    for (auto n = next - waiting_.begin(); n > 0; --n) dropFirst(why_not);
+    for (auto n = next - waiting_.begin(); n > 0; --n) dropFirst();
     const Waiting scan = std::move(waiting_.front());
     waiting_.pop_front();
     use(scan);
   }
-  while (waiting_.size() > kLongestQueue) dropFirst(why_not);
+  while (waiting_.size() > kLongestQueue) dropFirst();
+  if (waiting_.empty()) return;
+  const std::string why = whyNoPose(waiting_.front());
+  last_trouble_ = ": " + why;
+  if ((waiting_.back().stamp - waiting_.front().stamp).toSec() > kLongWait) {
+    ROS_WARN_STREAM_THROTTLE(5.0, "scans wait for their pose: " << why);
+  }
 }
 
-void ScanFeed::dropFirst(const std::string& why_not) {
+void ScanFeed::dropFirst() {
+  const std::string why = whyNoPose(waiting_.front());
   waiting_.pop_front();
-  drop("no transform", why_not);
+  drop("no transform", why);
 }
 
 void ScanFeed::use(const Waiting& waiting) {
   if (oldest_ > 0.0 && (ros::Time::now() - waiting.stamp).toSec() > oldest_) return drop("too old");
-  PlacedScan placed{waiting.scan, {}, waiting.stamp};
+  PlacedScan placed{waiting.scan, {}, waiting.stamp, waiting.frame};
   try {
-    placeScan(placed.scan, transforms_.lookup(frames_.map, waiting.frame, waiting.middle));
-    placed.T_map_robot = frames_.robot.empty()
-                             ? placed.scan.T_map_sensor
-                             : transforms_.lookup(frames_.map, frames_.robot, waiting.middle).pose;
+    placeScan(placed.scan,
+              transforms_.transforms().lookup(frames_.map, waiting.frame, waiting.middle));
+    placed.T_map_robot =
+        frames_.robot.empty()
+            ? placed.scan.T_map_sensor
+            : transforms_.transforms().lookup(frames_.map, frames_.robot, waiting.middle).pose;
   } catch (const std::runtime_error& error) {
     return drop("no usable transform", error.what());
   }
@@ -108,6 +123,7 @@ void ScanFeed::use(const Waiting& waiting) {
   if (verdict == PoseGate::Verdict::kHeld) return drop("the pose leapt");
   if (verdict == PoseGate::Verdict::kMoved) ROS_WARN("the pose leapt, and stays: going on there");
   last_trouble_.clear();
+  missing_returns_.judge(placed.scan);
   sink_(placed);
 }
 

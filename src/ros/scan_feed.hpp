@@ -9,6 +9,7 @@
 #include <map>
 #include <string>
 
+#include "cca_mrpt/mapping/missing_returns.hpp"
 #include "cca_mrpt/mapping/scan.hpp"
 #include "cca_mrpt/ros/pose_gate.hpp"
 #include "transform_feed.hpp"
@@ -19,13 +20,14 @@ namespace cca {
 struct PlacedScan {
   Scan scan;
   Pose2 T_map_robot;
-  ros::Time stamp;  ///< of the message, its first beam
+  ros::Time stamp;    ///< of the message, its first beam
+  std::string frame;  ///< of the message
 };
 
 /// Turns `scan` and tf into placed scans. What cannot be used is dropped, counted by reason, and
 /// told at most once in five seconds: a message that no laser can have meant, a blind one (hardly a
-/// valid beam), one not newer than the last, one too old to drive by, one that tf knows no pose
-/// for, one after which the pose leapt. Lives in the thread that spins.
+/// valid beam, or none that returned), one not newer than the last, one too old to drive by, one
+/// that tf knows no pose for, one after which the pose leapt. Lives in the thread that spins.
 class ScanFeed {
  public:
   struct Frames {
@@ -39,7 +41,7 @@ class ScanFeed {
   ScanFeed(ros::NodeHandle& node, Frames frames, double oldest, Sink sink);
 
   const std::map<std::string, long>& dropped() const { return dropped_; }
-  /// Why the last scan was dropped, as ": reason"; empty where it was not.
+  /// Why the last scan was dropped or still waits, as ": reason"; empty where it was used.
   const std::string& lastTrouble() const { return last_trouble_; }
 
  private:
@@ -52,8 +54,9 @@ class ScanFeed {
   void receive(const sensor_msgs::LaserScan& message);
   void serve();
   void use(const Waiting& waiting);
-  void dropFirst(const std::string& why_not);
-  bool placed(const Waiting& waiting, std::string* why_not) const;
+  void dropFirst();
+  bool hasPose(const Waiting& waiting) const;
+  std::string whyNoPose(const Waiting& waiting) const;
   void drop(const std::string& reason, const std::string& detail = "");
   void startAnewIfClockWasSetBack();
   bool isFromTheFuture(const ros::Time& stamp) const;
@@ -63,6 +66,7 @@ class ScanFeed {
   Sink sink_;
   std::deque<Waiting> waiting_;
   PoseGate gate_;
+  MissingReturns missing_returns_;
   ros::Time last_stamp_, last_now_;
   std::string last_trouble_;
   std::map<std::string, long> dropped_;

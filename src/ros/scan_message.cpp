@@ -12,6 +12,8 @@ namespace {
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 /// Drivers round 2 pi / n up and repeat the first beam at the end.
 constexpr double kFullTurn = 2.0 * M_PI + 0.05;
+/// Drivers count one beam too many or too few, round their increment, and turn not quite evenly.
+constexpr double kBeamsOff = 2.5, kShareOff = 0.1;
 
 void refuseUnless(bool sound, const char* what) {
   if (!sound) throw std::runtime_error(std::string("LaserScan: ") + what);
@@ -30,10 +32,23 @@ void check(const sensor_msgs::LaserScan& m) {
   refuseUnless(field_of_view <= kFullTurn, "the beams must not cover more than one turn");
 }
 
+/// A driver that loses beams, or counts them the other way round, contradicts itself. An angle_max
+/// of 0 is one that nobody has filled in.
+void checkFieldOfView(const sensor_msgs::LaserScan& m) {
+  if (m.ranges.empty() || m.angle_increment == 0.0f || m.angle_max == 0.0f) return;
+  const double declared = static_cast<double>(m.angle_max) - m.angle_min;
+  const double covered = m.angle_increment * (static_cast<double>(m.ranges.size()) - 1.0);
+  const double allowed = std::max(kBeamsOff * std::abs(m.angle_increment),
+                                  kShareOff * std::max(std::abs(declared), std::abs(covered)));
+  refuseUnless(std::abs(declared - covered) <= allowed,
+               "ranges and angle_increment must lead from angle_min to angle_max");
+}
+
 }  // namespace
 
 Scan scanFromMessage(const sensor_msgs::LaserScan& message) {
   check(message);
+  checkFieldOfView(message);
   Scan scan;
   scan.angle_min = message.angle_min;
   scan.angle_increment = message.angle_increment;
@@ -73,7 +88,7 @@ ros::Time sweepMiddle(const sensor_msgs::LaserScan& message) {
 }
 
 double seeingFraction(const Scan& scan) {
-  if (scan.ranges.empty()) return 0.0;
+  if (std::none_of(scan.ranges.begin(), scan.ranges.end(), isReturn)) return 0.0;
   const auto seeing = std::count_if(scan.ranges.begin(), scan.ranges.end(),
                                     [](double r) { return isReturn(r) || isNoReturn(r); });
   return static_cast<double>(seeing) / static_cast<double>(scan.size());

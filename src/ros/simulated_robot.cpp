@@ -26,6 +26,23 @@ geometry_msgs::TransformStamped stamped(const Pose2& pose, const std::string& pa
   return message;
 }
 
+/// What the odometry may be wrong by: the errors of its parameters, added up over the way [m] and
+/// the turns [rad] so far. It is planar, so z, roll and pitch are known.
+void setCovariances(const OdometryParameters& errors, double way, double turned,
+                    nav_msgs::Odometry& odometry) {
+  constexpr double kLeast = 1e-6;  // m^2, rad^2; nothing is known better, and 0 means: not told
+  const auto square = [](double x) { return x * x; };
+  const double degree = M_PI / 180.0;
+  auto &pose = odometry.pose.covariance, &twist = odometry.twist.covariance;
+  for (std::size_t i = 0; i < 36; i += 7) pose[i] = twist[i] = kLeast;
+  const double heading = square(degree * errors.drift_noise_deg) * way +
+                         square(degree * errors.turn_noise_deg) * turned;
+  pose[0] = pose[7] += square(errors.distance_noise) * way + heading * square(way) / 3.0;
+  pose[35] += heading;
+  twist[0] += square(errors.distance_noise * odometry.twist.twist.linear.x);
+  twist[35] += square(degree * errors.turn_noise_deg * odometry.twist.twist.angular.z);
+}
+
 }  // namespace
 
 SimulatedRobot::SimulatedRobot(ros::NodeHandle& node, Simulation simulation, FrameNames frames,
@@ -50,6 +67,7 @@ SimulatedRobot::SimulatedRobot(ros::NodeHandle& node, Simulation simulation, Fra
 
 void SimulatedRobot::tick(const Velocity& command) {
   simulation_.drive(command, tick_);
+  turned_ += std::abs(simulation_.velocity().angular) * tick_;
   ++ticks_;
   publishPose();
 }
@@ -83,6 +101,7 @@ void SimulatedRobot::publishPose() {
   odometry.pose.pose = poseMessage(T_odom_robot);
   odometry.twist.twist.linear.x = simulation_.velocity().linear;
   odometry.twist.twist.angular.z = simulation_.velocity().angular;
+  setCovariances(simulation_.parameters().odometry, simulation_.distance(), turned_, odometry);
   odometry_.publish(odometry);
   bag_.write(odometry_.getTopic(), stamp, odometry);
 }

@@ -54,6 +54,7 @@ class SimulatedRobot {
   double scan_period_, tick_;
   int ticks_per_scan_;
   long ticks_ = 0;
+  double turned_ = 0.0;  ///< rad
   BagRecorder bag_;
   ros::Publisher clock_, transforms_, fixed_transforms_, odometry_, scans_;
 };

@@ -69,7 +69,21 @@ void simulate() {
   }
 }
 
+const NodeDescription kNode{
+    "simulator",
+    "a robot in a simulated world: cmd_vel in; scan, odom, tf out\n\n"
+    "_name:=value [default]\n"
+    "  world map_server YAML file, or the name of one in maps/; must be given\n"
+    "  config [] .ini file, read first\n"
+    "  start_pose [the world's] X,Y,DEG\n"
+    "  speed [1] simulated seconds a second; other than 1 needs /use_sim_time\n"
+    "  scan_rate [10] Hz\n"
+    "  seed [1] of all that is random\n"
+    "  record [] bag to write\n"
+    "  map_frame [map], odom_frame [odom], base_frame [base_link], laser_frame [laser]",
+    {"robot", "laser", "odometry"}};
+
 }  // namespace
 }  // namespace cca
 
-int main(int argc, char** argv) { return cca::runNode(argc, argv, "simulator", cca::simulate); }
+int main(int argc, char** argv) { return cca::runNode(argc, argv, cca::kNode, cca::simulate); }

@@ -1,10 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "transform_feed.hpp"
 
-#include <tf2/exceptions.h>
-
-#include <stdexcept>
-
 namespace cca {
 
 TransformFeed::TransformFeed(ros::NodeHandle& node, std::function<void()> on_change)
@@ -20,25 +16,8 @@ TransformFeed::TransformFeed(ros::NodeHandle& node, std::function<void()> on_cha
 }
 
 void TransformFeed::take(const tf2_msgs::TFMessage& message, bool is_static) {
-  for (const auto& transform : message.transforms) {
-    // tf2 itself refuses what is not finite, and says so on the console.
-    buffer_.setTransform(transform, "tf", is_static);
-  }
+  transforms_.add(message, is_static);
   on_change_();
-}
-
-bool TransformFeed::knows(const std::string& target, const std::string& source,
-                          const ros::Time& time, std::string* why_not) const {
-  return buffer_.canTransform(target, source, time, why_not);
-}
-
-PlanarPose TransformFeed::lookup(const std::string& target, const std::string& source,
-                                 const ros::Time& time) const {
-  try {
-    return planarPose(buffer_.lookupTransform(target, source, time).transform);
-  } catch (const tf2::TransformException& error) {
-    throw std::runtime_error(error.what());
-  }
 }
 
 }  // namespace cca

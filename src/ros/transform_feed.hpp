@@ -2,13 +2,10 @@
 #pragma once
 
 #include <ros/ros.h>
-#include <tf2/buffer_core.h>
-#include <tf2_msgs/TFMessage.h>
 
 #include <functional>
-#include <string>
 
-#include "cca_mrpt/ros/pose_message.hpp"
+#include "cca_mrpt/ros/transforms.hpp"
 
 namespace cca {
 
@@ -19,19 +16,14 @@ class TransformFeed {
  public:
   TransformFeed(ros::NodeHandle& node, std::function<void()> on_change);
 
-  bool knows(const std::string& target, const std::string& source, const ros::Time& time,
-             std::string* why_not) const;
-  /// T_target_source in the plane. @throws std::runtime_error where tf does not know it, or
-  /// planarPose() refuses it. Never an identity in place of a missing transform.
-  PlanarPose lookup(const std::string& target, const std::string& source,
-                    const ros::Time& time) const;
+  const Transforms& transforms() const { return transforms_; }
   /// Forgets all but the static transforms: the clock has been set back.
-  void clear() { buffer_.clear(); }
+  void clear() { transforms_.clear(); }
 
  private:
   void take(const tf2_msgs::TFMessage& message, bool is_static);
 
-  tf2::BufferCore buffer_;
+  Transforms transforms_;
   std::function<void()> on_change_;
   ros::Subscriber moving_, fixed_;
 };

@@ -12,6 +12,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
+#include <optional>
 
 #include "cca_mrpt/io/log_reader.hpp"
 #include "cca_mrpt/ros/pose_message.hpp"
@@ -36,7 +37,7 @@ class BagLog : public testing::Test {
     stamped.transform = transformMessage(pose);
     tf2_msgs::TFMessage message;
     message.transforms.push_back(stamped);
-    bag_.write(topic, at(time), message);
+    bag_.write(topic, recorded_.value_or(at(time)), message);
   }
 
   void scan(double time, float range_max = 10.0F) {
@@ -48,7 +49,7 @@ class BagLog : public testing::Test {
     message.range_min = 0.1F;
     message.range_max = range_max;
     message.ranges = {2.0F, HUGE_VALF, 0.05F};
-    bag_.write("/scan", at(time), message);
+    bag_.write("/scan", recorded_.value_or(at(time)), message);
   }
 
   std::unique_ptr<LogReader> open() {
@@ -59,6 +60,7 @@ class BagLog : public testing::Test {
   const std::string path_ =
       testing::TempDir() + testing::UnitTest::GetInstance()->current_test_info()->name() + ".bag";
   rosbag::Bag bag_;
+  std::optional<ros::Time> recorded_;  ///< where it is not the time of the stamp
 };
 
 TEST_F(BagLog, PosesComeFromTfAtTheTimeOfTheScan) {
@@ -110,7 +112,24 @@ TEST_F(BagLog, ScansAreNotPutIntoTwoFrames) {
     EXPECT_NEAR(record->scan.T_map_sensor.x, x, 1e-6);
   }
   EXPECT_FALSE(log->next().has_value());
-  EXPECT_THAT(log->warnings(), testing::HasSubstr("1 scan(s) from before"));
+  EXPECT_THAT(log->warnings(), testing::HasSubstr("1 scan(s) that tf has no pose in 'map' for"));
+}
+
+TEST_F(BagLog, StampsMayRunFasterThanTheRecording) {
+  transform("base_link", "laser", {}, 0.0, "/tf_static");
+  for (int k = 0; k <= 200; ++k) {  // 100 simulated seconds in one of the recorder's
+    recorded_ = at(0.005 * k);
+    transform("map", "base_link", {0.01 * k, 0.0, 0.0}, 0.5 * k);
+    scan(0.5 * k);
+  }
+  const auto log = open();
+  int scans = 0;
+  while (const auto record = log->next()) {
+    EXPECT_NEAR(record->scan.T_map_sensor.x, 0.01 * scans, 1e-6);
+    ++scans;
+  }
+  EXPECT_EQ(scans, 201);
+  EXPECT_EQ(log->warnings(), "");
 }
 
 TEST_F(BagLog, DamageInTheMiddleEndsTheLogAndIsSaid) {

@@ -97,7 +97,10 @@ class ExploreSimulated(unittest.TestCase):
     def test_05_start_drives_and_sets_a_goal(self):
         self.assertTrue(self.call("start").success)
         self.expect_status("exploring")
-        self.assertIsNotNone(self.odom.wait(lambda m: m.twist.twist.linear.x > 0.1))
+        odometry = self.odom.wait(lambda m: m.twist.twist.linear.x > 0.1)
+        self.assertIsNotNone(odometry)
+        for covariance in (odometry.pose.covariance, odometry.twist.covariance):
+            self.assertTrue((numpy.array(covariance)[::7] > 0.0).all(), "0 would mean that it is not told")
         self.assertIsNotNone(self.goal.wait(lambda m: m.header.frame_id == "map"))
 
     def test_06_pause_halts_and_goes_on(self):

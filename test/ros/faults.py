@@ -56,7 +56,7 @@ class Faults(unittest.TestCase):
     def test_01_without_transforms_it_never_moves(self):
         rospy.sleep(4.0)
         self.assertFalse(any((v, w) != (0.0, 0.0) for _, v, w in self.robot.commands))
-        self.expect_status("waiting")
+        self.expect_status("waiting: no usable scan: tf has no frame 'map'")
 
     def test_02_with_transforms_it_drives(self):
         self.assertTrue(self.robot.wait_until_moves())
@@ -94,6 +94,43 @@ class Faults(unittest.TestCase):
                                       lambda: setattr(self.robot, "spoil", lambda scan: None),
                                       "malformed")
         self.assertGreater(self.dropped("malformed"), 5)
+
+    def test_07a_a_covered_laser(self):
+        def covered(scan):
+            scan.ranges = [math.inf] * len(scan.ranges)
+        self.expect_stop_and_recovery(lambda: setattr(self.robot, "spoil", covered),
+                                      lambda: setattr(self.robot, "spoil", lambda scan: None),
+                                      "blind")
+
+    def test_07b_ranges_in_millimetres(self):
+        def millimetres(scan):
+            scan.ranges = [math.inf if k % 10 == 0 else 1e3 * r for k, r in enumerate(scan.ranges)]
+        self.expect_stop_and_recovery(lambda: setattr(self.robot, "spoil", millimetres),
+                                      lambda: setattr(self.robot, "spoil", lambda scan: None),
+                                      "blind")
+
+    def test_07c_beams_that_do_not_fill_their_field_of_view(self):
+        def backwards(scan):
+            scan.angle_increment *= -1.0
+
+        def one_beam(scan):
+            scan.ranges = scan.ranges[:1]
+
+        def half(scan):
+            scan.ranges = scan.ranges[:len(scan.ranges) // 2]
+        for spoil in (backwards, one_beam, half):
+            self.expect_stop_and_recovery(lambda spoil=spoil: setattr(self.robot, "spoil", spoil),
+                                          lambda: setattr(self.robot, "spoil", lambda scan: None),
+                                          "malformed")
+
+    def test_07d_a_frame_with_a_slash_is_the_frame_without(self):
+        def slash(scan):
+            scan.header.frame_id = "/laser"
+        self.robot.spoil = slash
+        rospy.sleep(1.0)
+        begin = time.time()
+        rospy.sleep(1.0)
+        self.assertTrue(any(t > begin and (v, w) != (0.0, 0.0) for t, v, w in self.robot.commands))
 
     def test_08_scans_from_the_past(self):
         def late(scan):

@@ -3,9 +3,10 @@
 """node_ends.py DEVEL_SPACE: how nodes begin and end, and what a restarted master does to them."""
 import os
 import signal
+import subprocess
 import time
 
-from own_master import OwnMaster, main, until
+from own_master import NODES, OwnMaster, main, until
 
 
 def velocities(file):
@@ -122,6 +123,14 @@ class NodeEnds(OwnMaster):
                 self.ask("rosparam", "delete", "/" + node)
                 told = ["/%s/%s has no effect in this node" % (node, name) for name in idle]
                 self.expect_refusal(node, arguments + ["_typo:=1"], told + ["typo is unknown"])
+
+    def test_help_tells_the_parameters(self):
+        for name, word in [("explore", "_world"), ("simulator", "_scan_rate"), ("line_mapper", "_map_frame")]:
+            done = subprocess.run([os.path.join(NODES, name), "--help"], capture_output=True, text=True,
+                                  timeout=30)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            self.assertIn(word, done.stdout)
+            self.assertIn("similarity_cut" if name != "simulator" else "radius", done.stdout)
 
     def test_a_restarted_master_finds_the_node_again(self):
         node = self.exploring()

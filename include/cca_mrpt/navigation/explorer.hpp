@@ -7,6 +7,7 @@
 
 #include "cca_mrpt/mapping/line_map.hpp"
 #include "cca_mrpt/mapping/scan.hpp"
+#include "cca_mrpt/mapping/scan_agreement.hpp"
 #include "cca_mrpt/navigation/exploration_grid.hpp"
 #include "cca_mrpt/navigation/global_planner.hpp"
 #include "cca_mrpt/navigation/robot.hpp"
@@ -69,7 +70,7 @@ class Explorer {
 
   /// The two halves of step(). They share nothing: a caller with two cores may run them side by
   /// side, as long as every scan is mapped, in order, before lineMap() is looked at.
-  void map(const Scan& scan) { line_map_.insert(scan); }
+  void map(const Scan& scan);
   Action navigate(const Observation& observation);
 
   /// While paused it maps, and stands still.
@@ -82,6 +83,8 @@ class Explorer {
   void seed(const std::vector<Cell>& cells, CellState state) { planner_.seed(cells, state); }
 
   const LineMap& lineMap() const { return line_map_; }
+  /// How far the scans agree with the line map that the earlier ones made.
+  const ScanAgreement& agreement() const { return agreement_; }
   const ExplorationGrid& grid() const { return planner_.grid(); }
   const GlobalPlanner& planner() const { return planner_; }
   const TangentBug& tangentBug() const { return tangent_bug_; }
@@ -96,6 +99,7 @@ class Explorer {
   ExplorerParameters parameters_;
   RobotParameters robot_;
   LineMap line_map_;
+  ScanAgreement agreement_;
   GlobalPlanner planner_;
   TangentBug tangent_bug_;
   WayProgress progress_;

@@ -20,8 +20,9 @@ namespace cca {
 /// @return  T_map_sensor is the identity: a message does not tell it.
 /// @throws std::runtime_error naming the field, for a message that no laser can have meant:
 /// bearings
-///         not finite, no increment between several beams, more than one turn of them, or range
-///         limits that allow no range. A message without beams is a scan without beams.
+///         not finite, no increment between several beams, more than one turn of them, another
+///         number or direction of them than lead from angle_min to angle_max, or range limits that
+///         allow no range. A message without beams is a scan without beams.
 Scan scanFromMessage(const sensor_msgs::LaserScan& message);
 
 /// What a laser tells of itself besides its scan.
@@ -42,7 +43,8 @@ sensor_msgs::LaserScan scanToMessage(const Scan& scan, const LaserLimits& limits
 /// sweep of a turning laser errs least at its middle.
 ros::Time sweepMiddle(const sensor_msgs::LaserScan& message);
 
-/// Fraction of the beams that say something: a return, or that there is none. 0 without beams.
+/// Fraction of the beams that say something: a return, or that there is none. 0 where no beam
+/// returned: so does a laser that is covered or fails.
 double seeingFraction(const Scan& scan);
 
 }  // namespace cca

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "cca_mrpt/mapping/scan.hpp"
+#include "cca_mrpt/mapping/walls.hpp"
+
+namespace cca {
+
+/// What the walls of a map have to say to the returns of a scan.
+struct ScanVerdict {
+  int confirmed = 0;     ///< returns that lie on a wall
+  int contradicted = 0;  ///< returns from behind a wall: the ray went through it
+};
+
+/// Compares a scan with what the map predicts there. Returns that lie neither on a wall nor behind
+/// one (clutter, people, what is new) say nothing; no more do beams without return. The tolerance
+/// is not learned: a map that is made of wrong poses would learn to tolerate them.
+///
+/// @param walls  as they were before the scan was inserted.
+/// Cost: O(beams looked at, 90 at most, times the cells of the wall index that each crosses).
+ScanVerdict compareWithMap(const Scan& scan, const Walls& walls);
+
+/// How far scans and map agree: of the returns that the map has something to say to, the share that
+/// it does not contradict. 1 where it had nothing to say yet.
+///
+/// With good poses it stays above 0.99, whatever the place; a lost pose, or scans that are not what
+/// they are taken for, bring it below kPoorAgreement (docs/ros.md).
+class ScanAgreement {
+ public:
+  void add(const ScanVerdict& verdict);
+  /// Over the last five hundred scans or so.
+  double recent() const;
+  /// Over all.
+  double overall() const;
+
+ private:
+  struct Sums {
+    double confirmed = 0.0, contradicted = 0.0;
+    double share() const;
+  };
+  Sums recent_, overall_;
+};
+
+/// Below it scans and map contradict each other.
+inline constexpr double kPoorAgreement = 0.98;
+
+}  // namespace cca

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <ros/time.h>
+#include <tf2/buffer_core.h>
+#include <tf2_msgs/TFMessage.h>
+
+#include <string>
+#include <vector>
+
+#include "cca_mrpt/ros/pose_message.hpp"
+
+namespace cca {
+
+/// The name of a frame as tf2 has it: drivers from the days of tf1 begin it with a slash.
+std::string frameName(const std::string& frame);
+
+/// What tf knows, wherever its messages come from. Frames may be named with or without a slash.
+class Transforms {
+ public:
+  /// Keeps the last ten seconds, for who looks poses up as they come.
+  Transforms() = default;
+  /// Keeps all of these messages, for who has the whole of them beforehand: as long as the stamps
+  /// last, which is what tf2 forgets by, and not the time of recording.
+  struct Message {
+    tf2_msgs::TFMessage transforms;
+    bool is_static;
+  };
+  explicit Transforms(const std::vector<Message>& messages);
+
+  void add(const tf2_msgs::TFMessage& message, bool is_static);
+  /// Forgets all but the static transforms.
+  void clear() { buffer_.clear(); }
+
+  bool hasFrame(const std::string& frame) const { return buffer_._frameExists(frameName(frame)); }
+  /// @param time  zero: the latest that there is.
+  bool has(const std::string& target, const std::string& source, const ros::Time& time) const;
+  /// T_target_source in the plane. @throws std::runtime_error where tf does not know it, or
+  /// planarPose() refuses it. Never an identity in place of a missing transform.
+  PlanarPose lookup(const std::string& target, const std::string& source,
+                    const ros::Time& time) const;
+  /// Why has() says no, in a few words.
+  std::string whyNot(const std::string& target, const std::string& source) const;
+
+ private:
+  tf2::BufferCore buffer_;
+};
+
+}  // namespace cca
