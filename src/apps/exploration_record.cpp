@@ -7,6 +7,7 @@
 
 #include "cca_mrpt/io/atomic_file.hpp"
 #include "cca_mrpt/io/local_frame.hpp"
+#include "cca_mrpt/io/trajectory_error.hpp"
 
 namespace cca::apps {
 
@@ -46,6 +47,7 @@ ExplorationRecord::ExplorationRecord(const Simulation& simulation, const Eigen::
 
 void ExplorationRecord::add(const Cycle& cycle) {
   ++scans_;
+  truth_.push_back({cycle.time, cycle.T_map_robot});
   if (keepIfMoved(last_look_, cycle.T_map_robot))
     look(cycle.T_map_robot, cycle.time, cycle.distance);
   if (cycle.goal && (!goal_ || *goal_ != *cycle.goal)) ++goals_;
@@ -58,6 +60,15 @@ void ExplorationRecord::add(const Cycle& cycle) {
     believed_way_.push_back(T_map_robot);
   }
   work_us_.push_back(cycle.work_us);
+}
+
+void ExplorationRecord::correct(const PastScans& past) {
+  grid_ = ScanGrid();
+  believed_way_.clear();
+  for (const auto& kept : past.kept()) {
+    grid_.insert(kept.scan);
+    believed_way_.push_back(kept.T_map_robot);
+  }
 }
 
 void ExplorationRecord::look(const Pose2& T_map_robot, double time, double distance) {
@@ -77,6 +88,18 @@ void ExplorationRecord::writeTrajectory(const Simulation& simulation) const {
   writeFile(folder_ + "/trajectory.csv", text);
 }
 
+void ExplorationRecord::writePoses(const Belief& belief) const {
+  std::string text = "stamp,x,y,theta\n";
+  for (std::size_t k = 0; k < belief.trajectory().size(); ++k) {
+    const Pose2 T_map_robot = seenFrom(-origin_, belief.trajectory()[k]);
+    char line[120];
+    std::snprintf(line, sizeof line, "%.4f,%.6f,%.6f,%.6f\n", truth_[k].time, T_map_robot.x,
+                  T_map_robot.y, T_map_robot.theta);
+    text += line;
+  }
+  writeFile(folder_ + "/poses.csv", text);
+}
+
 void ExplorationRecord::writeCoverage() {
   const std::vector<double> curve = coverage_.curve();
   std::string text = "t,distance,coverage\n";
@@ -90,7 +113,8 @@ void ExplorationRecord::writeCoverage() {
   writeFile(folder_ + "/coverage.csv", text);
 }
 
-nlohmann::ordered_json ExplorationRecord::summary(const Simulation& simulation, const End& end) {
+nlohmann::ordered_json ExplorationRecord::summary(const Simulation& simulation,
+                                                  const Belief& belief, const End& end) {
   nlohmann::ordered_json summary;
   summary["program"] = "cca-mrpt " CCA_VERSION;
   summary["world"] = simulation.world().name;
@@ -104,6 +128,14 @@ nlohmann::ordered_json ExplorationRecord::summary(const Simulation& simulation, 
   summary["goals"] = goals_;
   summary["collisions"] = simulation.collisions();
   summary["mover_contacts"] = simulation.moverContacts();
+  std::vector<Pose2> truth;
+  for (const TimedPose& pose : truth_) truth.push_back(pose.T_map_robot);
+  const TrajectoryError error = compareTrajectories(belief.trajectory(), truth);
+  summary["pose"] = belief.source();
+  summary["pose_error_rms_m"] = rounded(error.rms_m, 1e4);
+  summary["pose_error_worst_m"] = rounded(error.max_m, 1e4);
+  summary["loops"] = belief.loops();
+  summary["corrections"] = belief.corrections();
   summary["scans"] = scans();
   summary["scan_us_median"] = rounded(quantile(work_us_, 0.5), 10.0);
   summary["scan_us_p99"] = rounded(quantile(work_us_, 0.99), 10.0);
@@ -127,14 +159,15 @@ MapProducts ExplorationRecord::products(const Simulation& simulation,
 }
 
 void ExplorationRecord::write(const Simulation& simulation, const Explorer& explorer,
-                              const End& end) {
+                              const Belief& belief, const End& end) {
   look(simulation.T_map_robot(), simulation.time(), simulation.distance());
   withdrawSummary(folder_);
   rawlog_.commit();
   writeTrajectory(simulation);
+  writePoses(belief);
   writeCoverage();
   MapProducts all = products(simulation, explorer);
-  all.summary = summary(simulation, end);
+  all.summary = summary(simulation, belief, end);
   writeMapFolder(folder_, all);
 }
 

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "belief.hpp"
 #include "cca_mrpt/io/map_products.hpp"
 #include "cca_mrpt/io/parameters.hpp"
 #include "cca_mrpt/io/rawlog_writer.hpp"
@@ -45,8 +46,12 @@ class ExplorationRecord {
   };
   void add(const Cycle& cycle);
 
+  /// Takes a correction of the past.
+  void correct(const PastScans& past);
+
   /// Writes every file of the folder. @throws std::runtime_error naming the file.
-  void write(const Simulation& simulation, const Explorer& explorer, const End& end);
+  void write(const Simulation& simulation, const Explorer& explorer, const Belief& belief,
+             const End& end);
 
   long scans() const { return scans_; }
   int goals() const { return goals_; }
@@ -61,8 +66,10 @@ class ExplorationRecord {
   };
   void look(const Pose2& T_map_robot, double time, double distance);
   void writeTrajectory(const Simulation& simulation) const;
+  void writePoses(const Belief& belief) const;
   void writeCoverage();
-  nlohmann::ordered_json summary(const Simulation& simulation, const End& end);
+  nlohmann::ordered_json summary(const Simulation& simulation, const Belief& belief,
+                                 const End& end);
 
   std::string folder_;
   Parameters parameters_;
@@ -72,6 +79,7 @@ class ExplorationRecord {
   Coverage coverage_;
   std::vector<Look> looks_;
   std::vector<Pose2> believed_way_;
+  std::vector<TimedPose> truth_;  ///< of each scan
   std::vector<double> work_us_;
   std::optional<Pose2> last_look_, last_insertion_;
   std::optional<Eigen::Vector2d> goal_;

@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "background_work.hpp"
+#include "belief.hpp"
 #include "cca_mrpt/io/atomic_file.hpp"
-#include "cca_mrpt/io/icp_localizer.hpp"
 #include "cca_mrpt/io/late_library.hpp"
 #include "cca_mrpt/io/local_frame.hpp"
 #include "cca_mrpt/io/map_products.hpp"
@@ -94,26 +94,6 @@ std::string chooseFolder(const ExploreOptions& options, const std::string& world
   return folder;
 }
 
-/// Replaces the true pose of an observation by what the robot believes.
-class Belief {
- public:
-  Belief(const Parameters& parameters, const Pose2& T_map_start) : source_(parameters.run.pose) {
-    if (source_ == "icp") icp_.emplace(T_map_start, parameters.icp);
-  }
-
-  void replacePose(Observation& observation, const Pose2& T_odom_robot) {
-    if (source_ == "truth") return;
-    const Pose2 T_robot_sensor = observation.T_map_robot.inverse() * observation.scan.T_map_sensor;
-    observation.T_map_robot = icp_ ? icp_->locate(observation.scan, T_robot_sensor, T_odom_robot)
-                                   : T_odom_robot;  // the frames of map and odometry begin as one
-    observation.scan.T_map_sensor = observation.T_map_robot * T_robot_sensor;
-  }
-
- private:
-  std::string source_;
-  std::optional<IcpLocalizer> icp_;
-};
-
 /// "91.3 % seen, ", or nothing where it is not known.
 std::string share(const std::optional<double>& seen) {
   char text[32];
@@ -144,18 +124,25 @@ void showProgress(Progress& progress, const Simulation& simulation, const Explor
   progress.show(driven + left > 0.0 ? driven / (driven + left) : 0.0, detail);
 }
 
+void correctMap(const PastScans& past, Explorer& explorer, ExplorationRecord& record) {
+  explorer.correctMap(past);
+  record.correct(past);
+}
+
 // The line map and the files are kept beside the drive, on the second core: neither feeds back.
 ExplorationRecord::End drive(Simulation& simulation, Explorer& explorer, ExplorationRecord& record,
-                             const Parameters& parameters, const Interruption& interruption,
-                             Progress* progress, ExplorationWindow* window) {
-  const RunParameters& run = parameters.run;
-  Belief belief(parameters, simulation.T_map_robot());
+                             Belief& belief, const RunParameters& run,
+                             const Interruption& interruption, Progress* progress,
+                             ExplorationWindow* window) {
   const auto begin = Clock::now();
   BackgroundWork beside;
   while (!interruption.requested() && simulation.time() < run.longest_time) {
     Observation observation = simulation.observe();
-    belief.replacePose(observation, simulation.T_odom_robot());
     const auto start = Clock::now();
+    if (belief.replacePose(observation, simulation.T_odom_robot())) {
+      explorer.correctNavigation(belief.past());
+      beside.add([&, past = belief.past()] { correctMap(past, explorer, record); });
+    }
     const Action action = explorer.navigate(observation);
     ExplorationRecord::Cycle cycle{
         simulation.time(),         simulation.distance(), simulation.T_map_robot(),
@@ -229,15 +216,17 @@ void explore(const ExploreOptions& options, const Parameters& parameters) {
   const FolderLock lock = prepareMapFolder(folder, options.force);
   Explorer explorer(parameters.mapping, parameters.robot, parameters.exploration);
   ExplorationRecord record(simulation, scene.origin, parameters, folder);
+  Belief belief(parameters, simulation.T_map_robot());
   std::unique_ptr<Progress> progress;
   if (!options.quiet) progress = std::make_unique<Progress>("exploring");
   const Interruption interruption;
-  auto end =
-      drive(simulation, explorer, record, parameters, interruption, progress.get(), window.get());
+  auto end = drive(simulation, explorer, record, belief, parameters.run, interruption,
+                   progress.get(), window.get());
   progress.reset();
+  if (belief.finish()) correctMap(belief.past(), explorer, record);
   awaitCoverage(record.coverage(), interruption);
   end.wall_s = secondsSince(start);
-  record.write(simulation, explorer, end);
+  record.write(simulation, explorer, belief, end);
   if (!options.quiet) {
     std::printf(
         "%s: %s. %s%.1f m driven in %.0f s, %d collisions, %.1f s of work\n"

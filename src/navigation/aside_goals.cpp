@@ -31,6 +31,11 @@ bool AsideGoals::contains(Cell target, std::size_t revealed) const {
   });
 }
 
+void AsideGoals::move(const CellMove& moved, std::size_t revealed) {
+  for (Aside& a : aside_) a = {moved(a.target), std::min(a.revealed_then, revealed)};
+  for (Cell& lost : lost_ways_) lost = moved(lost);
+}
+
 bool AsideGoals::recall(std::size_t revealed) {
   const auto kept = std::remove_if(aside_.begin(), aside_.end(), [&](const Aside& a) {
     return revealed > a.revealed_then + kWorthAnotherTry;

@@ -42,6 +42,15 @@ void BarredWays::bar(const std::vector<Eigen::Vector2d>& way, double resolution,
   ways_.push_back(std::move(cells));
 }
 
+void BarredWays::move(const CellMove& moved, FreeSpace& space) {
+  for (auto& cells : ways_) {
+    for (Cell& c : cells) {
+      c = moved(c);
+      space.bar(c, true);
+    }
+  }
+}
+
 void BarredWays::openLast(FreeSpace& space) {
   if (ways_.empty()) return;
   for (const Cell c : ways_.back()) space.bar(c, false);

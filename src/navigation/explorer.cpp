@@ -86,6 +86,7 @@ Explorer::Explorer(const CcaParameters& mapping, const RobotParameters& robot,
                    const ExplorerParameters& parameters)
     : parameters_(parameters),
       robot_(robot),
+      mapping_(mapping),
       line_map_(mapping),
       planner_(plannerParameters(robot, parameters)),
       tangent_bug_(robot),
@@ -99,6 +100,18 @@ Action Explorer::step(const Observation& observation) {
 void Explorer::map(const Scan& scan) {
   agreement_.add(compareWithMap(scan, line_map_.walls()));
   line_map_.insert(scan);
+}
+
+void Explorer::correctMap(const PastScans& past) {
+  line_map_ = LineMap(mapping_);
+  for (const auto& kept : past.kept()) line_map_.insert(kept.scan);
+}
+
+void Explorer::correctNavigation(const PastScans& past) {
+  planner_.correct(past);
+  T_drive_map_ = T_drive_map_ * past.correctionHere().inverse();
+  if (start_map_) start_map_ = past.correctionAt(*start_map_) * *start_map_;
+  progress_.forgetWay();
 }
 
 Action Explorer::navigate(const Observation& observation) {
@@ -181,19 +194,23 @@ Action Explorer::goHome(const Observation& observation) {
   return action;
 }
 
-Velocity Explorer::driveTo(const Eigen::Vector2d& way_point, const Observation& observation) {
+Velocity Explorer::driveTo(const Eigen::Vector2d& way_point_map, const Observation& observation) {
   // A way-point may creep out of reach by less than what makes it another one.
-  const double left = (way_point - observation.T_map_robot.position()).norm();
+  const double left = (way_point_map - observation.T_map_robot.position()).norm();
   const bool crept = tangent_bug_.state() == TangentBugState::kReached && left > kReachedWayPoint;
+  const Eigen::Vector2d way_point = T_drive_map_ * way_point_map;
   if (!way_point_ || (*way_point_ - way_point).norm() > kSameWayPoint || crept) {
     tangent_bug_.setGoal(way_point);
     way_point_ = way_point;
   }
   if (!seesAllAround(observation.scan)) {
-    tangent_bug_.setKnownObstacles(
-        obstaclesAround(planner_.grid(), observation.T_map_robot.position()));
+    auto obstacles = obstaclesAround(planner_.grid(), observation.T_map_robot.position());
+    for (Eigen::Vector2d& p : obstacles) p = T_drive_map_ * p;
+    tangent_bug_.setKnownObstacles(std::move(obstacles));
   }
-  return tangent_bug_.step(observation.scan, observation.T_map_robot, observation.velocity,
+  Scan scan = observation.scan;
+  scan.T_map_sensor = T_drive_map_ * scan.T_map_sensor;
+  return tangent_bug_.step(scan, T_drive_map_ * observation.T_map_robot, observation.velocity,
                            observation.time);
 }
 

@@ -18,7 +18,8 @@ constexpr int kMostGivenUpHere = 3;              // goals of the last look
 }  // namespace
 
 GlobalPlanner::GlobalPlanner(const GlobalPlannerParameters& parameters)
-    : strategy_(strategyNamed(parameters.strategy)),
+    : parameters_(parameters),
+      strategy_(strategyNamed(parameters.strategy)),
       place_(parameters.clearance),
       views_(parameters.smallest_gain, parameters.smallest_frontier),
       view_tour_(parameters.tour),
@@ -33,7 +34,7 @@ const Plan& GlobalPlanner::update(const Scan& scan, const Eigen::Vector2d& robot
     lookAround();
     return plan_;
   }
-  if (!goalStands() || isTimeToReconsider(robot_map)) {
+  if (!goalStands() || is_corrected_ || isTimeToReconsider(robot_map)) {
     decide(robot_map);
   } else {
     advance(robot_map);
@@ -105,6 +106,7 @@ void GlobalPlanner::decide(const Eigen::Vector2d& robot_map) {
   if (isGoalUnseen() && place_.scanned().contains(goal_->cell)) {
     dropGoal();  // there, and nothing seen
   }
+  is_corrected_ = false;
   decided_at_ = robot_map;
   revealed_then_ = grid().revealed();
   plan_ = {};
@@ -204,6 +206,18 @@ std::optional<ViewPoint> GlobalPlanner::choose() {
   const auto stop =
       view_tour_.choose(grid(), space(), views, views_.reach(place_), present, views_.onlyRests());
   return stop ? std::optional<ViewPoint>(views[*stop]) : std::nullopt;
+}
+
+void GlobalPlanner::correct(const PastScans& past) {
+  const CellMove moved = place_.correct(past);
+  aside_.move(moved, grid().revealed());
+  if (goal_) goal_->cell = moved(goal_->cell);
+  if (goal_) goal_->target = moved(goal_->target);
+  given_up_at_ = past.correctionAt(given_up_at_) * given_up_at_;
+  view_tour_ = ViewTour(parameters_.tour);
+  last_look_ = LastLook(parameters_.smallest_gain, parameters_.smallest_frontier);
+  revealed_at_last_look_.reset();
+  is_corrected_ = true;
 }
 
 void GlobalPlanner::setGoalAside() {

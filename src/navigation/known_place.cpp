@@ -44,6 +44,22 @@ void KnownPlace::notePassage(const Eigen::Vector2d& robot_map) {
 void KnownPlace::seed(const std::vector<Cell>& cells, CellState state) {
   for (const Cell c : cells) grid_.set(c, state);
   takeChanges();
+  seeds_.emplace_back(cells, state);
+}
+
+CellMove KnownPlace::correct(const PastScans& past) {
+  KnownPlace anew(space_.clearance());
+  for (const auto& [cells, state] : seeds_) anew.seed(cells, state);
+  for (const auto& kept : past.kept()) anew.observe(kept.scan, kept.T_map_robot.position());
+  const CellMove moved = [&past, grid = ExplorationGrid(grid_.resolution())](Cell c) {
+    const Eigen::Vector2d p_was = grid.centreOf(c);
+    return grid.cellOf(past.correctionAt(p_was) * p_was);
+  };
+  anew.barred_ = std::move(barred_);
+  anew.barred_.move(moved, anew.space_);
+  anew.has_narrow_passages_ = has_narrow_passages_;
+  *this = std::move(anew);
+  return moved;
 }
 
 void KnownPlace::takeChanges() {

@@ -23,11 +23,12 @@ expect_error() {  # expect_error STATUS PART_OF_THE_MESSAGE ARGUMENTS...
 # The folder holds every file, and stdout names picture and map.
 said=$("$program" explore "$maps/two_rooms.yaml" --seed 7 --out a) || fail "two_rooms: status $?"
 for file in lines.csv lines.geojson lines.svg map.png map.pgm map.yaml scene.3Dscene summary.json \
-  trajectory.csv run.rawlog coverage.csv; do
+  trajectory.csv poses.csv run.rawlog coverage.csv; do
   [ -s "a/$file" ] || fail "a/$file is missing or empty"
 done
 case "$said" in *a/map.png*a/lines.csv*) ;; *) fail "picture and map are not named: $said" ;; esac
 [ "$(head -n 1 a/trajectory.csv)" = t,x,y,theta ] || fail "header of trajectory.csv"
+[ "$(head -n 1 a/poses.csv)" = stamp,x,y,theta ] || fail "header of poses.csv"
 [ "$(head -n 1 a/coverage.csv)" = t,distance,coverage ] || fail "header of coverage.csv"
 for key in finished reason distance_m duration_s wall_s coverage goals collisions map_lines \
   scan_us_median scan_us_p99; do
@@ -38,6 +39,19 @@ done
 "$program" explore "$maps/two_rooms.yaml" --seed 7 --out b --quiet || fail "second run: status $?"
 sed -i -E '/"(wall_s|scan_us_median|scan_us_p99)"/d' a/summary.json b/summary.json
 diff -rq a b || fail "equal seeds gave unequal files"
+
+# On wheels and laser: a loop is closed, the map is made anew, all of it is seen and nothing touched.
+for folder in wheels again; do
+  "$program" explore "$maps/corridor_loop.yaml" --pose slam --seed 1 --out $folder --quiet || fail "--pose slam: status $?"
+  sed -i -E '/"(wall_s|scan_us_median|scan_us_p99)"/d' $folder/summary.json
+done
+diff -rq wheels again || fail "--pose slam: equal seeds gave unequal files"
+awk -F'[:,]' '{ gsub(/[ "]/, ""); of[$1] = $2 }
+  END { exit !(of["pose"] == "slam" && of["collisions"] == 0 && of["coverage"] >= 0.99 && of["corrections"] >= 1 &&
+               of["pose_error_rms_m"] > 0 && of["pose_error_rms_m"] <= 0.05 && of["pose_error_worst_m"] <= 0.2) }' \
+  wheels/summary.json || fail "--pose slam: $(cat wheels/summary.json)"
+[ "$(wc -l <wheels/poses.csv)" -eq $((1 + $(sed -n 's/^ *"scans": \([0-9]*\),/\1/p' wheels/summary.json))) ] ||
+  fail "--pose slam: not a pose for each scan"
 
 # Nothing is overwritten unasked; without --out each run has a folder of its own.
 expect_error 1 "summary.json" explore "$maps/two_rooms.yaml" --out b

@@ -123,6 +123,83 @@ TEST(Explorer, ReturnsToItsStartWhereAsked) {
   EXPECT_LT((driver.T_map_robot.position() - kStart.position()).norm(), 0.35);
 }
 
+/// A robot that believes itself more and more astray, until it is told where it has been.
+struct StrayingDriver {
+  Explorer explorer;
+  PastScans past;
+  std::vector<Pose2> truth;
+  Pose2 T_map_robot = kStart;
+  Pose2 T_map_true;  ///< the belief's error
+  Velocity velocity;
+  double time = 0.0;
+
+  explicit StrayingDriver(const ExplorerParameters& parameters) : explorer({}, {}, parameters) {}
+
+  Action step(double stray) {
+    Scan scan = kRooms.scanFrom(T_map_robot, 4.0);
+    T_map_true = T_map_true * Pose2{stray, 0.5 * stray, 0.2 * stray};
+    scan.T_map_sensor = T_map_true * T_map_robot;
+    const Action action = explorer.step({scan, scan.T_map_sensor, velocity, time});
+    past.add(scan, scan.T_map_sensor);
+    truth.push_back(T_map_robot);
+    velocity = action.velocity;
+    constexpr double kPeriod = 0.1;
+    const Eigen::Vector2d way = kPeriod * velocity.linear * T_map_robot.heading();
+    T_map_robot = {T_map_robot.x + way.x(), T_map_robot.y + way.y(),
+                   wrapAngle(T_map_robot.theta + kPeriod * velocity.angular)};
+    time += kPeriod;
+    return action;
+  }
+  void correct() {
+    past.correct(truth);
+    explorer.correctMap(past);
+    explorer.correctNavigation(past);
+    T_map_true = {};
+  }
+};
+
+TEST(Explorer, MakesItsMapAnewAndFindsHomeWhereThePastIsCorrected) {
+  ExplorerParameters parameters;
+  parameters.return_to_start = true;
+  StrayingDriver driver(parameters);
+  for (int i = 0; i < 60; ++i) driver.step(0.01);
+  ASSERT_GT(driver.T_map_true.position().norm(), 0.5);
+  driver.correct();
+  Action action;
+  for (int i = 0; i < 4000 && action.status != ExplorationStatus::kFinished; ++i)
+    action = driver.step(0.0);
+  EXPECT_EQ(action.status, ExplorationStatus::kFinished);
+  EXPECT_NE(action.reason.find("back at the start"), std::string::npos) << action.reason;
+  EXPECT_LT((driver.T_map_robot.position() - kStart.position()).norm(), 0.35);
+  const ExplorationGrid& grid = driver.explorer.grid();
+  EXPECT_EQ(grid.at({120, 20}), CellState::kFree);
+  int astray = 0;  // of the walls, more than a cell inside of a room
+  for (const Cell c : kRooms.freeCells()) {
+    bool is_inside = grid.at(c) == CellState::kOccupied;
+    for (const Cell offset : kNeighbours) is_inside = is_inside && !kRooms.isOccupied(c + offset);
+    astray += is_inside;
+  }
+  EXPECT_EQ(astray, 0);
+  for (const MapLine& line : driver.explorer.lineMap().lines()) {
+    const Eigen::Vector2d way = line.segment.end - line.segment.start;
+    EXPECT_LT(std::min(std::abs(way.x()), std::abs(way.y())), 0.05);
+  }
+}
+
+TEST(Explorer, DrivesOnAsItDidWhereThePastIsCorrected) {
+  StrayingDriver corrected({}), other({});
+  corrected.T_map_true = other.T_map_true = {0.5, -0.3, 0.4};
+  for (int i = 0; i < 15 || (i < 100 && corrected.velocity.linear < 0.3); ++i) {
+    corrected.step(0.0);
+    other.step(0.0);
+  }
+  ASSERT_GE(corrected.velocity.linear, 0.3);
+  corrected.correct();
+  const Action with = corrected.step(0.0), without = other.step(0.0);
+  EXPECT_NEAR(with.velocity.linear, without.velocity.linear, 0.05);
+  EXPECT_NEAR(with.velocity.angular, without.velocity.angular, 0.2);
+}
+
 TEST(Explorer, StandsStillWhilePausedAndGoesOnAfterwards) {
   Driver driver;
   for (int i = 0; i < 20; ++i) driver.step();

@@ -28,6 +28,9 @@ class AsideGoals {
   /// Whether it was set aside, and less than 10 m^2 have been seen since then.
   bool contains(Cell target, std::size_t revealed) const;
 
+  /// The map has been made anew, and as much of it is revealed now.
+  void move(const CellMove& moved, std::size_t revealed);
+
   /// Gives those another chance since which half a square metre has been seen.
   /// @return whether there are any.
   bool recall(std::size_t revealed);

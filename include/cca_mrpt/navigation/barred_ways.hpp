@@ -19,6 +19,9 @@ class BarredWays {
   /// Cost: O(1).
   void bar(const std::vector<Eigen::Vector2d>& way, double resolution, FreeSpace& space);
 
+  /// Bars in a space that was made anew what was barred before.
+  void move(const CellMove& moved, FreeSpace& space);
+
   /// Opens what was barred last. Cost: O(cells barred).
   void openLast(FreeSpace& space);
 

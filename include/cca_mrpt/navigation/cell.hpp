@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstddef>
+#include <functional>
 #include <vector>
 
 namespace cca {
@@ -17,6 +18,9 @@ struct Cell {
 inline bool operator==(Cell a, Cell b) { return a.x == b.x && a.y == b.y; }
 inline bool operator!=(Cell a, Cell b) { return !(a == b); }
 inline Cell operator+(Cell a, Cell b) { return {a.x + b.x, a.y + b.y}; }
+
+/// Where a cell of a map got to when that was corrected.
+using CellMove = std::function<Cell(Cell)>;
 
 /// The eight neighbours: right, up, left, down, then the diagonals.
 constexpr std::array<Cell, 8> kNeighbours{

@@ -10,6 +10,7 @@
 #include "cca_mrpt/mapping/scan_agreement.hpp"
 #include "cca_mrpt/navigation/exploration_grid.hpp"
 #include "cca_mrpt/navigation/global_planner.hpp"
+#include "cca_mrpt/navigation/past_scans.hpp"
 #include "cca_mrpt/navigation/robot.hpp"
 #include "cca_mrpt/navigation/tangent_bug.hpp"
 #include "cca_mrpt/navigation/way_progress.hpp"
@@ -73,6 +74,12 @@ class Explorer {
   void map(const Scan& scan);
   Action navigate(const Observation& observation);
 
+  /// Take a correction of the past, of which the next observation knows already: the two halves of
+  /// it, as above. The map and all that is remembered of places is made anew or moves along; the
+  /// robot drives on as it did. Cost: that of the scans.
+  void correctMap(const PastScans& past);
+  void correctNavigation(const PastScans& past);
+
   /// While paused it maps, and stands still.
   void pause(bool paused) { is_paused_ = paused; }
   /// Gives up exploring and drives back to where it began.
@@ -87,24 +94,27 @@ class Explorer {
   const ScanAgreement& agreement() const { return agreement_; }
   const ExplorationGrid& grid() const { return planner_.grid(); }
   const GlobalPlanner& planner() const { return planner_; }
-  const TangentBug& tangentBug() const { return tangent_bug_; }
 
  private:
   Action explore(const Observation& observation);
   Action lookAround(const Observation& observation);
   Action goHome(const Observation& observation);
-  Velocity driveTo(const Eigen::Vector2d& way_point, const Observation& observation);
+  Velocity driveTo(const Eigen::Vector2d& way_point_map, const Observation& observation);
   bool isStuck(double time);
 
   ExplorerParameters parameters_;
   RobotParameters robot_;
+  CcaParameters mapping_;
   LineMap line_map_;
   ScanAgreement agreement_;
   GlobalPlanner planner_;
-  TangentBug tangent_bug_;
+  /// The frame that the local planner drives in: where the map is corrected, the robot goes on
+  /// smoothly in it.
+  Pose2 T_drive_map_;
+  TangentBug tangent_bug_;  ///< in the drive frame
   WayProgress progress_;
   std::optional<Eigen::Vector2d> start_map_;
-  std::optional<Eigen::Vector2d> way_point_;
+  std::optional<Eigen::Vector2d> way_point_;  ///< drive frame
   std::optional<double> looks_around_since_;  ///< s
   bool is_paused_ = false;
   bool is_returning_ = false;

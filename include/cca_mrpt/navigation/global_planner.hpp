@@ -64,6 +64,11 @@ class GlobalPlanner {
   /// Exploration stays inside a polygon (m, map frame); fewer than three corners: no limit.
   void limitTo(std::vector<Eigen::Vector2d> polygon) { views_.limitTo(std::move(polygon)); }
 
+  /// Takes a correction of the past: what is known is made anew from the scans, goals and barred
+  /// ways go with them, and the next goal is decided on at the next update.
+  /// Cost: that of observing all the scans.
+  void correct(const PastScans& past);
+
   /// Sets the present goal aside until the map has changed, e.g. where it proved unreachable. The
   /// third one of the last look that this happens to at the same place ends the exploration.
   void setGoalAside();
@@ -117,6 +122,7 @@ class GlobalPlanner {
   void dropGoal();
   bool drivesTo(const ViewPoint& chosen, const Eigen::Vector2d& robot_map, const char* reason);
 
+  GlobalPlannerParameters parameters_;
   Strategy strategy_;
   KnownPlace place_;
   FrontierViews views_;
@@ -124,6 +130,7 @@ class GlobalPlanner {
   LastLook last_look_;
   AsideGoals aside_;
   bool has_looked_around_ = false;  ///< from the start
+  bool is_corrected_ = false;       ///< since the last decision
   std::optional<ViewPoint> goal_;
   Eigen::Vector2d decided_at_ = Eigen::Vector2d::Zero();
   std::size_t revealed_then_ = 0;  ///< at the last decision

@@ -12,6 +12,7 @@
 #include "cca_mrpt/navigation/free_space.hpp"
 #include "cca_mrpt/navigation/frontier.hpp"
 #include "cca_mrpt/navigation/grid_paths.hpp"
+#include "cca_mrpt/navigation/past_scans.hpp"
 #include "cca_mrpt/navigation/scanned_places.hpp"
 
 namespace cca {
@@ -26,6 +27,10 @@ class KnownPlace {
   /// Takes a scan. A robot that is nowhere on the grid, or not finite, adds what it saw and no
   /// passage. Cost: cells crossed by the scan.
   void observe(const Scan& scan, const Eigen::Vector2d& robot_map);
+
+  /// Makes everything anew from scans whose poses were corrected, and moves what was barred along.
+  /// @return where cells got to. Cost: that of observing all the scans.
+  CellMove correct(const PastScans& past);
 
   /// Declares cells as known from a saved map.
   void seed(const std::vector<Cell>& cells, CellState state);
@@ -83,6 +88,7 @@ class KnownPlace {
   FreeSpace space_;
   FrontierCells frontier_cells_;
   ScannedPlaces scanned_;
+  std::vector<std::pair<std::vector<Cell>, CellState>> seeds_;  ///< stay where they are
   BarredWays barred_;
   DistanceField ways_;
   std::optional<Eigen::Vector2d> last_place_;

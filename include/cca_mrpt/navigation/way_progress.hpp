@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <limits>
 #include <vector>
 
 #include "cca_mrpt/navigation/robot.hpp"
@@ -23,6 +24,9 @@ class WayProgress {
 
   /// Standing still by order is no failure.
   void excuse(double time);
+
+  /// The map has changed: whatever way comes next is another one to the same goal.
+  void forgetWay() { last_ = -std::numeric_limits<double>::infinity(); }
 
   /// Whether what is left has not become shorter for ten seconds and a whole turn on the spot. Then
   /// the patience starts anew.
