@@ -268,9 +268,10 @@ void addCompareStrategiesCommand(CLI::App& program) {
       ->capture_default_str();
   command->add_option("--out", options->out, "folder for the results")->capture_default_str();
   auto parameters = std::make_shared<ParameterOptions>(
-      *command, std::vector<std::string>{"run.control_period", "run.longest_time", "mapping",
-                                         "exploration.path", "exploration.smallest_gain",
-                                         "exploration.return_to_start", "robot", "laser"});
+      *command,
+      std::vector<std::string>{"run.control_period", "run.longest_time", "mapping",
+                               "exploration.path", "exploration.worth", "exploration.smallest_gain",
+                               "exploration.return_to_start", "robot", "laser"});
   command->callback([options, parameters] { compare(*options, parameters->resolve()); });
 }
 

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "cca_mrpt/navigation/global_planner.hpp"
 
+#include <algorithm>
+#include <sstream>
+
 #include "cca_mrpt/navigation/grid_paths.hpp"
 
 namespace cca {
@@ -15,6 +18,19 @@ constexpr double kPassed = 0.1;                  // m, of a corner
 constexpr double kSamePlace = 0.3;               // m
 constexpr int kMostGivenUpHere = 3;              // goals of the last look
 
+/// For people.
+std::string whatIsLeft(const std::vector<ViewPoint>& left) {
+  const auto ratio = [](const ViewPoint& view) { return view.expected / (view.distance + 1e-9); };
+  const auto best = std::max_element(
+      left.begin(), left.end(), [&](const auto& a, const auto& b) { return ratio(a) < ratio(b); });
+  if (best == left.end()) return "no reachable frontier of useful size is left";
+  std::ostringstream text;
+  text.precision(2);
+  text << "nothing that is left is worth its way, at best some " << best->expected << " m^2 for "
+       << best->distance << " m";
+  return text.str();
+}
+
 }  // namespace
 
 GlobalPlanner::GlobalPlanner(const GlobalPlannerParameters& parameters)
@@ -23,7 +39,7 @@ GlobalPlanner::GlobalPlanner(const GlobalPlannerParameters& parameters)
       place_(parameters.clearance),
       views_(parameters.smallest_gain, parameters.smallest_frontier),
       view_tour_(parameters.tour),
-      last_look_(parameters.smallest_gain, parameters.smallest_frontier) {}
+      last_look_(parameters.smallest_gain, parameters.smallest_frontier, parameters.worth) {}
 
 const Plan& GlobalPlanner::update(const Scan& scan, const Eigen::Vector2d& robot_map) {
   place_.observe(scan, robot_map);
@@ -126,7 +142,7 @@ void GlobalPlanner::decide(const Eigen::Vector2d& robot_map) {
   plan_.reason = given_up_here_ >= kMostGivenUpHere
                      ? "the robot does not get to what is left from where it stands"
                  : place_.ways().isStarted()
-                     ? "no reachable frontier of useful size is left"
+                     ? whatIsLeft(last_look_.left())
                      : "the robot stands where nothing around it is known to be free";
 }
 

@@ -95,7 +95,13 @@ std::optional<ViewPoint> LastLook::choose(const KnownPlace& place, Strategy stra
                                        place.scanned().contains(view.cell);
                               }),
                found_.end());
-  while (const auto best = selectGoal(strategy, found_)) {
+  const auto isWorthIt = [&](const ViewPoint& view) {
+    return worth_ * view.expected > view.distance;
+  };
+  while (true) {
+    const auto end = std::stable_partition(found_.begin(), found_.end(), isWorthIt);
+    const auto best = selectGoal(strategy, {found_.begin(), end});
+    if (!best) break;
     is_under_way_ = looks_left_ <= 0;
     if (is_under_way_) break;
     const auto view = found_.begin() + static_cast<std::ptrdiff_t>(*best);

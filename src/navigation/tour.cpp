@@ -95,4 +95,43 @@ Tour findTour(const Eigen::MatrixXd& distance, const TourObjective& objective,
   return tour;
 }
 
+std::vector<std::size_t> worthTheWay(const Eigen::MatrixXd& distance,
+                                     const std::vector<double>& worth,
+                                     std::vector<std::size_t> stops) {
+  const auto way = [&](std::size_t position) {  // to the stop there, from the one before
+    const auto row = [&](std::size_t at) { return static_cast<Eigen::Index>(stops[at]) + 1; };
+    return distance(position > 0 ? row(position - 1) : 0, row(position));
+  };
+  // m, by which the tour without a stop falls short of the tour with it.
+  const auto value = [&](std::size_t position) {
+    const std::size_t stop = stops[position];
+    double detour = way(position);
+    if (position + 1 < stops.size()) {
+      detour += way(position + 1);
+      stops.erase(stops.begin() + static_cast<std::ptrdiff_t>(position));
+      detour -= way(position);
+      stops.insert(stops.begin() + static_cast<std::ptrdiff_t>(position), stop);
+    }
+    return worth[stop] - detour;
+  };
+  while (!stops.empty()) {
+    std::size_t worst = 0;
+    for (std::size_t i = 1; i < stops.size(); ++i) {
+      if (value(i) < value(worst)) worst = i;
+    }
+    if (value(worst) >= 0.0) break;
+    stops.erase(stops.begin() + static_cast<std::ptrdiff_t>(worst));
+  }
+  double sum = 0.0, most = 0.0;
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < stops.size(); ++i) {
+    sum += worth[stops[i]] - way(i);
+    if (sum <= most) continue;
+    most = sum;
+    kept = i + 1;
+  }
+  stops.resize(kept);
+  return stops;
+}
+
 }  // namespace cca

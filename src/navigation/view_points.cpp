@@ -13,6 +13,8 @@ constexpr double kPi = 3.14159265358979323846;
 
 constexpr int kViewRays = 90, kGainRays = 72, kFineRays = 360;
 
+constexpr double kFreeWay = 0.5;  // m, that a ray gets in the unknown on average
+
 /// Cells' length that fine rays may go through opaque ones: cutting corners, but not through a
 /// wall. A surface on the border of two cells makes both occupied, and a ray that grazes it, or the
 /// jamb of a door, would end there.
@@ -206,17 +208,22 @@ ViewPoint viewFrom(const ExplorationGrid& grid, Cell from, double range,
                    const std::function<bool(Cell)>& is_opening) {
   static const std::vector<Eigen::Vector2d> kDirections = directions(kFineRays);
   ViewPoint view{from, from, 0.0, 0.0};
+  const double free_way = kFreeWay / grid.resolution();
   double longest = 0.0;
   eachUnknownStretch(
       grid, from, kDirections, range, kCut, is_opening,
       [&](const Eigen::Vector2d& direction, double begin, double end) {
         view.gain += (end * end - begin * begin) * kPi / kFineRays;
+        const double passed = end - begin, fading = std::exp(-passed / free_way);
+        view.expected += ((begin + free_way) * (1.0 - fading) - passed * fading) * free_way * 2.0 *
+                         kPi / kFineRays;
         if (end - begin <= longest) return;
         longest = end - begin;
         const Eigen::Vector2d p = middle(from) + 0.5 * (begin + end) * direction;
         view.target = {static_cast<int>(std::floor(p.x())), static_cast<int>(std::floor(p.y()))};
       });
   view.gain *= grid.resolution() * grid.resolution();
+  view.expected *= grid.resolution() * grid.resolution();
   return view;
 }
 

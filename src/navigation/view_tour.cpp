@@ -34,26 +34,32 @@ std::optional<std::size_t> ViewTour::choose(const ExplorationGrid& grid, const F
                                             std::optional<Cell> present, bool only_rests) {
   if (view_points.empty()) return {};
   ++choices_;
-  const std::vector<Stop> stops = cover(grid, view_points, reach, present);
+  const std::vector<Stop> stops = cover(grid, view_points, reach, present, only_rests);
   const Eigen::MatrixXd distance = distances(grid, space, view_points, stops);
   TourObjective objective;
   objective.hurry = only_rests ? 0.0 : parameters_.hurry;
   double sum = 0.0;
   for (const Stop& stop : stops) sum += stop.gain;
-  for (const Stop& stop : stops) objective.weights.push_back(sum > 0.0 ? stop.gain / sum : 0.0);
+  std::vector<double> worth;
+  for (const Stop& stop : stops) {
+    objective.weights.push_back(sum > 0.0 ? stop.gain / sum : 0.0);
+    worth.push_back(parameters_.worth * stop.promise);
+  }
 
   const Tour best = findTour(distance, objective);
-  for (std::size_t k = 0; k < stops.size(); ++k) {
+  const std::vector<std::size_t> driven = worthTheWay(distance, worth, best.stops);
+  if (driven.empty()) return {};
+  for (const std::size_t k : driven) {
     if (!stops[k].sees_present) continue;
     const Tour same = findTour(distance, objective, k);
     if (same.cost < best.cost + parameters_.stay) return stops[k].view_point;
   }
-  return stops[best.stops.front()].view_point;
+  return stops[driven.front()].view_point;
 }
 
 std::vector<ViewTour::Stop> ViewTour::cover(const ExplorationGrid& grid,
                                             const std::vector<ViewPoint>& view_points, double reach,
-                                            std::optional<Cell> present) const {
+                                            std::optional<Cell> present, bool only_rests) const {
   const auto sees = visibility(grid, view_points, reach);
   std::vector<bool> is_covered(view_points.size(), false);
   std::vector<Stop> stops;
@@ -69,13 +75,18 @@ std::vector<ViewTour::Stop> ViewTour::cover(const ExplorationGrid& grid,
       best = a;
     }
     if (most == 0) break;
-    Stop stop{best, 0.0, false};
+    Stop stop{best, 0.0, 0.0, false};
     for (const std::size_t b : sees[best]) {
       if (is_covered[b]) continue;
       is_covered[b] = true;
       stop.gain += view_points[b].gain;
       if (present && view_points[b].target == *present) stop.sees_present = true;
     }
+    // What lies around the target of a rest is mostly the inside of what hides it.
+    stop.promise = only_rests ? viewFrom(grid, view_points[best].cell, reach,
+                                         [&](Cell c) { return isFrontier(grid, c); })
+                                    .expected
+                              : stop.gain;
     stops.push_back(stop);
   }
   return stops;

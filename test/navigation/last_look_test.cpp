@@ -18,6 +18,8 @@ const KnownWorld kRoomBehindAGap{
     8};
 const Eigen::Vector2d kBeforeTheGap{2.6, 1.8};
 
+constexpr double kPriceless = 1e3;  // m/m^2: worth any way
+
 /// Calls until all places have been asked.
 std::optional<ViewPoint> nextOf(LastLook& last_look, KnownPlace& place, Strategy strategy,
                                 const LastLook::Filter& filter) {
@@ -28,7 +30,7 @@ std::optional<ViewPoint> nextOf(LastLook& last_look, KnownPlace& place, Strategy
 
 struct Look {
   KnownPlace place{0.27};
-  LastLook last_look{0.1, 5};
+  LastLook last_look{0.1, 5, kPriceless};
 
   explicit Look(const Eigen::Vector2d& robot = kBeforeTheGap) {
     place.observe(kRoomBehindAGap.scanFrom({robot.x(), robot.y(), 0.0}), robot);
@@ -114,7 +116,7 @@ TEST(LastLook, ExpectsNothingBehindASmallFrontier) {
   place.seed(walls, CellState::kOccupied);
   place.findWays(kBeforeTheGap);
   for (const std::size_t smallest : {std::size_t{3}, std::size_t{5}}) {
-    LastLook last_look(0.1, smallest);
+    LastLook last_look(0.1, smallest, kPriceless);
     last_look.begin(place);
     const auto view = nextOf(last_look, place, Strategy::kGreedy, Look::takesAll);
     EXPECT_EQ(view.has_value(), smallest == 3);
@@ -126,13 +128,23 @@ TEST(LastLook, GoesThroughALargePlaceAFewAtATime) {
   KnownPlace place(0.27);
   place.seed(hall.freeCells(), CellState::kFree);  // nothing is known of what is around it
   place.findWays({5.0, 5.0});
-  LastLook last_look(0.1, 5);
+  LastLook last_look(0.1, 5, kPriceless);
   last_look.begin(place);
   int calls = 0;
   while (!last_look.next(place, Strategy::kGreedy, Look::takesAll) && last_look.isUnderWay())
     ++calls;
   EXPECT_GT(calls, 5) << "of 2500 places";
   EXPECT_LT(calls, 50);
+}
+
+TEST(LastLook, LeavesWhatIsNotWorthItsWay) {
+  Look look;
+  look.last_look = LastLook(0.1, 5, 0.1);  // m/m^2
+  look.last_look.begin(look.place);
+  EXPECT_FALSE(look.next(Strategy::kGreedy));
+  EXPECT_FALSE(look.last_look.isUnderWay());
+  ASSERT_FALSE(look.last_look.left().empty());
+  EXPECT_GT(look.last_look.left().front().expected, 0.0);
 }
 
 TEST(LastLook, DropsWhatIsAroundAPlaceThatCannotBeReached) {
@@ -146,7 +158,7 @@ TEST(LastLook, DropsWhatIsAroundAPlaceThatCannotBeReached) {
 }
 
 TEST(LastLook, FindsNothingBeforeItBeginsOrWhereAllIsKnown) {
-  LastLook last_look(0.1, 5);
+  LastLook last_look(0.1, 5, kPriceless);
   KnownPlace nowhere(0.27);
   EXPECT_FALSE(last_look.next(nowhere, Strategy::kGreedy, Look::takesAll));
   last_look.begin(nowhere);

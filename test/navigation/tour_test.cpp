@@ -89,5 +89,36 @@ TEST(Tour, OfNoStopsIsEmpty) {
   EXPECT_TRUE(findTour(Eigen::MatrixXd::Zero(1, 1), {}).stops.empty());
 }
 
+/// Places on a line, the start at 0.
+Eigen::MatrixXd onALine(const std::vector<double>& places) {
+  const auto n = static_cast<Eigen::Index>(places.size());
+  Eigen::MatrixXd distance = Eigen::MatrixXd::Zero(n + 1, n + 1);
+  const auto at = [&](Eigen::Index i) {
+    return i > 0 ? places[static_cast<std::size_t>(i) - 1] : 0.0;
+  };
+  for (Eigen::Index i = 0; i <= n; ++i) {
+    for (Eigen::Index j = 0; j <= n; ++j) distance(i, j) = std::abs(at(i) - at(j));
+  }
+  return distance;
+}
+
+TEST(WorthTheWay, LeavesAStopOutWhoseDetourIsLongerThanItsWorth) {
+  const Eigen::MatrixXd distance = onALine({-2.0, 3.0, 5.0});
+  EXPECT_EQ(worthTheWay(distance, {5.0, 9.0, 9.0}, {0, 1, 2}), (std::vector<std::size_t>{0, 1, 2}));
+  EXPECT_EQ(worthTheWay(distance, {3.0, 9.0, 9.0}, {0, 1, 2}), (std::vector<std::size_t>{1, 2}));
+  EXPECT_EQ(worthTheWay(distance, {5.0, 0.0, 9.0}, {0, 1, 2}), (std::vector<std::size_t>{0, 1, 2}))
+      << "on the way";
+}
+
+// Each of the two far ones is a short way from the other, but not from where the robot is.
+TEST(WorthTheWay, EndsWhereAllThatComesIsNotWorthTheWayThere) {
+  const Eigen::MatrixXd distance = onALine({1.0, 20.0, 21.0});
+  EXPECT_EQ(worthTheWay(distance, {2.0, 5.0, 5.0}, {0, 1, 2}), (std::vector<std::size_t>{0}));
+  EXPECT_EQ(worthTheWay(distance, {2.0, 15.0, 15.0}, {0, 1, 2}),
+            (std::vector<std::size_t>{0, 1, 2}));
+  EXPECT_TRUE(worthTheWay(distance, {0.5, 5.0, 5.0}, {0, 1, 2}).empty());
+  EXPECT_TRUE(worthTheWay(distance, {}, {}).empty());
+}
+
 }  // namespace
 }  // namespace cca

@@ -38,6 +38,7 @@ struct Action {
 struct ExplorerParameters {
   std::string strategy = "view_tour";
   std::string path = "known_space";
+  double worth = 80.0;
   double smallest_gain = 0.1;
   bool return_to_start = false;
 };
@@ -50,6 +51,9 @@ void describe(ExplorerParameters& p, Field&& field) {
         "how the next goal is chosen; greedy is the paper's");
   field("path", p.path, {"known_space", "paper"},
         "way-points along what is known to be free, or (paper) Tangent Bug straight to the goal");
+  field("worth", p.worth, 0.0, 1e6, "m/m^2",
+        "way that an unseen square metre is worth: exploration ends when nothing that is "
+        "left is worth its way");
   field("smallest_gain", p.smallest_gain, 0.0, 100.0, "m^2",
         "exploration ends when no reachable frontier promises more");
   field("return_to_start", p.return_to_start, "drive back to where it began when all is explored");

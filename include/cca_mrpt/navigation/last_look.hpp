@@ -29,14 +29,16 @@ class LastLook {
 
   /// @param smallest_gain      m^2, places that promise less are left.
   /// @param smallest_frontier  cells; what lies behind smaller frontiers does not count.
-  LastLook(double smallest_gain, std::size_t smallest_frontier)
-      : smallest_gain_(smallest_gain), smallest_frontier_(smallest_frontier) {}
+  /// @param worth              m of way that an unseen square metre is worth; likewise.
+  LastLook(double smallest_gain, std::size_t smallest_frontier, double worth)
+      : smallest_gain_(smallest_gain), smallest_frontier_(smallest_frontier), worth_(worth) {}
 
   /// Begins anew with the frontiers of now. Cost: O(frontier cells).
   void begin(KnownPlace& place);
 
   /// The best place to look from by a strategy other than kViewTour, by the ways last found and
-  /// what is known by now; it stays among the places. Goes on through the places first, if it has
+  /// what is known by now, of those that are worth their way; it stays among the places. Goes on
+  /// through the places first, if it has
   /// not been through all of them.
   /// @return empty if there is none, or not before another call, see isUnderWay().
   /// Cost: O(frontier cells), and a bounded number of looks.
@@ -44,6 +46,9 @@ class LastLook {
 
   /// Takes out a place that could not be reached, with those around it (0.5 m).
   void drop(Cell place);
+
+  /// The places that were left when next() found none that is worth its way, with their ways.
+  const std::vector<ViewPoint>& left() const { return found_; }
 
   /// Whether there are places that have not been asked yet.
   bool isUnderWay() const { return is_under_way_; }
@@ -57,6 +62,7 @@ class LastLook {
 
   double smallest_gain_;
   std::size_t smallest_frontier_;
+  double worth_;
   bool is_under_way_ = false;
   int looks_left_ = 0;          ///< that may be made in this call
   std::vector<Cell> openings_;  ///< frontier cells that were not asked yet for who sees them

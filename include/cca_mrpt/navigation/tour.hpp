@@ -33,4 +33,13 @@ struct Tour {
 Tour findTour(const Eigen::MatrixXd& distance, const TourObjective& objective,
               std::optional<std::size_t> first = {});
 
+/// What of a tour is worth its way: a stop whose detour is longer than its worth is left out, and
+/// so are the last stops from where on the way costs more than all of them are worth.
+///
+/// @param distance  as for findTour(). @param worth  of each stop, m. @param stops  a tour.
+/// @return          its stops that are left, in order. Cost: O(n^2).
+std::vector<std::size_t> worthTheWay(const Eigen::MatrixXd& distance,
+                                     const std::vector<double>& worth,
+                                     std::vector<std::size_t> stops);
+
 }  // namespace cca

@@ -17,6 +17,7 @@ struct ViewTourParameters {
   /// worlds: 0 (shortest tour) is late at 90 % coverage, 30 leaves too many rests behind.
   double hurry = 10.0;
   double stay = 0.5;            ///< m, by how much another tour must cost less than going on
+  double worth = 80.0;          ///< m of way that an unseen square metre is worth
   std::size_t most_stops = 16;  ///< of a tour
   int fields_per_choice = 2;    ///< distance fields computed anew at most, each choice
   double horizon = 40.0;        ///< m, beyond which ways between stops are only estimated
@@ -30,7 +31,9 @@ struct ViewTourParameters {
 /// 2. An open tour through them is found whose cost is its length plus the gain-weighted mean
 ///    arrival (see TourObjective): nearby rests are finished in passing, large unknown areas come
 ///    early.
-/// 3. The tour that begins with the present goal is kept unless another is clearly cheaper.
+/// 3. A stop that makes the tour longer by more than it is worth is left out, and so is the end of
+///    the tour from where on nothing is worth its way.
+/// 4. The tour that begins with the present goal is kept unless another is clearly cheaper.
 class ViewTour {
  public:
   explicit ViewTour(const ViewTourParameters& parameters = {}) : parameters_(parameters) {}
@@ -39,7 +42,7 @@ class ViewTour {
   /// @param reach        m, how far the robot sees.
   /// @param present      target of the present goal, if it still stands.
   /// @param only_rests   nothing large is left to hurry for: the shortest tour is taken.
-  /// @return             index of the view point to go to; empty for no view points.
+  /// @return             index of the view point to go to; empty where none is worth its way.
   /// Cost: O(n^2 reach) lines of sight for n view points, and a few distance fields.
   std::optional<std::size_t> choose(const ExplorationGrid& grid, const FreeSpace& space,
                                     const std::vector<ViewPoint>& view_points, double reach,
@@ -52,7 +55,8 @@ class ViewTour {
  private:
   struct Stop {
     std::size_t view_point;
-    double gain;
+    double gain;     ///< m^2, around what it is there to see
+    double promise;  ///< m^2, expected to be seen from it
     bool sees_present;
   };
   struct CachedField {
@@ -63,7 +67,7 @@ class ViewTour {
   };
 
   std::vector<Stop> cover(const ExplorationGrid& grid, const std::vector<ViewPoint>& view_points,
-                          double reach, std::optional<Cell> present) const;
+                          double reach, std::optional<Cell> present, bool only_rests) const;
   Eigen::MatrixXd distances(const ExplorationGrid& grid, const FreeSpace& space,
                             const std::vector<ViewPoint>& view_points,
                             const std::vector<Stop>& stops);
