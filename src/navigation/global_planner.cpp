@@ -231,7 +231,8 @@ void GlobalPlanner::correct(const PastScans& past) {
   if (goal_) goal_->target = moved(goal_->target);
   given_up_at_ = past.correctionAt(given_up_at_) * given_up_at_;
   view_tour_ = ViewTour(parameters_.tour);
-  last_look_ = LastLook(parameters_.smallest_gain, parameters_.smallest_frontier);
+  last_look_ =
+      LastLook(parameters_.smallest_gain, parameters_.smallest_frontier, parameters_.worth);
   revealed_at_last_look_.reset();
   is_corrected_ = true;
 }
