@@ -125,7 +125,7 @@ class NodeEnds(OwnMaster):
                 self.expect_refusal(node, arguments + ["_typo:=1"], told + ["typo is unknown"])
 
     def test_help_tells_the_parameters(self):
-        for name, word in [("explore", "_world"), ("simulator", "_scan_rate"), ("line_mapper", "_map_frame")]:
+        for name, word in [("explore", "world"), ("simulator", "scan_rate"), ("line_mapper", "map_frame")]:
             done = subprocess.run([os.path.join(NODES, name), "--help"], capture_output=True, text=True,
                                   timeout=30)
             self.assertEqual(done.returncode, 0, done.stderr)
