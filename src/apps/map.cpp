@@ -25,7 +25,7 @@ namespace cca::apps {
 namespace {
 
 struct MapOptions {
-  std::string log, out, pose;  // no pose source named: see chosenPoses()
+  std::string log, out, pose;  // no pose source named: see makeMap()
   bool force = false, quiet = false;
 };
 
@@ -118,12 +118,6 @@ std::string locateBySlam(LocalLog& log, MappedLog& mapped, const Interruption& i
   return std::to_string(without_odometry) + " scan(s) without odometry, located by the laser alone";
 }
 
-/// Where nobody says where poses come from: the log's own where somebody corrected them, else SLAM.
-std::string chosenPoses(const std::string& log) {
-  const auto first = openLog(log)->next();
-  return first && first->corrected ? "log" : "slam";
-}
-
 MappedLog mapLog(const MapOptions& options, LocalLog& log, const Parameters& parameters,
                  const Interruption& interruption) try {
   MappedLog mapped{LineMap(parameters.mapping), ScanGrid(log.start()), log.origin()};
@@ -208,11 +202,12 @@ void report(const MapOptions& options, const MapProducts& products, double secon
 }
 
 void makeMap(MapOptions options, const Parameters& parameters) {
-  if (options.pose.empty()) options.pose = chosenPoses(options.log);
   const auto begin = std::chrono::steady_clock::now();
   const Interruption interruption;
   LocalLog log(openLog(options.log));
   if (interruption.requested()) throw std::runtime_error("interrupted; no map was begun");
+  // Where nobody says where poses come from: the log's own where somebody corrected them.
+  if (options.pose.empty()) options.pose = log.beginsCorrected() ? "log" : "slam";
   std::error_code unknown;
   const bool is_new = !std::filesystem::exists(options.out, unknown);
   const FolderLock folder = prepareMapFolder(options.out, options.force);

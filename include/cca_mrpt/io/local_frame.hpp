@@ -37,6 +37,9 @@ class LocalLog : public LogReader {
   /// m, local frame: about where the log begins.
   const Eigen::Vector2d& start() const { return start_; }
 
+  /// Whether a SLAM system had corrected the pose of the first scan. To be asked before next().
+  bool beginsCorrected() const { return !ahead_.empty() && ahead_.front().corrected; }
+
   std::optional<LogRecord> next() override;
   std::string warnings() const override { return log_->warnings(); }
   double progress() const override { return log_->progress(); }
