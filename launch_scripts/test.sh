@@ -6,7 +6,8 @@
 #                                        unit, command-line, exploration and node tests
 #   launch_scripts/test.sh --all         also the long ones: random places, real logs, MRPT's programs,
 #                                        rviz and the installed package, the Python package, benchmarks that
-#                                        must build, the unit tests under sanitizers in a build without ROS, and fuzzers
+#                                        must build, the unit tests under sanitizers in a build without ROS
+#   launch_scripts/test.sh --all fuzz    the fuzzers, by a build of their own; they run only when named
 #   launch_scripts/test.sh [--all] NAME  of these, the parts whose name holds NAME (see the end)
 set -u
 cd "$(dirname "$0")/.."
@@ -74,7 +75,7 @@ if [ $all = ON ]; then
   part tests tests
   part python python/test.sh
   part sanitizers-without-ros sanitizers
-  part fuzzers fuzzers
+  case "$only" in fuzz*) part fuzzers fuzzers ;; esac
 else
   part tests tests -LE long
 fi
