@@ -6,10 +6,10 @@
 
 #include <atomic>
 #include <cerrno>
+#include <charconv>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
-#include <regex>
 #include <stdexcept>
 
 namespace cca {
@@ -28,6 +28,21 @@ std::string temporaryName(const fs::path& path) {
   const std::string part = ".part-" + std::to_string(getpid()) + "-" + std::to_string(number++);
   const std::string name = "." + path.stem().string() + part + path.extension().string();
   return (path.parent_path() / name).string();
+}
+
+/// The process that writes, or wrote, under a temporary name; 0 where the name is none.
+int writerOf(std::string_view name) {
+  constexpr std::string_view kPart = ".part-";
+  const std::size_t at = name.rfind(kPart);
+  if (at == std::string_view::npos || at == 0 || name.front() != '.') return 0;
+  const char* const end = name.data() + name.size();
+  int process = 0;
+  unsigned number = 0;
+  const auto writer = std::from_chars(name.data() + at + kPart.size(), end, process);
+  if (writer.ec != std::errc() || writer.ptr == end || *writer.ptr != '-') return 0;
+  const auto part = std::from_chars(writer.ptr + 1, end, number);
+  const bool is_whole = part.ec == std::errc() && (part.ptr == end || *part.ptr == '.');
+  return is_whole && process > 0 ? process : 0;
 }
 
 /// Where a link leads: renamed onto, the link itself would become the file.
@@ -75,13 +90,10 @@ void AtomicFile::commit() {
 }
 
 void removeLeftovers(const std::string& folder) {
-  static const std::regex kTemporary(R"(\..*\.part-(\d{1,9})-\d+(\..*)?)");
   std::error_code gone;
   for (const auto& entry : fs::directory_iterator(folder, gone)) {
-    std::smatch parts;
-    const std::string name = entry.path().filename().string();
-    if (!std::regex_match(name, parts, kTemporary)) continue;
-    if (kill(std::stoi(parts[1]), 0) != 0 && errno == ESRCH) fs::remove(entry.path(), gone);
+    const int writer = writerOf(entry.path().filename().string());
+    if (writer > 0 && kill(writer, 0) != 0 && errno == ESRCH) fs::remove(entry.path(), gone);
   }
 }
 
