@@ -7,6 +7,7 @@
 
 #include "cca_mrpt/io/atomic_file.hpp"
 #include "cca_mrpt/io/local_frame.hpp"
+#include "cca_mrpt/io/pose_files.hpp"
 #include "cca_mrpt/io/trajectory_error.hpp"
 
 namespace cca::apps {
@@ -89,15 +90,11 @@ void ExplorationRecord::writeTrajectory(const Simulation& simulation) const {
 }
 
 void ExplorationRecord::writePoses(const Belief& belief) const {
-  std::string text = "stamp,x,y,theta\n";
+  std::vector<StampedPose> poses;
   for (std::size_t k = 0; k < belief.trajectory().size(); ++k) {
-    const Pose2 T_map_robot = seenFrom(-origin_, belief.trajectory()[k]);
-    char line[120];
-    std::snprintf(line, sizeof line, "%.4f,%.6f,%.6f,%.6f\n", truth_[k].time, T_map_robot.x,
-                  T_map_robot.y, T_map_robot.theta);
-    text += line;
+    poses.push_back({truth_[k].time, seenFrom(-origin_, belief.trajectory()[k])});
   }
-  writeFile(folder_ + "/poses.csv", text);
+  writeFile(folder_ + "/poses.csv", posesCsv(poses));
 }
 
 void ExplorationRecord::writeCoverage() {
