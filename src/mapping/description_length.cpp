@@ -6,10 +6,10 @@
 namespace cca {
 
 RunFitter::RunFitter(const std::vector<Eigen::Vector2d>& points, const PointNoise& noise)
-    : prefix_(points), noise_(noise), half_over_most_variance_(0.5) {
+    : prefix_(points), noise_(noise), most_variance_(0.0) {
   double farthest_sq = 0.0;
   for (const Eigen::Vector2d& p : points) farthest_sq = std::max(farthest_sq, p.squaredNorm());
-  half_over_most_variance_ = 0.5 / noise.mostAcross(farthest_sq);
+  most_variance_ = noise.mostAcross(farthest_sq);
 }
 
 double RunFitter::price(int first, int last) const {

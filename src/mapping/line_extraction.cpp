@@ -2,12 +2,14 @@
 #include "cca_mrpt/mapping/line_extraction.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "cca_mrpt/mapping/corner_refinement.hpp"
 #include "cca_mrpt/mapping/line_merging.hpp"
 #include "cca_mrpt/mapping/point_clusters.hpp"
 #include "cca_mrpt/mapping/poly_lines.hpp"
 #include "cca_mrpt/mapping/range_noise.hpp"
+#include "cca_mrpt/mapping/scan_arcs.hpp"
 
 namespace cca {
 namespace {
@@ -19,12 +21,20 @@ constexpr double kOdds[] = {0.1, 0.4};
 constexpr int kMostRounds = 6;
 constexpr double kSetSigma = 0.03;  // m, where the study leaves the scan's own noise out
 
-/// The circle was cut before its walls were known: opens it at a corner on the far side of the
-/// scan, so that the old seam is refined like any other place.
-void reopenAtCorner(const PointNoise& noise, ScanPoints* points, RunFitter* fitter, Runs* runs) {
-  const auto middle = runs->begin() + static_cast<std::ptrdiff_t>(runs->size() / 2);
-  const int corner = middle->first, n = static_cast<int>(points->size());
-  std::rotate(runs->begin(), middle, runs->end());
+/// A scan on its way to lines.
+struct ClusteredScan {
+  PointNoise noise;
+  ScanPoints points;
+  RunFitter fitter;
+  Runs runs;
+};
+
+/// Lets a closed scan begin with another run.
+void beginAtRun(std::size_t index, const PointNoise& noise, ScanPoints* points, RunFitter* fitter,
+                Runs* runs) {
+  const auto first_run = runs->begin() + static_cast<std::ptrdiff_t>(index);
+  const int corner = first_run->first, n = static_cast<int>(points->size());
+  std::rotate(runs->begin(), first_run, runs->end());
   for (FittedRun& run : *runs) {
     const int shift = run.first >= corner ? -corner : n - corner;
     run.first += shift;
@@ -37,9 +47,8 @@ void reopenAtCorner(const PointNoise& noise, ScanPoints* points, RunFitter* fitt
   *fitter = RunFitter(points->positions, noise);
 }
 
-}  // namespace
-
-std::vector<LineSegment> extractLines(const Scan& scan, const CcaParameters& parameters) {
+/// Clusters a scan again and again, until no two runs are alike and every corner is in its place.
+ClusteredScan cluster(const Scan& scan, const CcaParameters& parameters) {
   const Ablation& without = parameters.without;
   PointNoise noise = rangeNoise(scan);
   if (without(Part::kScanNoise)) noise.range_sigma = kSetSigma;
@@ -63,14 +72,44 @@ std::vector<LineSegment> extractLines(const Scan& scan, const CcaParameters& par
     if (without(Part::kCorners)) continue;
     if (refineCorners(points, fitter, &runs)) changed = true;
     if (round > 0 || !points.closed || runs.size() < 3) continue;
-    reopenAtCorner(noise, &points, &fitter, &runs);
+    // The circle was cut before its walls were known: it is opened on the far side of the scan, so
+    // that the old seam is refined like any other place.
+    beginAtRun(runs.size() / 2, noise, &points, &fitter, &runs);
     changed = true;
   }
   if (!without(Part::kCorners)) {
     meetAtCorners(points, fitter, &runs);
     tellEdgesBetween(points, fitter, &runs);
   }
-  return polyLines(points, fitter, runs, groupInterrupted(points, fitter, cut, runs));
+  return {noise, std::move(points), std::move(fitter), std::move(runs)};
+}
+
+std::vector<LineSegment> linesOf(const ClusteredScan& s, const CcaParameters& parameters) {
+  const AlphaCut cut(parameters.similarity_cut, parameters.without);
+  return polyLines(s.points, s.fitter, s.runs, groupInterrupted(s.points, s.fitter, cut, s.runs));
+}
+
+/// Lets a closed scan begin behind a break, if it has one, so that no arc lies across its seam.
+void beginBehindBreak(ClusteredScan* s) {
+  for (std::size_t k = 1; s->points.closed && k < s->runs.size(); ++k) {
+    if (s->points.breaksBetween(s->runs[k - 1].last - 1, s->runs[k].first) == 0) continue;
+    return beginAtRun(k, s->noise, &s->points, &s->fitter, &s->runs);
+  }
+}
+
+}  // namespace
+
+std::vector<LineSegment> extractLines(const Scan& scan, const CcaParameters& parameters) {
+  return linesOf(cluster(scan, parameters), parameters);
+}
+
+ScanFeatures extractFeatures(const Scan& scan, const CcaParameters& parameters) {
+  ClusteredScan clustered = cluster(scan, parameters);
+  ScanFeatures features;
+  features.lines = linesOf(clustered, parameters);
+  beginBehindBreak(&clustered);
+  features.arcs = arcsOfScan(clustered.points, clustered.runs, clustered.noise);
+  return features;
 }
 
 }  // namespace cca

@@ -33,14 +33,13 @@ double similarityOf(const RunFitter& fitter, const AlphaCut& cut, const FittedRu
   *is_bound = false;
   if (gap > 0.0 && !cut.without(Part::kGap)) return 0.0;
   if (!cut.without(Part::kFit)) {
-    const double most =
-        mostFitMembership(run, next, fitter.leastHalfChiSquare(run.first, next.last));
+    const double least = fitter.prefix().leastResidual(run.first, next.last);
+    const double most = mostFitMembership(run, next, least, fitter.mostVariance());
     *is_bound = most < cut.value;
     if (*is_bound) return most;
   }
   const JointFit joint = fitter.fitJointly(fitter.prefix().run(run.first, next.last));
-  // From one place no two runs are seen side by side.
-  return cut.similarity(memberships(run, next, joint, gap, 0.0));
+  return cut.similarity(memberships(run, next, joint, gap));
 }
 
 /// Similarity of a run to the next one, remembered until either changes; where it is below the cut,
@@ -162,16 +161,17 @@ bool mergeInterrupted(const ScanPoints& points, const RunFitter& fitter, const A
       PointMoments moments = a.fit.moments;
       moments.add(b.fit.moments);
       if (!cut.without(Part::kFit)) {
-        const double bound = mostFitMembership(a.fit, b.fit, fitter.leastHalfChiSquare(moments));
+        const double bound =
+            mostFitMembership(a.fit, b.fit, leastResidual(moments), fitter.mostVariance());
         if (bound < cut.value) continue;
       }
       if (interlaced(a, b)) continue;
       const JointFit fitted = fitter.fitJointly(moments);
-      if (cut.similarity(memberships(a.fit, b.fit, fitted, 0.0, 0.0)) < cut.value) continue;
+      if (cut.similarity(memberships(a.fit, b.fit, fitted, 0.0)) < cut.value) continue;
       const FittedSegment joint = fitter.fit(moments);
       const double against = gapEvidence(points, joint, runs, a, b, most);
       if (against > most) continue;
-      s.set(i, j, cut.similarity(memberships(a.fit, b.fit, joint, against, 0.0)));
+      s.set(i, j, cut.similarity(memberships(a.fit, b.fit, joint, against)));
     }
   }
   if (s.entries().empty()) return false;

@@ -6,6 +6,7 @@
 
 #include "cca_mrpt/mapping/cross.hpp"
 #include "cca_mrpt/mapping/gates.hpp"
+#include "cca_mrpt/mapping/wall_extent.hpp"
 
 namespace cca {
 namespace {
@@ -21,23 +22,6 @@ constexpr double kTwoFronts = 4.0, kTwoFrontsLeast = 0.06;
 constexpr double kFitGate = 3.3;
 /// Cosine beyond which lines are compared: the frame of one shows the other as d(t).
 constexpr double kComparable = 0.8;
-
-struct Extent {
-  double first, last;  // m, along a wall
-  double length() const { return last - first; }
-};
-
-Extent extentOf(const Wall& wall) {
-  return {wall.profile.first() * SupportProfile::kBinLength,
-          wall.profile.last() * SupportProfile::kBinLength};
-}
-
-Extent extentOf(const Wall& other, const Wall& frame) {
-  const Extent e = extentOf(other);
-  const double a = frame.toWall(other.toMap(e.first, 0.0)).x();
-  const double b = frame.toWall(other.toMap(e.last, 0.0)).x();
-  return {std::min(a, b), std::max(a, b)};
-}
 
 /// How far two extents reach into each other; negative where there is a gap.
 double overlapOf(const Extent& a, const Extent& b) {

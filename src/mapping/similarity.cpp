@@ -33,6 +33,19 @@ double orientationStatistic(const FittedSegment& a, const FittedSegment& b) {
   return sine * sine * spread_a * spread_b / (spread_a + spread_b);
 }
 
+/// m^2, of what is told by lines.
+double residuals(const FittedSegment& a, const FittedSegment& b) {
+  return (a.is_line ? a.line.residual_sum_sq : 0.0) + (b.is_line ? b.line.residual_sum_sq : 0.0);
+}
+
+/// @param growth  of the residuals, in variances of a point about the common line: over the noise
+/// of each line by itself, a long wall that is met at many angles would seem bent.
+double fitOfGrowth(const FittedSegment& a, const FittedSegment& b, double growth) {
+  double saved = -kLinePrice;
+  for (const FittedSegment* part : {&a, &b}) saved += part->is_line ? kLinePrice : part->price;
+  return saved <= 0.0 ? 0.0 : bell(0.5 * std::max(0.0, growth), saved);
+}
+
 }  // namespace
 
 double Memberships::similarity() const {
@@ -49,23 +62,18 @@ double AlphaCut::similarity(const Memberships& mu) const {
   return asked.similarity();
 }
 
-double mostFitMembership(const FittedSegment& a, const FittedSegment& b,
-                         double least_half_chi_square) {
-  double evidence = least_half_chi_square, saved = -kLinePrice;
-  for (const FittedSegment* part : {&a, &b}) {
-    saved += part->is_line ? kLinePrice : part->price;
-    if (part->is_line) evidence -= 0.5 * part->chi_square;
-  }
-  return saved <= 0.0 ? 0.0 : bell(std::max(0.0, evidence), saved);
+double mostFitMembership(const FittedSegment& a, const FittedSegment& b, double least_residual,
+                         double most_variance) {
+  return fitOfGrowth(a, b, (least_residual - residuals(a, b)) / most_variance);
 }
 
 double fitMembership(const FittedSegment& a, const FittedSegment& b, const JointFit& joint) {
   if (joint.points < kFewestPoints) return 0.0;
-  return mostFitMembership(a, b, 0.5 * joint.chi_square);
+  return fitOfGrowth(a, b, (joint.residual_sum_sq - residuals(a, b)) / joint.variance);
 }
 
 Memberships memberships(const FittedSegment& a, const FittedSegment& b, const JointFit& joint,
-                        double gap_evidence, double overlap) {
+                        double gap_evidence) {
   Memberships mu;
   mu.fit = fitMembership(a, b, joint);
   const double centroids = 1.0 / a.moments.weight + 1.0 / b.moments.weight;
@@ -74,7 +82,7 @@ Memberships memberships(const FittedSegment& a, const FittedSegment& b, const Jo
   mu.orientation = bell(orientationStatistic(a, b) / joint.variance, kLineGate);
   mu.offset = bell(offset, kLineGate);
   mu.gap = bell(gap_evidence, kGapGate);
-  mu.overlap = bell(overlap * offset, kChiSquareGate1);
+  mu.overlap = 1.0;  // from one place no two runs are seen side by side
   return mu;
 }
 

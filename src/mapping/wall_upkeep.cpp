@@ -6,6 +6,7 @@
 
 #include "cca_mrpt/mapping/map_similarity.hpp"
 #include "cca_mrpt/mapping/rank_order_clustering.hpp"
+#include "cca_mrpt/mapping/wall_extent.hpp"
 
 namespace cca {
 namespace {
@@ -22,23 +23,6 @@ constexpr double kMostBeforeCheck = 100.0;
 constexpr double kStretch = 2.4, kStretchLeast = 0.08;
 constexpr double kSideBySide = 0.97;  // cosine
 constexpr double kReach = 0.2;  // m, how far a wall's hits lie off its extent in another frame
-
-struct Extent {
-  double first, last;  // m, along a wall
-  double length() const { return last - first; }
-};
-
-Extent extentOf(const Wall& wall) {
-  return {wall.profile.first() * SupportProfile::kBinLength,
-          wall.profile.last() * SupportProfile::kBinLength};
-}
-
-Extent extentOf(const Wall& other, const Wall& frame) {
-  const Extent e = extentOf(other);
-  const double a = frame.toWall(other.toMap(e.first, 0.0)).x();
-  const double b = frame.toWall(other.toMap(e.last, 0.0)).x();
-  return {std::min(a, b), std::max(a, b)};
-}
 
 /// Where two walls that are not one run side by side all the same, the longer one takes it all.
 void shareOverlap(Slot a, Slot b, Walls& walls, const MapNoise& noise) {
@@ -86,10 +70,17 @@ std::vector<Slot> groupOf(Slot slot, const std::vector<Slot>& near, const Walls&
   return group;
 }
 
+/// What was seen in a single look is no face: for the sake of a few returns of a door post two
+/// faces that are well apart must not become one wall.
+constexpr double kVisitsOfFace = 2.0;
+
 void merge(Slot slot, Slot other_slot, Walls& walls) {
   Wall &wall = walls[slot], &other = walls[other_slot];
   const bool opposed = wall.fittedDirection().dot(other.fittedDirection()) < 0.0;
-  wall.two_sided = wall.two_sided || other.two_sided || opposed;
+  const Wall& greater = wall.hits < other.hits ? other : wall;
+  const Wall& lesser = wall.hits < other.hits ? wall : other;
+  wall.two_sided =
+      greater.two_sided || ((lesser.two_sided || opposed) && lesser.visits >= kVisitsOfFace);
   absorb(wall, other);
   wall.hits += other.hits;
   wall.visits = std::max(wall.visits, other.visits);

@@ -30,8 +30,10 @@ TEST(RunFitter, BoundsPricesResidualsAndJointFitsFromBelow) {
       EXPECT_LE(fitter.leastPrice(first, last), run.price + 1e-6);
       const double bound = fitter.leastHalfChiSquare(first, last);
       EXPECT_LE(bound, 0.5 * run.chi_square + 1e-6);
-      EXPECT_NEAR(bound, fitter.leastHalfChiSquare(run.moments), 1e-6);
-      EXPECT_NEAR(fitter.fitJointly(run.moments).chi_square, run.chi_square, 1e-6);
+      EXPECT_NEAR(fitter.prefix().leastResidual(first, last), leastResidual(run.moments), 1e-9);
+      EXPECT_LE(run.variance, fitter.mostVariance());
+      const double residual_sum_sq = fitter.fitJointly(run.moments).residual_sum_sq;
+      EXPECT_NEAR(residual_sum_sq, run.line.residual_sum_sq, 1e-9);
     }
   }
 }

@@ -56,16 +56,16 @@ struct FittedSegment {
 /// What one line through the points of two segments leaves over: all that their similarity asks of
 /// it.
 struct JointFit {
-  double points;      ///< their number
-  double variance;    ///< m^2, > 0, of one point's distance from the line
-  double chi_square;  ///< sum of the squared residuals over their variance
+  double points;           ///< their number
+  double variance;         ///< m^2, > 0, of one point's distance from the line
+  double residual_sum_sq;  ///< m^2, of their distances from the line
 
   JointFit(const FittedSegment& s)
-      : points(s.moments.weight), variance(s.variance), chi_square(s.chi_square) {}
+      : points(s.moments.weight), variance(s.variance), residual_sum_sq(s.line.residual_sum_sq) {}
   JointFit(const PointMoments& moments, const PrincipalAxis& axis, const PointNoise& noise)
       : points(moments.weight),
         variance(noise.onLine(moments.mean, axis).across),
-        chi_square(axis.residual_sum_sq / variance) {}
+        residual_sum_sq(axis.residual_sum_sq) {}
 };
 
 /// A run of neighbouring points of a scan, first <= i < last.
@@ -119,23 +119,18 @@ class RunFitter {
     return isDrawnOut(s.moments.weight, s.line.spread_sum_sq,
                       noise_.onLine(s.line.centroid, s.line.direction));
   }
-  /// A lower bound of fit(moments).chi_square / 2, without roots.
-  double leastHalfChiSquare(const PointMoments& m) const {
-    // The smaller eigenvalue is at least determinant / trace.
-    const double xx = m.scatter(0, 0), xy = m.scatter(0, 1), yy = m.scatter(1, 1);
-    const double least = xx + yy > 0.0 ? (xx * yy - xy * xy) / (xx + yy) : 0.0;
-    return least * half_over_most_variance_;
-  }
-  /// The same of points first <= i < last, at least one.
+  /// A lower bound of fit(first, last).chi_square / 2 of at least one point, without roots.
   double leastHalfChiSquare(int first, int last) const {
-    return prefix_.leastResidual(first, last) * half_over_most_variance_;
+    return 0.5 * prefix_.leastResidual(first, last) / most_variance_;
   }
+  /// m^2, > 0, the largest of any line through these points.
+  double mostVariance() const { return most_variance_; }
   const PrefixMoments& prefix() const { return prefix_; }
 
  private:
   PrefixMoments prefix_;
   PointNoise noise_;
-  double half_over_most_variance_;  ///< 1/m^2, of any line through these points
+  double most_variance_;
 };
 
 }  // namespace cca

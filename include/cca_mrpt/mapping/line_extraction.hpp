@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "cca_mrpt/mapping/arc.hpp"
 #include "cca_mrpt/mapping/line_segment.hpp"
 #include "cca_mrpt/mapping/parameters.hpp"
 #include "cca_mrpt/mapping/scan.hpp"
@@ -23,5 +24,16 @@ namespace cca {
 ///              positive length.
 /// Cost: O(N) for N beams, plus O(n^2) for n lines.
 std::vector<LineSegment> extractLines(const Scan& scan, const CcaParameters& parameters = {});
+
+/// What a scan shows, sensor frame. An arc stands for lines that are there as well, its chords.
+struct ScanFeatures {
+  std::vector<LineSegment> lines;
+  std::vector<Arc> arcs;
+};
+
+/// The lines of extractLines(), and the arcs that tell some of them more briefly: round pillars,
+/// curved walls (see arcsOfChain()).
+/// Cost: that of extractLines(), and O(n) circle fits for each chain of n lines.
+ScanFeatures extractFeatures(const Scan& scan, const CcaParameters& parameters = {});
 
 }  // namespace cca

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "cca_mrpt/mapping/line_segment.hpp"
+#include "cca_mrpt/mapping/map_arcs.hpp"
 #include "cca_mrpt/mapping/map_clusters.hpp"
 #include "cca_mrpt/mapping/map_corners.hpp"
 #include "cca_mrpt/mapping/map_noise.hpp"
@@ -34,6 +35,8 @@ class LineMap {
   std::vector<MapLine> lines() const;
   /// The same lines, chained along their corners.
   std::vector<PolyLine> polyLines() const;
+  /// Round pillars and curved walls among the same lines; see arcsOfWalls().
+  std::vector<MapArc> arcs() const { return arcsOfWalls(walls_.all(), noise_); }
 
   /// What the map has learned about the noise and the pose error of its scans.
   const MapNoise& noise() const { return noise_; }

@@ -75,6 +75,12 @@ inline PrincipalAxis principalAxis(const PointMoments& moments) {
   return axis;
 }
 
+/// m^2, a lower bound of the residual_sum_sq, without roots: determinant over trace.
+inline double leastResidual(const PointMoments& moments) {
+  const double xx = moments.scatter(0, 0), xy = moments.scatter(0, 1), yy = moments.scatter(1, 1);
+  return xx + yy > 0.0 ? (xx * yy - xy * xy) / (xx + yy) : 0.0;
+}
+
 /// Total least squares in closed form.
 /// @param moments  any; where the scatter has no preferred axis the direction is (1, 0).
 inline FittedLine fitLine(const PointMoments& moments) {

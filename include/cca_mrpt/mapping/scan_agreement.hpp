@@ -24,7 +24,7 @@ ScanVerdict compareWithMap(const Scan& scan, const Walls& walls);
 /// it does not contradict. 1 where it had nothing to say yet.
 ///
 /// With good poses it stays above 0.99, whatever the place; a lost pose, or scans that are not what
-/// they are taken for, bring it below kPoorAgreement (docs/ros.md).
+/// they are taken for, bring it below kPoorAgreement (docs/ros_faults.md).
 class ScanAgreement {
  public:
   void add(const ScanVerdict& verdict);

@@ -48,17 +48,16 @@ struct AlphaCut {
 /// @param joint  fit of the points of both.
 double fitMembership(const FittedSegment& a, const FittedSegment& b, const JointFit& joint);
 /// What mu_4 cannot exceed, before the points of both are fitted.
-/// @param least_half_chi_square  that of the joint fit is not less:
-/// RunFitter::leastHalfChiSquare().
-double mostFitMembership(const FittedSegment& a, const FittedSegment& b,
-                         double least_half_chi_square);
+/// @param least_residual  m^2, residual_sum_sq of the joint fit is not less.
+/// @param most_variance   m^2, > 0, that of a point's distance from any line is not more.
+double mostFitMembership(const FittedSegment& a, const FittedSegment& b, double least_residual,
+                         double most_variance);
 
-/// All five.
+/// All five; mu_5 is 1, for from one place no two runs are seen side by side.
 /// @param joint        fit of the points of both.
 /// @param gap_evidence rays, >= 0: that pass where the joint line is, or end before it unexplained.
-/// @param overlap      [0, 1], share of the shorter one that lies beside the other.
 Memberships memberships(const FittedSegment& a, const FittedSegment& b, const JointFit& joint,
-                        double gap_evidence, double overlap);
+                        double gap_evidence);
 
 /// The Similarity Index Matrix: symmetric, in [0, 1], unit diagonal, 0 where nothing is set.
 class SimilarityMatrix {

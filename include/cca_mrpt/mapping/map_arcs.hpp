@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "cca_mrpt/mapping/arc.hpp"
+#include "cca_mrpt/mapping/map_noise.hpp"
+#include "cca_mrpt/mapping/wall.hpp"
+
+namespace cca {
+
+/// An arc of the map, map frame. It stands for lines that are there as well, its chords.
+struct MapArc {
+  Arc arc;                              ///< its support: bins of walls, not returns
+  std::vector<std::uint64_t> line_ids;  ///< the chords, counter-clockwise or clockwise
+};
+
+/// The arcs among the walls' pieces: pieces whose ends follow one another are a chain, of which
+/// arcsOfChain() tells by the mean points of their bins which are chords of one circle.
+/// @return  in the order of the smallest id of each chain's beginning.
+/// Cost: O(n log n) for n pieces, and O(length) fits for each chain.
+std::vector<MapArc> arcsOfWalls(const std::vector<Wall>& walls, const MapNoise& noise);
+
+}  // namespace cca

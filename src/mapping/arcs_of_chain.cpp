@@ -1,0 +1,197 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "cca_mrpt/mapping/arc.hpp"
+#include "cca_mrpt/mapping/cross.hpp"
+#include "cca_mrpt/mapping/description_length.hpp"
+#include "cca_mrpt/mapping/gates.hpp"
+
+namespace cca {
+namespace {
+
+/// nats, price of the bulge that makes an arc of a line: noise alone lets this one parameter raise
+/// the likelihood by more than e^8.3 in one of 22 000 trials, as with an edge that meets its
+/// neighbours.
+constexpr double kBulgePrice = 8.3;
+/// nats, of a line that meets the one before it: one vertex more, see findEdgeBetween().
+constexpr double kNextLinePrice = 12.0;
+
+/// nats, price of a pillar that stands free: three parameters, for it ends where the rays cease to
+/// meet it. Noise alone lets it raise the likelihood by more in one of 500 000 trials, as a line of
+/// four, see kLinePrice. The corner of a box that stands free has four likewise, and comes with the
+/// choice of the ray that it lies at, one of some fifty.
+constexpr double kPillarPrice = 14.6, kFreeCornerPrice = kLinePrice + 4.0;
+/// Two lines that meet fit any four points: these are the fewest that can tell a bulge from that.
+constexpr int kFewestOnArc = 5;
+
+/// m, how far an arc stands off its chord at most.
+double bulge(const Arc& arc) {
+  return arc.radius * (1.0 - std::cos(0.5 * std::min(arc.sweep, M_PI)));
+}
+
+/// What it costs to tell points otherwise than by an arc.
+struct Telling {
+  double price = 0.0;       ///< nats, but for the residuals
+  double chi_square = 0.0;  ///< of the points on lines
+  double freedom = 0.0;     ///< what that is to be expected
+
+  void addLine(double points, double line_chi_square) {
+    price += price > 0.0 ? kNextLinePrice : kLinePrice;
+    chi_square += line_chi_square;
+    freedom += std::max(0.0, points - 2.0);
+  }
+};
+
+/// Moments of any run of points, each of the weight of its variance.
+class WeighedRuns {
+ public:
+  explicit WeighedRuns(const std::vector<CurvePoint>& points) : sums_(points.size() + 1) {
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      sums_[i + 1] = sums_[i];
+      sums_[i + 1].addPoint(1.0 / points[i].variance, points[i].position - points[0].position);
+    }
+  }
+  /// Chi-square of the best line through points first <= i < last.
+  double ofLine(int first, int last) const {
+    return principalAxis(moments(first, last)).residual_sum_sq;
+  }
+
+ private:
+  PointMoments moments(int first, int last) const {
+    Sums s = sums_[static_cast<std::size_t>(last)];
+    s.remove(sums_[static_cast<std::size_t>(first)]);
+    return {s.w, s.p / s.w, s.pp - s.p * s.p.transpose() / s.w};
+  }
+  struct Sums {
+    double w = 0.0;
+    Eigen::Vector2d p = Eigen::Vector2d::Zero();
+    Eigen::Matrix2d pp = Eigen::Matrix2d::Zero();
+
+    void addPoint(double weight, const Eigen::Vector2d& at) {
+      w += weight;
+      p += weight * at;
+      pp += weight * at * at.transpose();
+    }
+    void remove(const Sums& o) {
+      w -= o.w;
+      p -= o.p;
+      pp -= o.pp;
+    }
+  };
+  std::vector<Sums> sums_;
+};
+
+Telling asTold(const std::vector<ChainLink>& links, const WeighedRuns& runs, int first, int last) {
+  Telling told;
+  for (int k = first; k < last; ++k) {
+    const ChainLink& link = links[static_cast<std::size_t>(k)];
+    const double points = link.last - link.first;
+    if (link.is_line) {
+      told.addLine(points, runs.ofLine(link.first, link.last));
+    } else {
+      told.price += kPointPrice * points;
+    }
+  }
+  return told;
+}
+
+/// The points as they would be told with the noise alone: by two lines that meet, wherever that is.
+/// @param free  they stand free, as the two faces of a box.
+Telling byCorner(const WeighedRuns& runs, int first, int last, bool free) {
+  Telling best;
+  best.price = free ? kFreeCornerPrice : kLinePrice + kNextLinePrice;
+  best.freedom = last - first - 4.0;
+  best.chi_square = std::numeric_limits<double>::infinity();
+  for (int middle = first + 2; middle + 2 <= last; ++middle) {
+    best.chi_square =
+        std::min(best.chi_square, runs.ofLine(first, middle) + runs.ofLine(middle, last));
+  }
+  return best;
+}
+
+/// What an arc saves where it replaces that, nats.
+double saving(const Telling& told, const FittedArc& fitted, double price) {
+  // A wall may be rough: what neither its lines nor the arc explain is no sign of a bulge.
+  const double by_lines = told.freedom > 0.0 ? told.chi_square / told.freedom : 1.0;
+  if (std::isinf(told.chi_square)) return told.chi_square;
+  const double by_arc = fitted.chi_square / std::max(1.0, fitted.arc.support - 3.0);
+  const double rough = std::max(1.0, std::min(by_lines, by_arc));
+  return told.price - price + 0.5 * (told.chi_square - fitted.chi_square) / rough;
+}
+
+/// Whether all links turn the same way about the centre: a wall is seen from one side.
+bool turnsOneWay(const std::vector<CurvePoint>& points, const std::vector<ChainLink>& links,
+                 int first, int last, const Arc& arc) {
+  bool left = false, right = false;
+  for (int k = first; k < last; ++k) {
+    const ChainLink& link = links[static_cast<std::size_t>(k)];
+    const Eigen::Vector2d &a = points[static_cast<std::size_t>(link.first)].position,
+                          &b = points[static_cast<std::size_t>(link.last - 1)].position;
+    const double turn = cross(a - arc.centre, b - arc.centre);
+    left = left || turn > 0.0;
+    right = right || turn < 0.0;
+  }
+  return !(left && right);
+}
+
+/// Whether all of the arc can be seen from the origin: its ends face it as its middle does, but for
+/// the noise of the points there.
+bool isSeenFromOrigin(const Arc& arc, double variance) {
+  const auto facing = [&](double share) {
+    const Eigen::Vector2d p = arc.at(share);
+    return (arc.centre - p).dot(p) / arc.radius;  // m, > 0 from outside
+  };
+  const double side = facing(0.5) > 0.0 ? 1.0 : -1.0, noise = kNormalGate * std::sqrt(variance);
+  // A point off the circle by the noise may seem to lie so far behind its limb.
+  const double behind = std::sqrt(2.0 * arc.radius * noise);
+  return side * facing(0.0) > -behind && side * facing(1.0) > -behind;
+}
+
+}  // namespace
+
+std::vector<ArcOfLinks> arcsOfChain(const std::vector<CurvePoint>& points,
+                                    const std::vector<ChainLink>& links, double least_bulge,
+                                    const OneView* view) {
+  const int n = static_cast<int>(links.size());
+  struct Best {
+    double saved = 0.0;
+    int from = -1;  ///< of the arc that ends here; -1: none does
+    Arc arc;
+  };
+  std::vector<Best> best(links.size() + 1);
+  const WeighedRuns runs(points);
+  const auto at = [](int i) { return static_cast<std::size_t>(i); };
+  const auto consider = [&](int first, int last, const std::optional<Limbs>& touched) {
+    const int from = links[at(first)].first, to = links[at(last - 1)].last;
+    const auto begin = links.begin() + first, end = links.begin() + last;
+    const bool chain = std::any_of(begin, end, [](const ChainLink& l) { return l.is_line; });
+    if (!touched && (to - from < kFewestOnArc || !chain)) return;
+    const auto fitted = fitArc(points, from, to, touched);
+    if (!fitted || bulge(fitted->arc) < least_bulge) return;
+    if (!turnsOneWay(points, links, first, last, fitted->arc)) return;
+    if (view && !isSeenFromOrigin(fitted->arc, points[at(from)].variance)) return;
+    const double price = touched ? kPillarPrice : kLinePrice + kBulgePrice;
+    const Telling told = asTold(links, runs, first, last);
+    const Telling corner = byCorner(runs, from, to, touched.has_value());
+    const double gain = std::min(saving(told, *fitted, price), saving(corner, *fitted, price));
+    const double saved = best[at(first)].saved + gain;
+    if (gain > 0.0 && saved > best[at(last)].saved) best[at(last)] = {saved, first, fitted->arc};
+  };
+  for (int last = 1; last <= n; ++last) {
+    best[at(last)].saved = best[at(last - 1)].saved;
+    for (int first = last - 1; first >= 0; --first) consider(first, last, std::nullopt);
+  }
+  if (view && view->limbs) consider(0, n, view->limbs);
+  std::vector<ArcOfLinks> arcs;
+  for (int last = n; last > 0;) {
+    const Best& here = best[at(last)];
+    if (here.from >= 0) arcs.push_back({here.arc, here.from, last});
+    last = here.from >= 0 ? here.from : last - 1;
+  }
+  std::reverse(arcs.begin(), arcs.end());
+  return arcs;
+}
+
+}  // namespace cca
