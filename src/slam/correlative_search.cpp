@@ -95,10 +95,16 @@ class BranchAndBound {
             turned_[static_cast<std::size_t>(c.turn)].angle};
   }
 
-  double scoreOf(int level, const Candidate& c) const {
+  /// @param least  what cannot score more is given up, and its score is less.
+  double scoreOf(int level, const Candidate& c, double least = 0.0) const {
+    // What may be missed of the most that there could be.
+    int missed = static_cast<int>((1.0 - least) * 255.0 * count_) + 1;
     int sum = 0;
     for (const Eigen::Vector2i& at : turned_[static_cast<std::size_t>(c.turn)].cells) {
-      sum += pyramid_.at(level, at.x() + c.x, at.y() + c.y);
+      const int value = pyramid_.at(level, at.x() + c.x, at.y() + c.y);
+      sum += value;
+      missed -= 255 - value;
+      if (missed < 0) return 0.0;
     }
     return sum / (255.0 * count_);
   }
@@ -129,7 +135,7 @@ class BranchAndBound {
   void addIfGood(int level, Candidate c, std::vector<Candidate>& candidates) const {
     const double penalty = penaltyOf(level, c);
     if (1.0 - penalty <= best_bound_) return;
-    c.bound = scoreOf(level, c) - penalty;
+    c.bound = scoreOf(level, c, best_bound_ + penalty) - penalty;
     if (c.bound > best_bound_) candidates.push_back(c);
   }
 

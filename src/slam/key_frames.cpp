@@ -54,6 +54,7 @@ std::set<std::pair<int, int>> pairsInView(const KeyFrames& frames) {
         const int m = it->second;
         const Pose2 &a = frames.graph.pose(k), &b = frames.graph.pose(m);
         if (m == k || (a.position() - b.position()).norm() > kCommonView) continue;
+        if (frames.graph.part(m) != frames.graph.part(k)) continue;
         const bool same_visit = std::abs(way[static_cast<std::size_t>(m)] -
                                          way[static_cast<std::size_t>(k)]) <= kSameVisit;
         const double apart =
@@ -107,7 +108,7 @@ std::optional<GraphEdge> matchEdge(const KeyFrames& frames, int from, int to,
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(
       Eigen::Matrix3d(unit.asDiagonal() * quadric.H * unit.asDiagonal()));
   const double least = kWeakest * solver.eigenvalues().z();
-  GraphEdge edge{from, to, T_from_to, Eigen::Matrix3d::Zero(), true};
+  GraphEdge edge{from, to, T_from_to, Eigen::Matrix3d::Zero(), EdgeKind::kLoop};
   Eigen::Vector3d step = Eigen::Vector3d::Zero();
   for (int i = 0; i < 3; ++i) {
     const double strength = solver.eigenvalues()(i);
@@ -123,18 +124,69 @@ std::optional<GraphEdge> matchEdge(const KeyFrames& frames, int from, int to,
   return edge;
 }
 
-void adjust(KeyFrames& frames, const std::vector<GraphEdge>& steps, int rounds) {
+void doInTurn(int count, const std::function<void(int)>& task) {
+  for (int k = 0; k < count; ++k) task(k);
+}
+
+namespace {
+
+/// What two frames say of each other, until they have moved.
+class PairEdge {
+ public:
+  PairEdge(int from, int to) : from_(from), to_(to) {}
+
+  void match(const KeyFrames& frames, const MatchScale& scale) {
+    const Pose2 T_from_to = frames.graph.pose(from_).inverse() * frames.graph.pose(to_);
+    if (scale.reach == reach_ && isAt(T_from_to)) return;
+    T_from_to_ = T_from_to;
+    reach_ = scale.reach;
+    edge_ = matchEdge(frames, from_, to_, scale);
+  }
+  const std::optional<GraphEdge>& edge() const { return edge_; }
+
+ private:
+  /// What moves by less finds the same partners, but for a few in a hundred.
+  static constexpr double kStays = 5e-4;  // m, a turn at kArm
+
+  bool isAt(const Pose2& pose) const {
+    const Eigen::Vector3d moved = difference(pose, T_from_to_);
+    return moved.head<2>().norm() + kArm * std::abs(moved.z()) < kStays;
+  }
+
+  int from_, to_;
+  Pose2 T_from_to_;
+  double reach_ = 0.0;
+  std::optional<GraphEdge> edge_;
+};
+
+}  // namespace
+
+void adjust(KeyFrames& frames, int rounds, const DoAll& do_all) {
   constexpr double kFirstReach = 0.3, kShrink = 0.8, kLastReach = 0.1;
-  const auto pairs = pairsInView(frames);
+  constexpr int kAtOnce = 64;  // matches, so that sharing them out costs nothing
+  std::vector<PairEdge> pairs;
+  for (const auto& [a, b] : pairsInView(frames)) {
+    // In both directions: the lines of either are the other's measure.
+    pairs.emplace_back(a, b);
+    pairs.emplace_back(b, a);
+  }
+  const int count = static_cast<int>(pairs.size());
+  std::vector<GraphEdge> steps;
+  for (const GraphEdge& edge : frames.graph.edges()) {
+    if (edge.kind == EdgeKind::kWheels) steps.push_back(edge);
+  }
   double reach = kFirstReach;
   for (int round = 0; round < rounds; ++round) {
+    MatchScale scale{reach, 0.25 * reach};
+    if (reach > kLastReach) scale.stride = 2;  // it is done again
+    do_all((count + kAtOnce - 1) / kAtOnce, [&](int part) {
+      for (int k = part * kAtOnce; k < std::min(count, (part + 1) * kAtOnce); ++k) {
+        pairs[static_cast<std::size_t>(k)].match(frames, scale);
+      }
+    });
     std::vector<GraphEdge> edges = steps;
-    for (const auto& [from, to] : pairs) {
-      // In both directions: the lines of either are the other's measure.
-      if (const auto edge = matchEdge(frames, from, to, {reach, 0.25 * reach}))
-        edges.push_back(*edge);
-      if (const auto edge = matchEdge(frames, to, from, {reach, 0.25 * reach}))
-        edges.push_back(*edge);
+    for (const PairEdge& pair : pairs) {
+      if (pair.edge()) edges.push_back(*pair.edge());
     }
     std::vector<Pose2> poses;
     for (int k = 0; k < frames.size(); ++k) poses.push_back(frames.graph.pose(k));

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "cca_mrpt/slam/loop_closing.hpp"
 
-#include <Eigen/LU>
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 
@@ -18,9 +18,14 @@ constexpr double kRecentWay = 8.0;     // m
 constexpr int kEarlier = 12;           // frames that they are compared with
 constexpr double kCell = 0.1;          // m, of the search
 constexpr int kLevels = 4;
+constexpr int kLevelsAnywhere = 6;
 constexpr double kSpacing = 0.2;  // m, of the returns that search
 constexpr double kReach = 15.0;   // m, of the returns that are searched among
 constexpr double kLeastScore = 0.45;
+/// Among all places of a building some score so much without being the right one; those that rays
+/// agree with score .88 and more.
+constexpr double kLeastScoreAnywhere = 0.8;
+constexpr double kCellAnywhere = 0.2, kSpacingAnywhere = 0.4;
 constexpr double kTolerance = 0.2;  // m, within which rays agree
 
 /// Points of frames in the axes of frame `base`.
@@ -41,11 +46,66 @@ std::vector<int> recentFrames(const KeyFrames& frames, int frame) {
   std::vector<int> recent{frame};
   double way = 0.0;
   for (int k = frame; k > 0 && static_cast<int>(recent.size()) < kRecent; --k) {
+    if (frames.graph.part(k - 1) != frames.graph.part(frame)) break;
     way += (frames.graph.pose(k).position() - frames.graph.pose(k - 1).position()).norm();
     if (way > kRecentWay) break;
     recent.push_back(k - 1);
   }
   return recent;
+}
+
+/// The best place of a query in a window, and how good the next best elsewhere in it is.
+struct Found {
+  SearchResult best;
+  double runner_up = 0.0;
+};
+
+std::optional<Found> foundIn(const std::vector<Eigen::Vector2d>& query,
+                             const LikelihoodPyramid& pyramid, SearchWindow window,
+                             double least_score) {
+  const auto best = searchPose(query, pyramid, window, least_score);
+  if (!best) return std::nullopt;
+  Found found{*best, 0.0};
+  window.excluded = best->T_map_query;
+  window.excluded_distance = 0.6;
+  window.excluded_turn = 0.3;
+  if (const auto second = searchPose(query, pyramid, window, kRival * best->score)) {
+    found.runner_up = second->score;
+  }
+  return found;
+}
+
+/// Matches the frame where the search found it, and asks the rays of both visits.
+LoopVerdict judged(const KeyFrames& frames, int frame, int earlier, const std::vector<int>& recent,
+                   const std::vector<int>& around, const Pose2& T_earlier_frame) {
+  LoopVerdict verdict;
+  verdict.frame = frame;
+  verdict.candidate = earlier;
+  std::vector<PlacedSurface> references;
+  for (const int k : around) {
+    references.push_back({&frames.surfaces[static_cast<std::size_t>(k)],
+                          frames.graph.pose(earlier).inverse() * frames.graph.pose(k)});
+  }
+  const ScanSurface& surface = frames.surfaces[static_cast<std::size_t>(frame)];
+  const MatchResult match = matchSurface(surface, T_earlier_frame, {}, references, 0.4);
+  verdict.T_candidate_frame = match.T_map_query;
+  verdict.information = match.information;
+  SightCount sights;
+  for (const int k : recent) {
+    const Pose2 T_earlier_k =
+        verdict.T_candidate_frame * (frames.graph.pose(frame).inverse() * frames.graph.pose(k));
+    const ScanSurface& seen = frames.surfaces[static_cast<std::size_t>(k)];
+    for (const PlacedSurface& reference : references) {
+      const Pose2 T_reference_k = reference.T_map_sensor.inverse() * T_earlier_k;
+      if (T_reference_k.position().norm() > 1.5 * kCommonView) continue;
+      sights += compareSights(*reference.surface, seen, T_reference_k, kTolerance);
+      sights += compareSights(seen, *reference.surface, T_reference_k.inverse(), kTolerance);
+    }
+  }
+  verdict.agreement = sights.agreement();
+  const double all = sights.agree + sights.contradict + sights.unseen;
+  verdict.common = all > 0.0 ? sights.agree / all : 0.0;
+  return verdict;
 }
 
 }  // namespace
@@ -98,55 +158,63 @@ std::optional<LoopVerdict> findLoop(const KeyFrames& frames, int frame,
   const double sigma = std::sqrt(0.5 * candidate.covariance.topLeftCorner<2, 2>().trace());
   const double turn_sigma = std::sqrt(candidate.covariance(2, 2));
 
-  const Pose2 T_earlier_frame = frames.graph.pose(earlier).inverse() * frames.graph.pose(frame);
   SearchWindow window;
-  window.centre = T_earlier_frame;
+  window.centre = frames.graph.pose(earlier).inverse() * frames.graph.pose(frame);
   window.half_width = std::min(kSigmas * sigma + kTiedSigma, kWidestWindow);
   window.half_turn = std::min(kSigmas * turn_sigma + 0.05, M_PI);
   const LikelihoodPyramid pyramid(pointsOf(frames, around, earlier, kFarthestSurface),
                                   Eigen::Vector2d::Zero(), kReach, kLevels, kCell);
-  const std::vector<Eigen::Vector2d> query =
-      thinned(pointsOf(frames, recent, frame, kReach), kSpacing);
-  const auto found = searchPose(query, pyramid, window, kLeastScore);
+  const auto found = foundIn(thinned(pointsOf(frames, recent, frame, kReach), kSpacing), pyramid,
+                             window, kLeastScore);
   if (!found) return std::nullopt;
-
-  LoopVerdict verdict;
-  verdict.frame = frame;
-  verdict.candidate = earlier;
-  verdict.score = found->score;
+  LoopVerdict verdict = judged(frames, frame, earlier, recent, around, found->best.T_map_query);
+  verdict.score = found->best.score;
+  verdict.runner_up = found->runner_up;
   verdict.window = window.half_width;
-  window.excluded = found->T_map_query;
-  window.excluded_distance = 0.6;
-  window.excluded_turn = 0.3;
-  if (const auto second = searchPose(query, pyramid, window, 0.7 * found->score)) {
-    verdict.runner_up = second->score;
-  }
+  verdict.sigma = sigma;
+  verdict.moved = (verdict.T_candidate_frame.position() - window.centre.position()).norm();
+  return verdict;
+}
 
-  std::vector<PlacedSurface> references;
-  for (const int k : around) {
-    references.push_back({&frames.surfaces[static_cast<std::size_t>(k)],
-                          frames.graph.pose(earlier).inverse() * frames.graph.pose(k)});
+std::optional<LoopVerdict> relocate(const KeyFrames& frames, int frame, int part) {
+  std::vector<int> all;
+  Eigen::AlignedBox2d place;
+  for (int k = part; k < frames.size(); ++k) {
+    if (frames.graph.part(k) != part) continue;
+    all.push_back(k);
+    place.extend(frames.graph.pose(k).position());
   }
-  const ScanSurface& surface = frames.surfaces[static_cast<std::size_t>(frame)];
-  const MatchResult match = matchSurface(surface, found->T_map_query, {}, references, 0.4);
-  verdict.T_candidate_frame = match.T_map_query;
-  verdict.information = match.information;
-
-  SightCount sights;
-  for (const int k : recent) {
-    const Pose2 T_earlier_k =
-        verdict.T_candidate_frame * (frames.graph.pose(frame).inverse() * frames.graph.pose(k));
-    const ScanSurface& seen = frames.surfaces[static_cast<std::size_t>(k)];
-    for (const PlacedSurface& reference : references) {
-      const Pose2 T_reference_k = reference.T_map_sensor.inverse() * T_earlier_k;
-      if (T_reference_k.position().norm() > 1.5 * kCommonView) continue;
-      sights += compareSights(*reference.surface, seen, T_reference_k, kTolerance);
-      sights += compareSights(seen, *reference.surface, T_reference_k.inverse(), kTolerance);
+  const std::vector<int> recent = recentFrames(frames, frame);
+  std::vector<Eigen::Vector2d> points;
+  for (const int k : all) {
+    for (const auto& point : frames.surfaces[static_cast<std::size_t>(k)].points) {
+      points.push_back(frames.graph.pose(k) * point.position);
     }
   }
-  verdict.agreement = sights.agreement();
-  const double all = sights.agree + sights.contradict + sights.unseen;
-  verdict.common = all > 0.0 ? sights.agree / all : 0.0;
+  SearchWindow window;
+  const Eigen::Vector2d centre = place.center();
+  window.centre = {centre.x(), centre.y(), 0.0};
+  window.half_width = 0.5 * place.sizes().maxCoeff() + kCommonView;
+  window.half_turn = M_PI;
+  const LikelihoodPyramid pyramid(points, centre, window.half_width + kReach, kLevelsAnywhere,
+                                  kCellAnywhere);
+  const auto found = foundIn(thinned(pointsOf(frames, recent, frame, kReach), kSpacingAnywhere),
+                             pyramid, window, kLeastScoreAnywhere);
+  if (!found) return std::nullopt;
+
+  // The frame there whose view has most in common.
+  const Pose2& there = found->best.T_map_query;
+  const auto apart = [&](int k) {
+    return (frames.graph.pose(k).position() - there.position()).norm();
+  };
+  const int earlier =
+      *std::min_element(all.begin(), all.end(), [&](int a, int b) { return apart(a) < apart(b); });
+  const std::vector<int> around = framesInView(frames, earlier, there, kEarlier);
+  LoopVerdict verdict =
+      judged(frames, frame, earlier, recent, around, frames.graph.pose(earlier).inverse() * there);
+  verdict.score = found->best.score;
+  verdict.runner_up = found->runner_up;
+  verdict.window = window.half_width;
   return verdict;
 }
 

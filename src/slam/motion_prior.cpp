@@ -18,6 +18,8 @@ constexpr double kStandingShift = 0.02, kStandingTurn = 0.01;
 constexpr double kBlindShift = 0.15, kBlindTurn = 0.15;
 /// A systematic error is not above these: a tenth of the way, .1 rad a metre, a tenth of the turn.
 constexpr double kSystematic = 0.1;
+/// What errs by three times as much says nothing of it: a wheel has slipped.
+constexpr double kSlip = 3.0 * kSystematic;
 constexpr double kForgetAfter = 100.0;  // steps
 constexpr double kLeastScale = 0.02, kMostScale = 10.0;
 
@@ -101,7 +103,8 @@ void MotionPrior::learn(const std::optional<Pose2>& step, const MotionBelief& be
   };
   const double heading_variance = turn_scale_ * turnVariance(*step) + covariance(2, 2);
   const double whole_turn_error = wrapAngle(matched.theta - step->theta);
-  if (squared(turn_error) < 9.0 * (belief.covariance(2, 2) + covariance(2, 2))) {
+  if (squared(turn_error) < 9.0 * (belief.covariance(2, 2) + covariance(2, 2)) &&
+      std::abs(whole_turn_error) < kSlip * x.norm()) {
     regress(heading_, x, whole_turn_error, heading_variance);
   }
   if (x.x() > 0.05) {
@@ -109,7 +112,8 @@ void MotionPrior::learn(const std::optional<Pose2>& step, const MotionBelief& be
     const double longer = ahead.dot(matched.position()) - x.x();
     const double variance =
         scale_ * wayVariance(*step) + ahead.dot(covariance.topLeftCorner<2, 2>() * ahead);
-    if (squared(longer) < 9.0 * (belief.covariance(0, 0) + variance)) {
+    if (squared(longer) < 9.0 * (belief.covariance(0, 0) + variance) &&
+        std::abs(longer) < kSlip * x.x()) {
       regress(way_, {x.x(), 0.0}, longer, variance);
     }
   }

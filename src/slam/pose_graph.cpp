@@ -1,56 +1,192 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "cca_mrpt/slam/pose_graph.hpp"
 
-#include <ceres/ceres.h>
-
-#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <Eigen/LU>
-#include <array>
+#include <algorithm>
 #include <cmath>
-#include <memory>
+#include <numeric>
+#include <optional>
 #include <queue>
+#include <utility>
+
+#include "block_cholesky.hpp"
 
 namespace cca {
 namespace {
 
-/// The error of an edge, weighted by the root of its information, with its derivatives.
-class EdgeError : public ceres::SizedCostFunction<3, 3, 3> {
+/// How an edge's error, in the axes of its first pose, changes with both poses.
+struct EdgeError {
+  EdgeError(const GraphEdge& edge, const std::vector<Pose2>& poses)
+      : a(poses[static_cast<std::size_t>(edge.from)]), c(std::cos(a.theta)), s(std::sin(a.theta)) {
+    const Pose2& b = poses[static_cast<std::size_t>(edge.to)];
+    const double dx = b.x - a.x, dy = b.y - a.y;
+    seen = {c * dx + s * dy, -s * dx + c * dy};
+    error << seen.x() - edge.T_from_to.x, seen.y() - edge.T_from_to.y,
+        wrapAngle(b.theta - a.theta - edge.T_from_to.theta);
+    squared = error.dot(edge.information * error);
+  }
+  Eigen::Matrix3d byFrom() const {
+    Eigen::Matrix3d J;
+    J << -c, -s, seen.y(), s, -c, -seen.x(), 0.0, 0.0, -1.0;
+    return J;
+  }
+  Eigen::Matrix3d byTo() const {
+    Eigen::Matrix3d J;
+    J << c, s, 0.0, -s, c, 0.0, 0.0, 0.0, 1.0;
+    return J;
+  }
+  Pose2 a;
+  double c, s;
+  Eigen::Vector2d seen;  // m, the second pose from the first
+  Eigen::Vector3d error;
+  double squared;  // in deviations
+};
+
+/// Disjoint sets of nodes: each knows an earlier one of its set, the first itself.
+int firstOf(const std::vector<int>& before, int node) {
+  while (before[static_cast<std::size_t>(node)] != node)
+    node = before[static_cast<std::size_t>(node)];
+  return node;
+}
+
+void join(std::vector<int>& before, int a, int b) {
+  const int first = firstOf(before, a), second = firstOf(before, b);
+  before[static_cast<std::size_t>(std::max(first, second))] = std::min(first, second);
+}
+
+/// m; poses that a kernel however wide moves by less agree with their loops already.
+constexpr double kSettled = 0.05;
+/// m; after a step of less, what is left is its square.
+constexpr double kPrecise = 2e-3;
+constexpr int kMostIterations = 20;
+
+/// The least squares over a graph, linearised about its poses: Levenberg-Marquardt, where a loop's
+/// weight falls with its error (Cauchy).
+class GraphSolver {
  public:
-  explicit EdgeError(const GraphEdge& edge) : measured_(edge.T_from_to) {
-    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(edge.information);
-    root_ = solver.eigenvalues().cwiseMax(0.0).cwiseSqrt().asDiagonal() *
-            solver.eigenvectors().transpose();
+  GraphSolver(const std::vector<GraphEdge>& edges, const std::vector<Pose2>& poses, double kernel)
+      : edges_(edges),
+        kernel_sq_(kernel * kernel),
+        is_held_(poses.size(), true),
+        poses_(poses),
+        H_(static_cast<int>(poses.size()), pairsOf(edges)) {
+    std::vector<int> before(poses.size());
+    std::iota(before.begin(), before.end(), 0);
+    for (const GraphEdge& edge : edges) join(before, edge.from, edge.to);
+    for (std::size_t k = 0; k < poses.size(); ++k) is_held_[k] = before[k] == static_cast<int>(k);
+    cost_ = costOf(poses_);
   }
 
-  bool Evaluate(double const* const* poses, double* residuals, double** jacobians) const override {
-    const double *a = poses[0], *b = poses[1];
-    const double c = std::cos(a[2]), s = std::sin(a[2]);
-    const double dx = b[0] - a[0], dy = b[1] - a[1];
-    const Eigen::Vector3d error(c * dx + s * dy - measured_.x, -s * dx + c * dy - measured_.y,
-                                wrapAngle(b[2] - a[2] - measured_.theta));
-    Eigen::Map<Eigen::Vector3d> weighted(residuals);
-    weighted = root_ * error;
-    if (jacobians == nullptr) return true;
-    using Jacobian = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;
-    if (jacobians[0] != nullptr) {
-      Eigen::Matrix3d J;
-      J << -c, -s, -s * dx + c * dy, s, -c, -c * dx - s * dy, 0.0, 0.0, -1.0;
-      Eigen::Map<Jacobian> out(jacobians[0]);
-      out = root_ * J;
-    }
-    if (jacobians[1] != nullptr) {
-      Eigen::Matrix3d J;
-      J << c, s, 0.0, -s, c, 0.0, 0.0, 0.0, 1.0;
-      Eigen::Map<Jacobian> out(jacobians[1]);
-      out = root_ * J;
-    }
-    return true;
+  void setKernel(double kernel) {
+    kernel_sq_ = kernel * kernel;
+    cost_ = costOf(poses_);
   }
+
+  /// Tries a step towards the least cost. @return the largest move, m; 0: there is nothing to gain;
+  /// nothing: the step led uphill, and the next one will be shorter.
+  std::optional<double> attempt() {
+    const auto step = solved();
+    std::vector<Pose2> moved = poses_;
+    double largest = 0.0;
+    for (std::size_t k = 0; k < step.size(); ++k) {
+      moved[k].x += step[k].x();
+      moved[k].y += step[k].y();
+      moved[k].theta = wrapAngle(moved[k].theta + step[k].z());
+      largest = std::max(largest, step[k].head<2>().norm());
+    }
+    const double cost = costOf(moved);
+    if (cost < cost_) {
+      poses_ = std::move(moved);
+      cost_ = cost;
+      damping_ = std::max(kLeastDamping, damping_ / kMoreDamping);
+      failures_ = 0;
+      return largest;
+    }
+    if ((!step.empty() && largest < kPrecise) || ++failures_ >= kMostFailures) {
+      failures_ = 0;
+      return 0.0;
+    }
+    damping_ *= kMoreDamping;
+    return std::nullopt;
+  }
+
+  /// One step towards the least cost. @return the largest move, m; 0: there is nothing to gain.
+  double iterate() {
+    for (;;) {
+      if (const auto moved = attempt()) return *moved;
+    }
+  }
+
+  const std::vector<Pose2>& poses() const { return poses_; }
 
  private:
-  Pose2 measured_;
-  Eigen::Matrix3d root_;
+  static constexpr int kMostFailures = 8;
+  static constexpr double kFirstDamping = 1e-4, kLeastDamping = 1e-7, kMoreDamping = 10.0;
+  static constexpr double kHeld = 1e-6;  // of what the damping is a share of, at least
+
+  static std::vector<std::pair<int, int>> pairsOf(const std::vector<GraphEdge>& edges) {
+    std::vector<std::pair<int, int>> pairs;
+    pairs.reserve(edges.size());
+    for (const GraphEdge& edge : edges) pairs.emplace_back(std::minmax(edge.from, edge.to));
+    return pairs;
+  }
+
+  double costOf(const std::vector<Pose2>& poses) const {
+    double cost = 0.0;
+    for (const GraphEdge& edge : edges_) {
+      const double squared = EdgeError(edge, poses).squared;
+      cost +=
+          edge.kind == EdgeKind::kLoop ? kernel_sq_ * std::log1p(squared / kernel_sq_) : squared;
+    }
+    return cost;
+  }
+
+  /// The step of each pose; empty where there is none.
+  std::vector<Eigen::Vector3d> solved() {
+    std::vector<Eigen::Vector3d> g(poses_.size(), Eigen::Vector3d::Zero());
+    H_.setZero();
+    for (const GraphEdge& edge : edges_) {
+      const EdgeError at(edge, poses_);
+      const double weight =
+          edge.kind == EdgeKind::kLoop ? 1.0 / (1.0 + at.squared / kernel_sq_) : 1.0;
+      const Eigen::Matrix3d information = weight * edge.information;
+      const Eigen::Matrix3d from = at.byFrom(), to = at.byTo();
+      const Eigen::Matrix3d from_weighted = from.transpose() * information;
+      const Eigen::Matrix3d to_weighted = to.transpose() * information;
+      const bool moves_from = !is_held_[static_cast<std::size_t>(edge.from)];
+      const bool moves_to = !is_held_[static_cast<std::size_t>(edge.to)];
+      if (moves_from) {
+        H_.diagonal(edge.from).noalias() += from_weighted * from;
+        g[static_cast<std::size_t>(edge.from)].noalias() -= from_weighted * at.error;
+      }
+      if (moves_to) {
+        H_.diagonal(edge.to).noalias() += to_weighted * to;
+        g[static_cast<std::size_t>(edge.to)].noalias() -= to_weighted * at.error;
+      }
+      if (moves_from && moves_to) H_.add(edge.from, edge.to, from_weighted * to);
+    }
+    for (std::size_t k = 0; k < poses_.size(); ++k) {
+      Eigen::Matrix3d& own = H_.diagonal(static_cast<int>(k));
+      if (is_held_[k]) {
+        own.setIdentity();
+      } else {
+        own.diagonal() += damping_ * own.diagonal().cwiseMax(kHeld);
+      }
+    }
+    if (!H_.factorise()) return {};
+    H_.solve(g);
+    return g;
+  }
+
+  const std::vector<GraphEdge>& edges_;
+  double kernel_sq_;
+  std::vector<bool> is_held_;  // the first of each part
+  std::vector<Pose2> poses_;
+  BlockCholesky H_;
+  double cost_ = 0.0;
+  double damping_ = kFirstDamping;
+  int failures_ = 0;
 };
 
 /// Where no information is, a pose is still no farther off than this.
@@ -69,102 +205,144 @@ Eigen::Vector3d spreadOf(const GraphEdge& edge) {
 
 int PoseGraph::add(const Pose2& T_map_node) {
   poses_.push_back(T_map_node);
-  edges_of_.emplace_back();
+  ties_.emplace_back();
+  before_.push_back(size() - 1);
   return size() - 1;
 }
 
 void PoseGraph::connect(const GraphEdge& edge) {
-  const int number = static_cast<int>(edges_.size());
   edges_.push_back(edge);
-  spreads_.push_back(spreadOf(edge));
-  edges_of_[static_cast<std::size_t>(edge.from)].push_back(number);
-  edges_of_[static_cast<std::size_t>(edge.to)].push_back(number);
+  const Eigen::Vector3d spread = spreadOf(edge);
+  ties_[static_cast<std::size_t>(edge.from)].push_back({edge.to, spread});
+  ties_[static_cast<std::size_t>(edge.to)].push_back({edge.from, spread});
+  join(before_, edge.from, edge.to);
+}
+
+int PoseGraph::part(int node) const { return firstOf(before_, node); }
+
+void PoseGraph::movePart(int part, const Pose2& T) {
+  for (int k = part; k < size(); ++k) {
+    if (this->part(k) == part) place(k, T * pose(k));
+  }
 }
 
 std::vector<RelativeCovariance> PoseGraph::surroundings(int node, double most_sigma) const {
   struct Reached {
     double variance;
     int node;
-    Eigen::Matrix3d covariance;
     bool operator<(const Reached& other) const {
       return variance != other.variance ? variance > other.variance : node > other.node;
     }
   };
+  struct Known {  // of a node so far
+    double variance;
+    Eigen::Matrix3d covariance;
+    bool is_done = false;
+  };
+  std::vector<Known> known(poses_.size(), {most_sigma * most_sigma, Eigen::Matrix3d::Zero()});
   std::vector<RelativeCovariance> found;
-  std::vector<bool> done(poses_.size(), false);
   std::priority_queue<Reached> open;
-  open.push({0.0, node, Eigen::Matrix3d::Zero()});
+  open.push({0.0, node});
   const Eigen::Matrix2d to_node = Eigen::Rotation2Dd(-pose(node).theta).toRotationMatrix();
   while (!open.empty()) {
-    const Reached here = open.top();
+    Known& here = known[static_cast<std::size_t>(open.top().node)];
+    const int number = open.top().node;
     open.pop();
-    if (done[static_cast<std::size_t>(here.node)]) continue;
-    done[static_cast<std::size_t>(here.node)] = true;
-    found.push_back({here.node, here.covariance});
-    for (const int number : edges_of_[static_cast<std::size_t>(here.node)]) {
-      const GraphEdge& edge = edges_[static_cast<std::size_t>(number)];
-      const int next = edge.from == here.node ? edge.to : edge.from;
-      if (done[static_cast<std::size_t>(next)]) continue;
+    if (here.is_done) continue;
+    here.is_done = true;
+    const Eigen::Matrix3d& C = here.covariance;
+    found.push_back({number, C});
+    for (const auto& [next_number, spread] : ties_[static_cast<std::size_t>(number)]) {
+      Known& next = known[static_cast<std::size_t>(next_number)];
+      if (next.is_done) continue;
       // In the axes of the node that all is seen from; the arm turns heading errors into positions.
-      const Eigen::Vector2d arm = to_node * (pose(next).position() - pose(here.node).position());
-      Eigen::Matrix3d J = Eigen::Matrix3d::Identity();
-      J(0, 2) = -arm.y();
-      J(1, 2) = arm.x();
-      Eigen::Matrix3d covariance = J * here.covariance * J.transpose();
-      covariance.diagonal() += spreads_[static_cast<std::size_t>(number)];
-      const double variance = covariance.topLeftCorner<2, 2>().trace();
-      if (variance > most_sigma * most_sigma) continue;
-      open.push({variance, next, covariance});
+      const Eigen::Vector2d arm =
+          to_node * (pose(next_number).position() - pose(number).position());
+      const Eigen::Vector3d turned(-arm.y(), arm.x(), 0.0);
+      const double variance = C(0, 0) + C(1, 1) + 2.0 * turned.dot(C.col(2)) +
+                              C(2, 2) * turned.squaredNorm() + spread.x() + spread.y();
+      if (variance > next.variance) continue;
+      next.variance = variance;
+      next.covariance = C + turned * C.row(2) + C.col(2) * turned.transpose() +
+                        C(2, 2) * turned * turned.transpose();
+      next.covariance.diagonal() += spread;
+      open.push({variance, next_number});
     }
   }
   return found;
 }
 
-double PoseGraph::optimise() { return optimisePoses(edges_, poses_, 20); }
+void PoseGraph::settle(bool has_new_loops) {
+  Settlement settlement(*this, has_new_loops);
+  while (!settlement.advance()) continue;
+  settlement.applyTo(*this);
+}
 
-double PoseGraph::closeLoops() {
-  const std::vector<Pose2> before = poses_;
-  for (const double wider : {100.0, 10.0, 1.0}) {
-    optimisePoses(edges_, poses_, 20, wider * kLoopKernel);
+struct Settlement::State {
+  PoseGraph graph;
+  std::vector<double> kernels;  // left, the last one first
+  std::optional<GraphSolver> solver;
+  int iterations = kMostIterations;
+  bool is_settled = true;  // by this kernel, none has moved anything
+};
+
+Settlement::Settlement(const PoseGraph& graph, bool has_new_loops)
+    : state_(std::make_unique<State>()) {
+  state_->graph = graph;
+  state_->kernels = {kLoopKernel};
+  if (has_new_loops) state_->kernels = {kLoopKernel, 10.0 * kLoopKernel, 100.0 * kLoopKernel};
+}
+Settlement::~Settlement() = default;
+Settlement::Settlement(Settlement&&) noexcept = default;
+Settlement& Settlement::operator=(Settlement&&) noexcept = default;
+
+bool Settlement::advance() {
+  State& s = *state_;
+  if (s.graph.size() < 2 || s.graph.edges().empty()) return true;
+  if (!s.solver) {  // a step's worth of work on its own
+    std::vector<Pose2> poses;
+    for (int k = 0; k < s.graph.size(); ++k) poses.push_back(s.graph.pose(k));
+    s.solver.emplace(s.graph.edges(), poses, s.kernels.back());
+    return false;
   }
-  double largest = 0.0;
-  for (std::size_t k = 0; k < before.size(); ++k) {
-    largest = std::max(largest, (poses_[k].position() - before[k].position()).norm());
+  const std::optional<double> moved = s.solver->attempt();
+  if (!moved) return false;
+  --s.iterations;
+  s.is_settled = s.is_settled && *moved <= kSettled;
+  if (*moved > kSettled && s.iterations > 0) return false;
+  // A kernel that moves nothing leaves nothing to the narrower ones between it and the last.
+  if (s.is_settled && s.kernels.size() > 1) s.kernels.resize(2);
+  s.kernels.pop_back();
+  if (s.kernels.empty() || s.iterations == 0) return true;
+  s.is_settled = true;
+  s.solver->setKernel(s.kernels.back());
+  return false;
+}
+
+void Settlement::applyTo(PoseGraph& graph) const {
+  if (!state_->solver) return;
+  const std::vector<Pose2>& poses = state_->solver->poses();
+  const int settled = static_cast<int>(poses.size());
+  for (int k = settled; k < graph.size(); ++k) {
+    int last = settled - 1;
+    while (last >= 0 && graph.part(last) != graph.part(k)) --last;
+    if (last < 0) continue;  // a part that has begun since
+    const Pose2 T = poses[static_cast<std::size_t>(last)] * graph.pose(last).inverse();
+    graph.place(k, T * graph.pose(k));
   }
-  return largest;
+  for (int k = 0; k < settled; ++k) graph.place(k, poses[static_cast<std::size_t>(k)]);
 }
 
 double optimisePoses(const std::vector<GraphEdge>& edges, std::vector<Pose2>& poses,
-                     int most_iterations, double kernel) {
+                     int most_iterations) {
   if (poses.size() < 2 || edges.empty()) return 0.0;
-  std::vector<std::array<double, 3>> values(poses.size());
-  for (std::size_t i = 0; i < poses.size(); ++i)
-    values[i] = {poses[i].x, poses[i].y, poses[i].theta};
-  ceres::Problem problem;
-  for (const GraphEdge& edge : edges) {
-    problem.AddResidualBlock(new EdgeError(edge),
-                             edge.is_loop ? new ceres::CauchyLoss(kernel) : nullptr,
-                             values[static_cast<std::size_t>(edge.from)].data(),
-                             values[static_cast<std::size_t>(edge.to)].data());
-  }
-  if (!problem.HasParameterBlock(values.front().data())) return 0.0;
-  problem.SetParameterBlockConstant(values.front().data());
-  ceres::Solver::Options options;
-  options.linear_solver_type = ceres::SPARSE_NORMAL_CHOLESKY;
-  options.sparse_linear_algebra_library_type = ceres::EIGEN_SPARSE;  // no threads of its own
-  options.max_num_iterations = most_iterations;
-  options.num_threads = 1;  // the same sums in the same order, whatever the machine
-  options.logging_type = ceres::SILENT;
-  options.function_tolerance = 1e-5;
-  ceres::Solver::Summary summary;
-  ceres::Solve(options, &problem, &summary);
-  if (!summary.IsSolutionUsable()) return 0.0;
+  GraphSolver solver(edges, poses, kLoopKernel);
+  for (int k = 0; k < most_iterations && solver.iterate() > kPrecise; ++k) continue;
   double largest = 0.0;
   for (std::size_t i = 0; i < poses.size(); ++i) {
-    const Pose2 moved{values[i][0], values[i][1], wrapAngle(values[i][2])};
-    largest = std::max(largest, (moved.position() - poses[i].position()).norm());
-    poses[i] = moved;
+    largest = std::max(largest, (solver.poses()[i].position() - poses[i].position()).norm());
   }
+  poses = solver.poses();
   return largest;
 }
 

@@ -4,6 +4,7 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace cca {
 namespace {
@@ -11,31 +12,39 @@ namespace {
 constexpr double kFrameDistance = 0.5;  // m
 constexpr double kFrameTurn = 0.35;     // rad
 constexpr int kViewFrames = 10;
+constexpr std::size_t kMatched = 5;  // of them, by a scan that is no key frame yet
 constexpr double kSearchCell = 0.05, kSearchSpacing = 0.1, kSearchReach = 12.0;
 constexpr int kSearchLevels = 3;
+constexpr int kLevelsAllRound =
+    5;  // a coarsest cell nearly spans the window: one bound a direction
 constexpr double kSearchSigmas = 3.0;
 constexpr double kWidestSearch = 1.0, kWidestTurn = 1.0;
 constexpr double kLeastSearch = 0.2, kLeastTurn = 0.2;
 constexpr double kFirstReach = 0.3;  // m, of a match
+constexpr double kArm = 3.0;         // m
 constexpr std::size_t kJudges = 3;   // frames that say how well a scan agrees with them
 constexpr double kAgree = 0.2;       // m, within which rays do
+/// Where the wheels leave little open, a scan that agrees by this is found downhill from there.
+constexpr double kClear = 0.9;
 /// A scan that agrees less is looked for in all directions; nearly all that are right agree by
 /// more.
 constexpr double kDoubtful = 0.6, kClearlyBetter = 0.2, kVague = 1e-3;
+/// A scan that agrees by so much less than those of late is in doubt; among people all agree less.
+constexpr double kUnlike = 0.25, kUsualShare = 0.05;
+/// One that is taken for turned agrees where it is found about as well as those of late.
+constexpr double kNearlyUsual = 0.1;
+/// What has less in common with what was seen before, for each return, contradicts nothing.
+constexpr double kLeastInCommon = 0.1;
+/// So many in a row, over so much way [m] or so many without any: the robot is lost.
+constexpr int kLostScans = 3, kLostStanding = 50;
+constexpr double kLostWay = 1.0;
 
-/// Two loops speak of one place where they lie this near [m] to each other.
-constexpr double kNeighbourWay = 12.0;
 /// Poses are solved for again when the graph has grown by this, and by this share: all solutions of
 /// a drive together cost a few of the last one.
 constexpr int kSettleAfter = 15, kSettleShare = 10;
 /// The past has been corrected where a pose of it has moved by this since the last time [m]: about
 /// what the maps made from it can tell.
 constexpr double kCorrection = 0.05;
-
-bool isCredible(const LoopVerdict& verdict) {
-  return verdict.agreement > 0.8 && verdict.common > 0.15 &&
-         verdict.runner_up < 0.9 * verdict.score;
-}
 
 Eigen::Matrix3d turned(const Eigen::Matrix3d& matrix, double angle) {
   Eigen::Matrix3d R = Eigen::Matrix3d::Identity();
@@ -55,25 +64,45 @@ Eigen::Matrix3d carried(const Eigen::Matrix3d& covariance, const Eigen::Vector2d
   return J * covariance * J.transpose();
 }
 
+struct Sigmas {
+  double position, turn;  // m, rad
+};
+
+Sigmas sigmasOf(const PoseBelief& prior) {
+  const Eigen::Matrix3d covariance = prior.information.inverse();
+  return {std::sqrt(0.5 * covariance.topLeftCorner<2, 2>().trace()), std::sqrt(covariance(2, 2))};
+}
+
+/// How far off [m] the prior may put what is seen kArm away.
+double spanOf(const PoseBelief& prior) {
+  const Sigmas sigmas = sigmasOf(prior);
+  return kSearchSigmas * (sigmas.position + kArm * sigmas.turn);
+}
+
+SearchWindow windowOf(const PoseBelief& prior) {
+  const Sigmas sigmas = sigmasOf(prior);
+  SearchWindow window;
+  window.centre = prior.mean;
+  window.half_width = std::clamp(kSearchSigmas * sigmas.position, kLeastSearch, kWidestSearch);
+  window.half_turn = std::clamp(kSearchSigmas * sigmas.turn, kLeastTurn, kWidestTurn);
+  window.prior_information = prior.information.diagonal();
+  return window;
+}
+
 }  // namespace
 
+SlamWork& SlamWork::operator+=(const SlamWork& other) {
+  places += other.places;
+  iterations += other.iterations;
+  return *this;
+}
+
 bool Slam::isNewPlace(const Pose2& T_map_sensor, const ScanSurface& surface) const {
+  if (surface.points.empty()) return false;
   const Pose2& last = frames_.graph.pose(frames_.size() - 1);
   const double turn = std::abs(wrapAngle(T_map_sensor.theta - last.theta));
   return (T_map_sensor.position() - last.position()).norm() >= kFrameDistance ||
          (turn >= kFrameTurn && !surface.is_full_turn);
-}
-
-SearchWindow Slam::windowOf(const PoseBelief& prior) {
-  const Eigen::Matrix3d covariance = prior.information.inverse();
-  const double sigma = std::sqrt(0.5 * covariance.topLeftCorner<2, 2>().trace());
-  const double turn_sigma = std::sqrt(covariance(2, 2));
-  SearchWindow window;
-  window.centre = prior.mean;
-  window.half_width = std::clamp(kSearchSigmas * sigma, kLeastSearch, kWidestSearch);
-  window.half_turn = std::clamp(kSearchSigmas * turn_sigma, kLeastTurn, kWidestTurn);
-  window.prior_information = prior.information.diagonal();
-  return window;
 }
 
 Pose2 Slam::searched(const ScanSurface& surface, SearchWindow window) const {
@@ -89,28 +118,89 @@ Pose2 Slam::searched(const ScanSurface& surface, SearchWindow window) const {
   query = thinned(query, kSearchSpacing);
   if (query.empty()) return window.centre;
   window.prior_weight = 1.0 / (kIndependent * 3.0 * static_cast<double>(query.size()));
+  const int levels = window.half_turn > kWidestTurn ? kLevelsAllRound : kSearchLevels;
   const LikelihoodPyramid pyramid(points, window.centre.position(),
-                                  kSearchReach + window.half_width, kSearchLevels, kSearchCell);
+                                  kSearchReach + window.half_width, levels, kSearchCell);
   const auto found = searchPose(query, pyramid, window, 0.2);
   return found ? found->T_map_query : window.centre;
 }
 
-Slam::Located Slam::located(const ScanSurface& surface, const PoseBelief& prior,
-                            const SearchWindow& window) const {
-  const std::vector<PlacedSurface> references = frames_.placed(view_);
+Slam::Located Slam::located(const ScanSurface& surface, const PoseBelief& prior, const Pose2& start,
+                            double reach) const {
+  std::vector<PlacedSurface> references = frames_.placed(view_);
+  if (references.size() > kMatched) references.resize(kMatched);
   Located found;
-  found.match = matchSurface(surface, searched(surface, window), prior, references, kFirstReach);
+  found.match = matcher_(surface, start, prior, references, reach);
+  // Both ways: a return behind the wall that stood there contradicts by what it saw through.
   SightCount sights;
   for (std::size_t i = 0; i < references.size() && i < kJudges; ++i) {
-    sights += compareSights(*references[i].surface, surface,
-                            references[i].T_map_sensor.inverse() * found.match.T_map_query, kAgree);
+    const ScanSurface& reference = *references[i].surface;
+    const Pose2 T_reference_query = references[i].T_map_sensor.inverse() * found.match.T_map_query;
+    sights += compareSights(reference, surface, T_reference_query, kAgree);
+    if (surface.points.empty()) continue;  // nothing at all says nothing
+    sights += compareSights(surface, reference, T_reference_query.inverse(), kAgree);
   }
   found.agreement = sights.agreement();
+  found.in_common = 0.5 * (sights.agree + sights.contradict);
   return found;
+}
+
+PoseBelief Slam::beliefAfter(const MotionBelief& motion) const {
+  PoseBelief belief;
+  belief.mean = T_map_sensor_ * motion.T_before_after;
+  const Eigen::Vector2d arm = belief.mean.position() - T_map_sensor_.position();
+  const Eigen::Matrix3d covariance =
+      carried(covariance_, arm) + turned(motion.covariance, T_map_sensor_.theta);
+  belief.information = covariance.inverse();
+  return belief;
+}
+
+Slam::Located Slam::locatedAbout(const ScanSurface& surface, const PoseBelief& prior) const {
+  const SearchWindow window = windowOf(prior);
+  Located found;
+  if (window.half_width <= kLeastSearch && window.half_turn <= kLeastTurn) {
+    found = located(surface, prior, prior.mean, std::min(kFirstReach, spanOf(prior)));
+  }
+  if (found.agreement < kClear)
+    found = located(surface, prior, searched(surface, window), kFirstReach);
+  return found;
+}
+
+std::optional<Slam::Located> Slam::foundElsewhere(const ScanSurface& surface,
+                                                  const MotionBelief& motion,
+                                                  const PoseBelief& prior, const Located& here) {
+  const std::optional<Elsewhere> before = std::exchange(elsewhere_, std::nullopt);
+  if (before) {
+    PoseBelief from_there = prior;
+    from_there.mean = before->T_map_sensor * motion.T_before_after;
+    const Located there = locatedAbout(surface, from_there);
+    const double lead = 0.5 * (before->lead + there.agreement - here.agreement);
+    if (lead > kClearlyBetter && there.agreement > usual_ - kNearlyUsual) {
+      T_map_sensor_ = before->T_map_sensor;
+      passed_.back().T_frame_sensor =
+          frames_.graph.pose(passed_.back().frame).inverse() * T_map_sensor_;
+      passed_.back().is_doubtful = false;
+      return there;
+    }
+  }
+  if (here.agreement >= kDoubtful || surface.points.empty()) return std::nullopt;
+  SearchWindow anywhere;
+  anywhere.centre = prior.mean;
+  anywhere.half_width = kWidestSearch;
+  anywhere.half_turn = M_PI;
+  PoseBelief vague = prior;
+  vague.information *= kVague;
+  const Located there = located(surface, vague, searched(surface, anywhere), kFirstReach);
+  const double lead = there.agreement - here.agreement;
+  if (lead > kClearlyBetter && there.agreement > usual_ - kNearlyUsual) {
+    elsewhere_ = Elsewhere{there.match.T_map_query, lead};
+  }
+  return std::nullopt;
 }
 
 SlamPose Slam::step(const Scan& scan, const Pose2& T_robot_sensor,
                     const std::optional<Pose2>& T_odom_robot) {
+  work_ = {};
   ScanSurface surface = scanSurface(scan);
   std::optional<Pose2> wheel_step;
   std::optional<Pose2> T_odom_sensor;
@@ -120,25 +210,31 @@ SlamPose Slam::step(const Scan& scan, const Pose2& T_robot_sensor,
   }
   last_odom_sensor_ = T_odom_sensor;
 
-  SlamPose result;
-  if (frames_.size() == 0) {
-    T_map_sensor_ = T_map_start_ * T_robot_sensor;
-    frames_.surfaces.push_back(std::move(surface));
-    frames_.graph.add(T_map_sensor_);
-    at_version_.push_back(T_map_sensor_);
-    view_ = {0};
-    passed_.push_back({0, {}, T_robot_sensor});
-    result.T_map_robot = T_map_start_;
-    result.agreement = 1.0;
-    return result;
+  if (frames_.size() == remembered_ || starts_anywhere_) {
+    if (frames_.size() == remembered_) T_map_sensor_ = T_map_start_ * T_robot_sensor;
+    const int frame = newFrame(scan, T_robot_sensor, std::move(surface));
+    if (frame == remembered_) map_part_ = frame;
+    startPart(frame);
+    starts_anywhere_ = false;
+    passed_.push_back({frame, {}, T_robot_sensor, false});
+    return poseNow(T_robot_sensor, 1.0);
   }
-  const MotionBelief motion = motion_.predict(wheel_step);
-  PoseBelief prior;
-  prior.mean = T_map_sensor_ * motion.T_before_after;
-  const Eigen::Matrix3d step_covariance = turned(motion.covariance, T_map_sensor_.theta);
-  const Eigen::Vector2d arm = prior.mean.position() - T_map_sensor_.position();
-  const Eigen::Matrix3d prior_covariance = carried(covariance_, arm) + step_covariance;
-  prior.information = prior_covariance.inverse();
+  MotionBelief motion = motion_.predict(wheel_step);
+  PoseBelief prior = beliefAfter(motion);
+  Located found = locatedAbout(surface, prior);
+  if (found.agreement < kClear && wheel_step && !elsewhere_) {
+    // Some encoders count alike forwards and backwards.
+    const Pose2 back{-wheel_step->x, -wheel_step->y, wheel_step->theta};
+    const MotionBelief backwards = motion_.predict(back);
+    const PoseBelief behind = beliefAfter(backwards);
+    const Located there = located(surface, behind, behind.mean, kFirstReach);
+    if (there.agreement > found.agreement + kClearlyBetter) {
+      wheel_step = back;
+      motion = backwards;
+      prior = behind;
+      found = there;
+    }
+  }
   // Of the wheels alone, since the last key frame.
   const Eigen::Vector2d wheel_arm =
       T_frame_wheels_ * motion.T_before_after.position() - T_frame_wheels_.position();
@@ -146,105 +242,169 @@ SlamPose Slam::step(const Scan& scan, const Pose2& T_robot_sensor,
       carried(wheels_covariance_, wheel_arm) + turned(motion.covariance, T_frame_wheels_.theta);
   T_frame_wheels_ = T_frame_wheels_ * motion.T_before_after;
 
-  Located found = located(surface, prior, windowOf(prior));
-  if (found.agreement < kDoubtful && !surface.points.empty()) {
-    // Somebody has turned the robot, or the wheels have told nothing of a turn.
-    SearchWindow anywhere;
-    anywhere.centre = prior.mean;
-    anywhere.half_width = kWidestSearch;
-    anywhere.half_turn = M_PI;
-    PoseBelief vague = prior;
-    vague.information *= kVague;
-    const Located other = located(surface, vague, anywhere);
-    if (other.agreement > found.agreement + kClearlyBetter) found = other;
-  }
+  if (const auto elsewhere = foundElsewhere(surface, motion, prior, found)) found = *elsewhere;
   const MatchResult& match = found.match;
   const Pose2 before = T_map_sensor_;
-  T_map_sensor_ = match.paired > 0.0 ? match.T_map_query : prior.mean;
-  covariance_ = match.paired > 0.0 ? Eigen::Matrix3d(match.posterior.inverse()) : prior_covariance;
-  motion_.learn(wheel_step, motion, before.inverse() * T_map_sensor_,
-                turned(covariance_, -before.theta));
+  const bool is_doubtful =
+      found.agreement < usual_ - kUnlike &&
+      found.in_common > kLeastInCommon * static_cast<double>(surface.points.size());
+  const bool is_matched = match.paired > 0.0 && !elsewhere_;
+  T_map_sensor_ = is_matched ? match.T_map_query : prior.mean;
+  covariance_ = is_matched ? match.posterior.inverse().eval() : prior.information.inverse().eval();
+  if (found.in_common > 0.0) usual_ += kUsualShare * (found.agreement - usual_);
+  if (!is_doubtful) {
+    motion_.learn(wheel_step, motion, before.inverse() * T_map_sensor_,
+                  turned(covariance_, -before.theta));
+  }
 
-  result.agreement = found.agreement;
-  if (isNewPlace(T_map_sensor_, surface)) {
-    addKeyFrame(std::move(surface), T_map_sensor_, T_frame_wheels_, wheels_covariance_.inverse());
-    T_map_sensor_ = frames_.graph.pose(frames_.size() - 1);
+  countDoubt(is_doubtful, before.inverse() * T_map_sensor_);
+  if (doubt_.scans >= kLostStanding || (doubt_.scans >= kLostScans && doubt_.way >= kLostWay)) {
+    startPart(newFrame(scan, T_robot_sensor, std::move(surface)));
+  } else if (!is_doubtful && isNewPlace(T_map_sensor_, surface)) {
+    const GraphEdge wheels{frames_.size() - 1, frames_.size(), T_frame_wheels_,
+                           wheels_covariance_.inverse(), EdgeKind::kWheels};
+    goOn(newFrame(scan, T_robot_sensor, std::move(surface)), wheels);
   }
   const int frame = frames_.size() - 1;
-  passed_.push_back({frame, frames_.graph.pose(frame).inverse() * T_map_sensor_, T_robot_sensor});
-  result.T_map_robot = T_map_sensor_ * T_robot_sensor.inverse();
-  result.covariance = covariance_;
-  result.version = version_;
-  return result;
+  passed_.push_back(
+      {frame, frames_.graph.pose(frame).inverse() * T_map_sensor_, T_robot_sensor, is_doubtful});
+  workOnce();
+  return poseNow(T_robot_sensor, found.agreement);
 }
 
-void Slam::addKeyFrame(ScanSurface surface, const Pose2& T_map_sensor, const Pose2& wheels,
-                       const Eigen::Matrix3d& wheels_information) {
-  frames_.surfaces.push_back(std::move(surface));
-  const int frame = frames_.graph.add(T_map_sensor);
-  at_version_.push_back(T_map_sensor);
-  const GraphEdge wheel_edge{frame - 1, frame, wheels, wheels_information, false};
-  wheel_edges_.push_back(wheel_edge);
-  frames_.graph.connect(wheel_edge);
-  for (const int other : view_) {
-    if (auto edge = matchEdge(frames_, other, frame, {0.15, 0.04})) {
-      edge->is_loop = other < frame - 20;
-      unsettled_ = unsettled_ || edge->is_loop;
-      frames_.graph.connect(*edge);
-    }
+SlamPose Slam::poseNow(const Pose2& T_robot_sensor, double agreement) const {
+  SlamPose pose;
+  pose.T_map_robot = T_map_sensor_ * T_robot_sensor.inverse();
+  pose.covariance = covariance_;
+  pose.agreement = agreement;
+  pose.version = version_;
+  pose.is_lost = isLost();
+  return pose;
+}
+
+void Slam::countDoubt(bool is_doubtful, const Pose2& step) {
+  if (!is_doubtful) {
+    doubt_ = {};
+    return;
   }
+  ++doubt_.scans;
+  doubt_.way += step.position().norm();
+}
+
+int Slam::newFrame(const Scan& scan, const Pose2& T_robot_sensor, ScanSurface surface) {
+  frames_.surfaces.push_back(std::move(surface));
+  key_scans_.push_back({scan, T_robot_sensor});
+  at_version_.push_back(T_map_sensor_);
   T_frame_wheels_ = {};
   wheels_covariance_.setZero();
   covariance_.setZero();
-  closeLoops(frame);
+  return frames_.graph.add(T_map_sensor_);
+}
+
+/// Of a new frame and of those in view, each by what the others saw.
+void Slam::forgetMovers(int frame) {
+  std::vector<int> around{frame};
+  for (std::size_t i = 0; i < view_.size() && i < kJudges; ++i) around.push_back(view_[i]);
+  for (const int seen : around) {
+    std::vector<PlacedSurface> others;
+    for (const int other : around) {
+      if (other != seen) others.push_back(frames_.placed(other));
+    }
+    forgetWhatMoved(frames_.surfaces[static_cast<std::size_t>(seen)], frames_.graph.pose(seen),
+                    others, kAgree);
+  }
+}
+
+void Slam::goOn(int frame, const GraphEdge& wheels) {
+  frames_.graph.connect(wheels);
+  forgetMovers(frame);
+  for (const int other : view_) {
+    if (auto edge = matchEdge(frames_, other, frame, {0.15, 0.04})) {
+      if (other >= frame - 20) edge->kind = EdgeKind::kMatch;
+      unsettled_ = unsettled_ || edge->kind == EdgeKind::kLoop;
+      frames_.graph.connect(*edge);
+    }
+  }
+  loop_closer_.seek(frame);
+  if (soughtPart(frame)) places_.push_back(frame);
   view_ = framesInView(frames_, frame, frames_.graph.pose(frame), kViewFrames);
+  T_map_sensor_ = frames_.graph.pose(frame);
 }
 
-bool Slam::agree(const LoopVerdict& a, const LoopVerdict& b) const {
-  const PoseGraph& graph = frames_.graph;
-  const Pose2 T_b_a = graph.pose(b.candidate).inverse() * graph.pose(a.candidate);
-  const Pose2 T_frames = graph.pose(a.frame).inverse() * graph.pose(b.frame);
-  const Pose2 off = (T_b_a * a.T_candidate_frame * T_frames).inverse() * b.T_candidate_frame;
-  // Both chains may have drifted a little between the two.
-  const double way = T_b_a.position().norm() + T_frames.position().norm();
-  return way < kNeighbourWay && off.position().norm() < 0.15 + 0.02 * way &&
-         std::abs(off.theta) < 0.03 + 0.005 * way;
+void Slam::workOnce() {
+  if (settlement_) {
+    ++work_.iterations;
+    if (settlement_->advance()) takeSettled();
+  } else if (loop_closer_.isSeeking() || !places_.empty()) {
+    const std::vector<GraphEdge> loops = soughtOnce();
+    if (!loops.empty()) beginSettling(loops);
+  } else {
+    const int grown = frames_.size() - 1 - last_optimised_;
+    const int share = (frames_.size() - 1) / kSettleShare;
+    if (unsettled_ && grown >= std::max(kSettleAfter, share)) beginSettling({});
+  }
 }
 
-void Slam::closeLoops(int frame) {
-  bool closed = false;
-  for (const RelativeCovariance& candidate : loopCandidates(frames_, frame)) {
-    const auto verdict = findLoop(frames_, frame, candidate);
-    if (!verdict) continue;
-    verdicts_.push_back(*verdict);
-    if (!isCredible(*verdict)) continue;
-    for (const LoopVerdict& other : waiting_) {
-      if (other.frame == frame || !agree(*verdict, other)) continue;
-      accept(other);
-      accept(*verdict);
-      closed = true;
-      break;
-    }
-    if (closed) break;
-    waiting_.push_back(*verdict);
+/// Looks for one frame at one visit, or in another part of the graph.
+std::vector<GraphEdge> Slam::soughtOnce() {
+  if (loop_closer_.findCandidates(frames_)) {
+    ++work_.places;
+    return loop_closer_.seekOnce(frames_);
   }
-  if (closed) waiting_.clear();
-  unsettled_ = closed || unsettled_;
-  const bool is_due = closed || (unsettled_ && frame - last_optimised_ >=
-                                                   std::max(kSettleAfter, frame / kSettleShare));
-  if (!is_due) return;
-  if (closed) {
-    frames_.graph.closeLoops();
-    for (const int other : framesInView(frames_, frame, frames_.graph.pose(frame), kViewFrames)) {
-      if (other >= frame - kViewFrames) continue;
-      const auto edge = matchEdge(frames_, other, frame, {0.3, 0.08});
-      if (edge) frames_.graph.connect(*edge);
-    }
-  }
-  frames_.graph.optimise();
-  last_optimised_ = frame;
+  if (loop_closer_.isSeeking() || places_.empty()) return {};
+  const int frame = places_.front();
+  places_.pop_front();
+  const auto part = soughtPart(frame);
+  if (!part) return {};
+  ++work_.places;
+  return loop_closer_.findPlace(frames_, frame, *part);
+}
+
+void Slam::beginSettling(const std::vector<GraphEdge>& loops) {
+  closing_ = loops;
+  PoseGraph graph = frames_.graph;
+  if (!closing_.empty()) connectLoops(graph, closing_);
+  settlement_.emplace(graph, !closing_.empty());
+  last_optimised_ = frames_.size() - 1;
   unsettled_ = false;
+}
+
+void Slam::takeSettled() {
+  PoseGraph& graph = frames_.graph;
+  const int last = frames_.size() - 1;
+  const Pose2 before = graph.pose(last);
+  settlement_->applyTo(graph);
+  settlement_.reset();
+  const Pose2& after = graph.pose(last);
+  T_map_sensor_ = after * (before.inverse() * T_map_sensor_);
+  if (elsewhere_) {
+    elsewhere_->T_map_sensor = after * (before.inverse() * elsewhere_->T_map_sensor);
+  }
+  covariance_ = turned(covariance_, after.theta - before.theta);
+  if (!closing_.empty()) {
+    const bool joins = graph.part(closing_.back().from) != graph.part(closing_.back().to);
+    for (const GraphEdge& edge : closing_) graph.connect(edge);
+    map_part_ = graph.part(map_part_);
+    // From the frame that closed the loop on, whose surroundings alone know of it so far.
+    const int closed = closing_.back().to;
+    closing_.clear();
+    tieVisits(closed);
+    for (int k = std::max(closed + 1, last + 1 - kViewFrames); k <= last; ++k) tieVisits(k);
+    if (joins) ++version_;  // what is in the map is more now
+  }
+  view_ = framesInView(frames_, last, after, kViewFrames);
   countVersion();
+}
+
+/// Matches a frame to those of other visits in its view; what they say waits for the next
+/// settlement.
+void Slam::tieVisits(int frame) {
+  for (const int other : framesInView(frames_, frame, frames_.graph.pose(frame), kViewFrames)) {
+    if (other >= frame - kViewFrames) continue;
+    const auto edge = matchEdge(frames_, other, frame, {0.3, 0.08});
+    if (edge) frames_.graph.connect(*edge);
+    unsettled_ = unsettled_ || edge;
+  }
 }
 
 void Slam::countVersion() {
@@ -258,24 +418,6 @@ void Slam::countVersion() {
   for (int k = 0; k < frames_.size(); ++k)
     at_version_[static_cast<std::size_t>(k)] = frames_.graph.pose(k);
   ++version_;
-}
-
-void Slam::accept(const LoopVerdict& verdict) {
-  GraphEdge edge{verdict.candidate, verdict.frame, verdict.T_candidate_frame, verdict.information,
-                 true};
-  frames_.graph.connect(edge);
-  loops_.push_back(verdict);
-}
-
-void Slam::finish() { adjust(frames_, wheel_edges_, 10); }
-
-std::vector<Pose2> Slam::trajectory() const {
-  std::vector<Pose2> poses;
-  for (const Passed& scan : passed_) {
-    poses.push_back(frames_.graph.pose(scan.frame) * scan.T_frame_sensor *
-                    scan.T_robot_sensor.inverse());
-  }
-  return poses;
 }
 
 }  // namespace cca

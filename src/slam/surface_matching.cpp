@@ -26,33 +26,75 @@ constexpr double kSameFacing = 0.9;
 /// So many beams to either side are asked for a partner, at most.
 constexpr int kWidestSearch = 8;
 
+/// What lies k beams beside a point is farther from it than k - .5 arcs, less what the sine of that
+/// angle is short of it: this share of its square remains up to a radian.
+constexpr double kOfArc = 0.7;
+
 /// The nearest return of the reference to a point of its frame, facing as `normal`; -1: none.
+/// Beams are asked from the one that looks there outwards, until none can be nearer.
 int partnerOf(const ScanSurface& reference, const Eigen::Vector2d& p, const Eigen::Vector2d& normal,
               double reach) {
   const int beam = reference.beamTowards(p);
   if (beam < 0) return -1;
-  const double arc = p.norm() * reference.spacing;
-  const int width = arc * kWidestSearch > reach ? static_cast<int>(reach / arc) + 1 : kWidestSearch;
   const int beams = reference.beams();
-  int first = beam - width, last = beam + width;
-  if (!reference.is_full_turn) {
-    first = std::max(first, 0);
-    last = std::min(last, beams - 1);
-  }
   int best = -1;
   double nearest = reach * reach;
-  for (int k = first; k <= last; ++k) {
-    const int at = k < 0 ? k + beams : k >= beams ? k - beams : k;
-    const int i = reference.point_of_beam[static_cast<std::size_t>(at)];
-    if (i < 0) continue;
+  const auto ask = [&](int k) {
+    if (k < 0 || k >= beams) {
+      if (!reference.is_full_turn) return;
+      k += k < 0 ? beams : -beams;
+    }
+    const int i = reference.point_of_beam[static_cast<std::size_t>(k)];
+    if (i < 0) return;
     const ScanSurface::Point& point = reference.points[static_cast<std::size_t>(i)];
     const double apart_sq = (point.position - p).squaredNorm();
-    if (apart_sq >= nearest || point.normal.dot(normal) < kSameFacing) continue;
+    if (apart_sq >= nearest || point.normal.dot(normal) < kSameFacing) return;
     nearest = apart_sq;
     best = i;
+  };
+  ask(beam);
+  const double arc_sq = kOfArc * p.squaredNorm() * reference.spacing * reference.spacing;
+  for (int k = 1; k <= kWidestSearch && k < beams; ++k) {
+    if ((k - 0.5) * (k - 0.5) * arc_sq >= nearest) break;
+    ask(beam - k);
+    ask(beam + k);
   }
   return best;
 }
+
+/// Sums over distances e with the derivatives J = (n, turn): of weight J J' (its upper half),
+/// weight e J, weight, and weight e^2.
+struct QuadricSums {
+  void add(double weight, double e, const Eigen::Vector2d& n, double turn) {
+    const double wx = weight * n.x(), wy = weight * n.y(), wt = weight * turn;
+    xx += wx * n.x();
+    xy += wx * n.y();
+    xt += wx * turn;
+    yy += wy * n.y();
+    yt += wy * turn;
+    tt += wt * turn;
+    x += wx * e;
+    y += wy * e;
+    t += wt * e;
+    weights += weight;
+    squares += weight * e * e;
+  }
+  void add(const QuadricSums& other, double share) {
+    xx += share * other.xx;
+    xy += share * other.xy;
+    xt += share * other.xt;
+    yy += share * other.yy;
+    yt += share * other.yt;
+    tt += share * other.tt;
+    x += share * other.x;
+    y += share * other.y;
+    t += share * other.t;
+    weights += share * other.weights;
+    squares += share * other.squares;
+  }
+  double xx = 0.0, xy = 0.0, xt = 0.0, yy = 0.0, yt = 0.0, tt = 0.0;
+  double x = 0.0, y = 0.0, t = 0.0, weights = 0.0, squares = 0.0;
+};
 
 /// The reach shrinks by this a round, and so does the kernel, to these at the least.
 constexpr double kShrink = 0.7;
@@ -78,12 +120,13 @@ MatchQuadric matchQuadric(const ScanSurface& query, const Pose2& T_map_query,
     to_map.emplace_back(placed.T_map_sensor);
   }
   const double weight_of_sigma = 1.0 / (scale.sigma * scale.sigma);
-  for (const ScanSurface::Point& point : query.points) {
+  QuadricSums all;
+  for (std::size_t k = 0; k < query.points.size(); k += static_cast<std::size_t>(scale.stride)) {
+    const ScanSurface::Point& point = query.points[k];
     if (point.normal.isZero()) continue;
-    Eigen::Matrix3d H = Eigen::Matrix3d::Zero();
-    Eigen::Vector3d g = Eigen::Vector3d::Zero();
     const Eigen::Vector2d arm = map_query.turn(point.position);
-    double partners = 0.0, weights = 0.0, sum_sq = 0.0;
+    QuadricSums own;
+    int partners = 0;
     for (std::size_t r = 0; r < references.size(); ++r) {
       const ScanSurface& reference = *references[r].surface;
       const Eigen::Vector2d p = to_reference[r] * point.position;
@@ -93,25 +136,21 @@ MatchQuadric matchQuadric(const ScanSurface& query, const Pose2& T_map_query,
       const double e = partner.normal.dot(p - partner.position);
       const double weight = 1.0 / (1.0 + e * e * weight_of_sigma);
       const Eigen::Vector2d n = to_map[r].turn(partner.normal);
-      const Eigen::Vector3d J(n.x(), n.y(), n.y() * arm.x() - n.x() * arm.y());
-      H += weight * J * J.transpose();
-      g += weight * e * J;
-      weights += weight;
-      sum_sq += weight * e * e;
-      partners += 1.0;
+      own.add(weight, e, n, n.y() * arm.x() - n.x() * arm.y());
+      ++partners;
     }
-    if (partners == 0.0) continue;
+    if (partners == 0) continue;
     // Each return counts once, however many references saw its place.
-    const double share = 1.0 / partners;
-    quadric.H += share * H;
-    quadric.g += share * g;
-    quadric.sum_weights += share * weights;
-    quadric.sum_sq += share * sum_sq;
-    ++quadric.paired;
+    all.add(own, 1.0 / partners);
+    quadric.paired += scale.stride;
   }
-  const double information = kIndependent * weight_of_sigma;
+  const double information = kIndependent * weight_of_sigma * scale.stride;
+  quadric.H << all.xx, all.xy, all.xt, all.xy, all.yy, all.yt, all.xt, all.yt, all.tt;
+  quadric.g << all.x, all.y, all.t;
   quadric.H *= information;
   quadric.g *= information;
+  quadric.sum_weights = scale.stride * all.weights;
+  quadric.sum_sq = scale.stride * all.squares;
   return quadric;
 }
 
@@ -124,15 +163,18 @@ MatchResult matchSurface(const ScanSurface& query, const Pose2& start, const Pos
   for (int round = 0; round < kMostRounds; ++round) {
     const MatchQuadric quadric = matchQuadric(query, result.T_map_query, references, scale);
     const Eigen::Vector3d off = difference(result.T_map_query, prior.mean);
-    const Eigen::Matrix3d held =
-        prior.information / (1.0 + off.dot(prior.information * off) / kPriorFreedom);
+    const double off_sq = off.dot(prior.information * off);
+    const Eigen::Matrix3d held = prior.information / (1.0 + off_sq / kPriorFreedom);
     result.information = quadric.H;
-    result.posterior = quadric.H + held;
+    // As far off as is to be expected the prior is known as well as before: else, where the match
+    // says nothing, it would be forgotten by and by.
+    result.posterior = quadric.H + prior.information * std::min(1.0, (kPriorFreedom + 3.0) /
+                                                                         (kPriorFreedom + off_sq));
     result.paired = query.points.empty() ? 0.0
                                          : static_cast<double>(quadric.paired) /
                                                static_cast<double>(query.points.size());
     if (quadric.sum_weights > 0.0) result.sigma = std::sqrt(quadric.sum_sq / quadric.sum_weights);
-    const Eigen::LDLT<Eigen::Matrix3d> solver(result.posterior);
+    const Eigen::LDLT<Eigen::Matrix3d> solver(Eigen::Matrix3d(quadric.H + held));
     if (quadric.paired == 0 || solver.info() != Eigen::Success || !solver.isPositive()) break;
     const Eigen::Vector3d step = solver.solve(-(quadric.g + held * off));
     if (!step.allFinite()) break;
@@ -159,42 +201,67 @@ double SightCount::agreement() const {
   return seen > 0.0 ? agree / seen : 0.0;
 }
 
+namespace {
+
+enum class Sight { kAgrees, kContradicts, kUnseen };
+
+/// What the rays of a viewer say of a return at a point of its frame.
+Sight sightOf(const ScanSurface& viewer, const Eigen::Vector2d& p, double tolerance) {
+  const int beam = viewer.beamTowards(p);
+  if (beam < 0) return Sight::kUnseen;
+  const int beams = viewer.beams();
+  const double range = p.norm();
+  double least = 1e9, most = 0.0;
+  for (int k = beam - 1; k <= beam + 1; ++k) {
+    const int at = k < 0 ? k + beams : k >= beams ? k - beams : k;
+    if (!viewer.is_full_turn && at != k) continue;
+    const double free = viewer.free_range[static_cast<std::size_t>(at)];
+    least = std::min(least, free);
+    most = std::max(most, free);
+    const int i = viewer.point_of_beam[static_cast<std::size_t>(at)];
+    if (i < 0) continue;
+    const Eigen::Vector2d& q = viewer.points[static_cast<std::size_t>(i)].position;
+    if ((q - p).norm() < tolerance) return Sight::kAgrees;
+  }
+  // Between the nearest and the farthest of three neighbouring beams a surface may lie anywhere.
+  if (range > least - tolerance && range < most + tolerance) return Sight::kAgrees;
+  return range <= least - tolerance ? Sight::kContradicts : Sight::kUnseen;
+}
+
+}  // namespace
+
 SightCount compareSights(const ScanSurface& viewer, const ScanSurface& other,
                          const Pose2& T_viewer_other, double tolerance) {
   SightCount count;
   const Motion motion(T_viewer_other);
-  const int beams = viewer.beams();
   for (const ScanSurface::Point& point : other.points) {
-    const Eigen::Vector2d p = motion * point.position;
-    const int beam = viewer.beamTowards(p);
-    if (beam < 0) {
-      count.unseen += 1.0;
-      continue;
-    }
-    const double range = p.norm();
-    double least = 1e9, most = 0.0;
-    bool returned_near = false;
-    for (int k = beam - 1; k <= beam + 1; ++k) {
-      const int at = k < 0 ? k + beams : k >= beams ? k - beams : k;
-      if (!viewer.is_full_turn && at != k) continue;
-      const double free = viewer.free_range[static_cast<std::size_t>(at)];
-      least = std::min(least, free);
-      most = std::max(most, free);
-      const int i = viewer.point_of_beam[static_cast<std::size_t>(at)];
-      if (i < 0) continue;
-      const Eigen::Vector2d& q = viewer.points[static_cast<std::size_t>(i)].position;
-      returned_near = returned_near || (q - p).norm() < tolerance;
-    }
-    // Between the nearest and the farthest of three neighbouring beams a surface may lie anywhere.
-    if (returned_near || (range > least - tolerance && range < most + tolerance)) {
-      count.agree += 1.0;
-    } else if (range <= least - tolerance) {
-      count.contradict += 1.0;
-    } else {
-      count.unseen += 1.0;
+    switch (sightOf(viewer, motion * point.position, tolerance)) {
+      case Sight::kAgrees:
+        count.agree += 1.0;
+        break;
+      case Sight::kContradicts:
+        count.contradict += 1.0;
+        break;
+      case Sight::kUnseen:
+        count.unseen += 1.0;
     }
   }
   return count;
+}
+
+void forgetWhatMoved(ScanSurface& surface, const Pose2& T_map_sensor,
+                     const std::vector<PlacedSurface>& others, double tolerance) {
+  std::vector<Motion> to_others;
+  for (const PlacedSurface& other : others)
+    to_others.emplace_back(other.T_map_sensor.inverse() * T_map_sensor);
+  for (ScanSurface::Point& point : surface.points) {
+    int balance = 0;
+    for (std::size_t i = 0; i < others.size(); ++i) {
+      const Sight sight = sightOf(*others[i].surface, to_others[i] * point.position, tolerance);
+      balance += (sight == Sight::kContradicts) - (sight == Sight::kAgrees);
+    }
+    if (balance > 0) point.normal.setZero();
+  }
 }
 
 }  // namespace cca

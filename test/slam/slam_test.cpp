@@ -3,8 +3,12 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <functional>
 #include <limits>
+#include <thread>
 
+#include "cca_mrpt/mapping/cross.hpp"
 #include "walled_world.hpp"
 
 namespace cca {
@@ -19,11 +23,12 @@ double worstError(const std::vector<Pose2>& poses, const std::vector<Pose2>& tru
 }
 
 struct Drive {
-  test::WalledWorld world = test::ringWithNiches();
+  test::WalledWorld world;
   std::vector<Pose2> way, wheels;
   std::vector<Scan> scans;
-  explicit Drive(double field_of_view = M_PI, double step = 0.4)
-      : way(test::driveAroundRing(step)), wheels(test::wheelsOf(way, world)) {
+  explicit Drive(double field_of_view = M_PI, double step = 0.4,
+                 test::WalledWorld in = test::ringWithNiches())
+      : world(std::move(in)), way(test::driveAroundRing(step)), wheels(test::wheelsOf(way, world)) {
     for (const Pose2& pose : way) scans.push_back(world.scan(pose, 181, field_of_view, 0.01, 8.0));
   }
 };
@@ -77,6 +82,68 @@ TEST(Slam, TheSameInputGivesTheSameBits) {
   }
 }
 
+TEST(Slam, EachScanLooksAtOnePlaceOrTakesOneStepOfTheGraph) {
+  Drive drive;
+  Slam slam(drive.way.front());
+  SlamWork all;
+  for (std::size_t k = 0; k < drive.way.size(); ++k) {
+    slam.step(drive.scans[k], {}, drive.wheels[k]);
+    EXPECT_LE(slam.work().places + slam.work().iterations, 1) << k;
+    all += slam.work();
+  }
+  EXPECT_FALSE(slam.loops().empty()) << "else nothing is shown";
+  EXPECT_GT(all.places, 5);
+  EXPECT_GT(all.iterations, 2);
+  slam.finish();
+  EXPECT_TRUE(slam.isSettled());
+}
+
+TEST(Slam, ALoopIsClosedWhileTheRobotGoesOn) {
+  Drive drive;
+  Slam slam(drive.way.front());
+  double before = 0.0, after = 0.0;
+  std::size_t loops = 0;
+  for (std::size_t k = 0; k < drive.way.size(); ++k) {
+    const SlamPose pose = slam.step(drive.scans[k], {}, drive.wheels[k]);
+    const double error = (pose.T_map_robot.position() - drive.way[k].position()).norm();
+    if (slam.loops().empty()) before = std::max(before, error);
+    if (!slam.isSettled() || slam.loops().empty()) continue;
+    after = std::max(after, error);
+    ++loops;
+  }
+  EXPECT_GT(loops, 10u);
+  EXPECT_LT(after, before) << "of the poses given scan by scan";
+}
+
+TEST(Slam, TwoThreadsFinishWithTheSameBitsAsOne) {
+  Drive drive;
+  const auto run = [&](const DoAll& do_all) {
+    Slam slam(drive.way.front());
+    for (std::size_t k = 0; k < drive.way.size(); ++k) {
+      slam.step(drive.scans[k], {}, drive.wheels[k]);
+    }
+    slam.finish(do_all);
+    return slam.trajectory();
+  };
+  int shared = 0;
+  const auto by_two = [&](int count, const std::function<void(int)>& task) {
+    const auto every_second = [&](int first) {
+      for (int k = first; k < count; k += 2) task(k);
+    };
+    std::thread other(every_second, 1);
+    every_second(0);
+    other.join();
+    shared += count;
+  };
+  const auto alone = run(doInTurn), together = run(by_two);
+  EXPECT_GT(shared, 10) << "else nothing is shown";
+  for (std::size_t k = 0; k < alone.size(); ++k) {
+    EXPECT_EQ(alone[k].x, together[k].x);
+    EXPECT_EQ(alone[k].y, together[k].y);
+    EXPECT_EQ(alone[k].theta, together[k].theta);
+  }
+}
+
 TEST(Slam, ScansOfNothingAreDrivenThroughOnTheWheels) {
   Drive drive;
   Slam slam(drive.way.front());
@@ -87,6 +154,77 @@ TEST(Slam, ScansOfNothingAreDrivenThroughOnTheWheels) {
   }
   slam.finish();
   EXPECT_LT(worstError(slam.trajectory(), drive.way), 0.3);
+}
+
+/// m, of a drive at 10 Hz through the hall; along its bare walls wheels alone know how far.
+double worstErrorOf(const Drive& drive, const std::vector<Scan>& scans,
+                    const std::vector<Pose2>& wheels) {
+  Slam slam(drive.way.front());
+  for (std::size_t k = 0; k < drive.way.size(); ++k) slam.step(scans[k], {}, wheels[k]);
+  slam.finish();
+  return worstError(slam.trajectory(), drive.way);
+}
+
+TEST(Slam, AWheelThatSpinsForTwoSecondsBendsNothing) {
+  const Drive drive(M_PI, 0.1, test::hallWithBlocks());
+  std::vector<Pose2> wheels{drive.wheels.front()};
+  for (std::size_t k = 1; k < drive.wheels.size(); ++k) {
+    Pose2 step = drive.wheels[k - 1].inverse() * drive.wheels[k];
+    if (k >= 60 && k < 80) step = step * Pose2{0.05, 0.0, 0.1};
+    wheels.push_back(wheels.back() * step);
+  }
+  const double without = worstErrorOf(drive, drive.scans, drive.wheels);
+  EXPECT_LT(worstErrorOf(drive, drive.scans, wheels), without + 0.1);
+  EXPECT_LT(without, 1.0);
+}
+
+TEST(Slam, PeopleWhoWalkByBendNothing) {
+  const Drive drive(M_PI, 0.1, test::hallWithBlocks());
+  std::vector<Scan> scans = drive.scans;
+  std::size_t hidden = 0;
+  for (std::size_t k = 0; k < scans.size(); ++k) {
+    for (int person = 0; person < 3; ++person) {  // each crosses the view in four seconds
+      const double part = std::fmod(0.025 * static_cast<double>(k) + 0.33 * person, 1.0);
+      const Eigen::Vector2d at(1.5 + person, 4.0 * part - 2.0);
+      for (std::size_t i = 0; i < scans[k].size(); ++i) {
+        const Eigen::Vector2d ray(std::cos(scans[k].bearing(i)), std::sin(scans[k].bearing(i)));
+        const double along = ray.dot(at), beside = std::abs(cross(ray, at));
+        if (along <= 0.0 || beside >= 0.25) continue;
+        const double range = along - std::sqrt(0.0625 - beside * beside);
+        hidden += range < scans[k].ranges[i];
+        scans[k].ranges[i] = std::min(scans[k].ranges[i], range);
+      }
+    }
+  }
+  EXPECT_GT(hidden, 10 * scans.size()) << "else nothing is shown";
+  const double without = worstErrorOf(drive, drive.scans, drive.wheels);
+  EXPECT_LT(worstErrorOf(drive, scans, drive.wheels), without + 0.1);
+}
+
+TEST(Slam, ABareCorridorOfTwoHundredMetresStaysAsStraightAsItIs) {
+  test::WalledWorld world;
+  world.addBox(-20.0, -1.0, 220.0, 1.0);  // its ends are never seen
+  std::vector<Pose2> way;
+  for (double x = 0.0; x < 200.0; x += 0.2) way.push_back({x, 0.2 * std::sin(x), 0.0});
+  const std::vector<Pose2> wheels = test::wheelsOf(way, world);
+  Slam slam;
+  for (std::size_t k = 0; k < way.size(); ++k) {
+    slam.step(world.scan(way[k], 181, M_PI, 0.01, 8.0), {}, wheels[k]);
+  }
+  slam.finish();
+  const std::vector<Pose2> poses = slam.trajectory();
+  double across = 0.0, across_by_wheels = 0.0, along = 0.0, along_by_wheels = 0.0;
+  for (std::size_t k = 0; k < way.size(); ++k) {
+    across = std::max(across, std::abs(poses[k].y - way[k].y));
+    along = std::max(along, std::abs(poses[k].x - way[k].x));
+    const Pose2 by_wheels = wheels.front().inverse() * wheels[k];
+    across_by_wheels = std::max(across_by_wheels, std::abs(by_wheels.y - way[k].y));
+    along_by_wheels = std::max(along_by_wheels, std::abs(by_wheels.position().norm() - way[k].x));
+  }
+  EXPECT_LT(across, 1.0);
+  EXPECT_GT(across_by_wheels, 10.0) << "else nothing is shown";
+  EXPECT_LT(along, 1.5 * along_by_wheels)
+      << "the wheels' own error, along which the walls say nothing";
 }
 
 TEST(Slam, ATurnThatTheWheelsKnowNothingOfIsFound) {
@@ -101,6 +239,156 @@ TEST(Slam, ATurnThatTheWheelsKnowNothingOfIsFound) {
   for (std::size_t k = 0; k < drive.way.size(); ++k) slam.step(drive.scans[k], {}, wheels[k]);
   slam.finish();
   EXPECT_LT(worstError(slam.trajectory(), drive.way), 0.3);
+}
+
+TEST(Slam, OneScanThatAgreesElsewhereTurnsNothing) {
+  Drive drive;
+  const std::size_t bumped = 20;
+  Slam slam(drive.way.front());
+  for (std::size_t k = 0; k < drive.way.size(); ++k) {
+    Pose2 T_map_sensor = drive.way[k];
+    if (k == bumped) T_map_sensor = T_map_sensor * Pose2{0.0, 0.0, 1.4};
+    const Scan scan = drive.world.scan(T_map_sensor, 181, M_PI, 0.01, 8.0);
+    const SlamPose pose = slam.step(scan, {}, drive.wheels[k]);
+    if (k == bumped) {
+      EXPECT_LT(pose.agreement, 0.7);
+      EXPECT_LT(std::abs(wrapAngle(pose.T_map_robot.theta - drive.way[k].theta)), 0.3);
+    }
+  }
+  EXPECT_FALSE(slam.isPlaced()[bumped]);
+  slam.finish();
+  EXPECT_LT(worstError(slam.trajectory(), drive.way), 0.3);
+}
+
+TEST(Slam, WheelsThatCountAlikeForwardsAndBackwardsAreSeenThrough) {
+  Drive drive(M_PI, 0.4, test::hallWithBlocks());
+  std::vector<std::size_t> order;  // towards a wall, back, and on
+  for (std::size_t k = 0; k <= 20; ++k) order.push_back(k);
+  for (std::size_t k = 19; k >= 10; --k) order.push_back(k);
+  for (std::size_t k = 11; k < drive.way.size(); ++k) order.push_back(k);
+  Slam slam(drive.way.front());
+  Pose2 wheels;
+  std::vector<Pose2> truth;
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    if (i > 0) {
+      Pose2 step = drive.wheels[order[i - 1]].inverse() * drive.wheels[order[i]];
+      if (order[i] < order[i - 1]) step = {-step.x, -step.y, step.theta};
+      wheels = wheels * step;
+    }
+    slam.step(drive.scans[order[i]], {}, wheels);
+    truth.push_back(drive.way[order[i]]);
+  }
+  slam.finish();
+  EXPECT_LT(worstError(slam.trajectory(), truth), 0.2);
+}
+
+/// Goes on with the part of a drive from `first` on, on wheels that know nothing of where that is.
+void goOn(Slam& slam, const Drive& drive, std::size_t first) {
+  for (std::size_t k = first; k < drive.way.size(); ++k) {
+    slam.step(drive.scans[k], {}, drive.wheels[first].inverse() * drive.wheels[k]);
+  }
+}
+
+TEST(Slam, ASecondDriveThroughAKnownPlaceFindsItself) {
+  const Drive known(M_PI, 0.4, test::hallWithBlocks()), again(M_PI, 0.35, test::hallWithBlocks());
+  const std::size_t first = again.way.size() / 3;
+  Slam slam(known.way.front());
+  for (std::size_t k = 0; k < known.way.size(); ++k) slam.step(known.scans[k], {}, known.wheels[k]);
+  slam.startAnywhere();
+  EXPECT_TRUE(slam.step(again.scans[first], {}, Pose2{}).is_lost) << "one scan is no proof";
+  goOn(slam, again, first);
+  EXPECT_FALSE(slam.isLost());
+  slam.finish();
+  std::vector<Pose2> poses = slam.trajectory();
+  poses.erase(poses.begin(), poses.begin() + static_cast<std::ptrdiff_t>(known.way.size() + 1));
+  EXPECT_LT(
+      worstError(poses, {again.way.begin() + static_cast<std::ptrdiff_t>(first), again.way.end()}),
+      0.2);
+}
+
+TEST(Slam, ADriveThroughAnotherBuildingIsNotInTheMap) {
+  const Drive known, other(M_PI, 0.4, test::hallWithBlocks());
+  Slam slam(known.way.front());
+  for (std::size_t k = 0; k < known.way.size(); ++k) slam.step(known.scans[k], {}, known.wheels[k]);
+  slam.startAnywhere();
+  goOn(slam, other, 0);
+  slam.finish();
+  const std::vector<bool> placed = slam.isPlaced();
+  const auto in_map = std::count(placed.begin(), placed.end(), true);
+  EXPECT_TRUE(in_map == static_cast<std::ptrdiff_t>(known.way.size()) ||
+              in_map == static_cast<std::ptrdiff_t>(other.way.size()))
+      << in_map;
+}
+
+SlamMemory memoryOf(const Drive& drive) {
+  Slam slam(drive.way.front());
+  for (std::size_t k = 0; k < drive.way.size(); ++k) slam.step(drive.scans[k], {}, drive.wheels[k]);
+  slam.finish();
+  return slam.memory();
+}
+
+TEST(Slam, ADriveGoesOnWithTheMapOfAnEarlierOneAndInItsFrame) {
+  const Drive known(M_PI, 0.4, test::hallWithBlocks()), again(M_PI, 0.35, test::hallWithBlocks());
+  const std::size_t first = again.way.size() / 3;
+  Slam slam;
+  slam.remember(memoryOf(known));
+  const auto remembered = static_cast<std::size_t>(slam.remembered());
+  ASSERT_GT(remembered, 10u);
+  EXPECT_FALSE(slam.step(again.scans[first], {}, Pose2{}).is_lost) << "its own drive is the map";
+  EXPECT_FALSE(slam.isInMemory());
+  const std::vector<bool> placed = slam.isPlaced();
+  EXPECT_EQ(std::count(placed.begin(), placed.end(), true), 1);
+  goOn(slam, again, first);
+  EXPECT_TRUE(slam.isInMemory());
+  slam.finish();
+  std::vector<Pose2> poses = slam.trajectory();
+  poses.erase(poses.begin(), poses.begin() + static_cast<std::ptrdiff_t>(remembered + 1));
+  EXPECT_LT(
+      worstError(poses, {again.way.begin() + static_cast<std::ptrdiff_t>(first), again.way.end()}),
+      0.2);
+  EXPECT_GT(slam.memory().graph.size(), static_cast<int>(remembered)) << "both drives are kept";
+}
+
+TEST(Slam, TheMemoryOfAnotherBuildingIsNoPartOfTheMap) {
+  const Drive known, other(M_PI, 0.4, test::hallWithBlocks());
+  Slam slam(other.way.front());
+  slam.remember(memoryOf(known));
+  for (std::size_t k = 0; k < other.way.size(); ++k) slam.step(other.scans[k], {}, other.wheels[k]);
+  slam.finish();
+  EXPECT_FALSE(slam.isInMemory());
+  const std::vector<bool> placed = slam.isPlaced();
+  EXPECT_EQ(std::count(placed.begin(), placed.begin() + slam.remembered(), true), 0);
+  EXPECT_EQ(std::count(placed.begin() + slam.remembered(), placed.end(), true),
+            static_cast<std::ptrdiff_t>(other.way.size()));
+}
+
+TEST(Slam, TwoMemoriesOfOnePlaceBecomeOne) {
+  Drive known(M_PI, 0.4, test::hallWithBlocks());
+  const SlamMemory whole = memoryOf(known);
+  // The other robot's frame lies elsewhere.
+  SlamMemory moved = whole;
+  const Pose2 T_other_map{5.0, -3.0, 2.0};
+  for (int k = 0; k < moved.graph.size(); ++k)
+    moved.graph.place(k, T_other_map * whole.graph.pose(k));
+  Slam slam;
+  slam.remember(whole);
+  slam.remember(moved);
+  slam.finish();
+  const SlamMemory merged = slam.memory();
+  ASSERT_EQ(merged.graph.size(), 2 * whole.graph.size());
+  for (int k = 0; k < whole.graph.size(); ++k) {
+    const Eigen::Vector2d apart =
+        merged.graph.pose(k).position() - merged.graph.pose(k + whole.graph.size()).position();
+    EXPECT_LT(apart.norm(), 0.05) << k;
+  }
+}
+
+TEST(Slam, AnEmptyMemoryChangesNothing) {
+  Drive drive;
+  Slam slam(drive.way.front());
+  slam.remember({});
+  EXPECT_FALSE(slam.step(drive.scans.front(), {}, drive.wheels.front()).is_lost);
+  EXPECT_TRUE(slam.isInMemory());
 }
 
 TEST(Slam, BadInputNeitherCrashesNorPoisonsThePose) {

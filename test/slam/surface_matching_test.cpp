@@ -57,6 +57,17 @@ TEST_F(SurfaceMatching, ABareCorridorLeavesItsLengthToThePrior) {
   EXPECT_GT(match.information(1, 1), 100.0 * match.information(0, 0));
 }
 
+TEST_F(SurfaceMatching, EverySecondReturnSaysNearlyWhatAllSay) {
+  const Pose2 first{0.1, 0.2, 0.3}, second{0.5, 0.1, 0.5};
+  const ScanSurface a = scanSurface(world_.scan(first, 361, M_PI));
+  const ScanSurface b = scanSurface(world_.scan(second, 361, M_PI));
+  const MatchQuadric all = matchQuadric(b, second, {{&a, first}}, {0.3, 0.05});
+  const MatchQuadric half = matchQuadric(b, second, {{&a, first}}, {0.3, 0.05, 2});
+  EXPECT_LT((half.H - all.H).norm(), 0.05 * all.H.norm());
+  EXPECT_NEAR(half.sum_weights, all.sum_weights, 0.05 * all.sum_weights);
+  EXPECT_NEAR(half.paired, all.paired, 0.05 * all.paired);
+}
+
 TEST_F(SurfaceMatching, WithoutPartnersThePoseStays) {
   const ScanSurface a = scanSurface(world_.scan({}, 181, M_PI));
   const Pose2 far{500.0, 0.0, 0.0};

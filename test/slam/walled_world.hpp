@@ -81,6 +81,15 @@ inline WalledWorld ringWithNiches() {
   return world;
 }
 
+/// Another building, wide and unlike on all sides, that the same way leads through.
+inline WalledWorld hallWithBlocks() {
+  WalledWorld world;
+  world.addBox(-1.0, -3.0, 21.0, 18.0);
+  world.addBox(5.0, 4.0, 13.0, 9.0);
+  world.addBox(15.0, 6.0, 16.0, 13.0);
+  return world;
+}
+
 /// Once around that block and on to the middle of the first side again; a pose every `step` m, and
 /// 75 degrees a metre.
 inline std::vector<Pose2> driveAroundRing(double step) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -39,9 +40,17 @@ std::vector<int> framesInView(const KeyFrames& frames, int anchor, const Pose2& 
 std::optional<GraphEdge> matchEdge(const KeyFrames& frames, int from, int to,
                                    const MatchScale& scale);
 
+/// Does task(0) to task(count - 1), each once, in any order and at the same time as it likes;
+/// returns when all are done. Who has threads says how.
+using DoAll = std::function<void(int count, const std::function<void(int)>& task)>;
+/// One after another.
+void doInTurn(int count, const std::function<void(int)>& task);
+
 /// All frames and the scans between them made to agree: pairs of frames that see the same place are
 /// matched anew where they stand, and all poses solved for at once; and again, the reach shrinking
-/// (bundle adjustment). `steps` are edges that stay as they are: what the wheels say.
-void adjust(KeyFrames& frames, const std::vector<GraphEdge>& steps, int rounds);
+/// (bundle adjustment). What the wheels say stays as it is.
+/// @param do_all  shares out the matches of a round; the result is the same to the bit.
+/// Cost: some 10 us for each pair and round, and a solution of the graph for each round.
+void adjust(KeyFrames& frames, int rounds, const DoAll& do_all = doInTurn);
 
 }  // namespace cca

@@ -2,18 +2,25 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <memory>
 #include <vector>
 
 #include "cca_mrpt/mapping/pose2.hpp"
 
 namespace cca {
 
+enum class EdgeKind {
+  kWheels,  ///< what the wheels say, from one key frame to the next
+  kMatch,   ///< two scans of one visit
+  kLoop,    ///< two visits of a place: may be wrong, and its weight falls with its error
+};
+
 /// What is known of one pose as seen from another.
 struct GraphEdge {
   int from = 0, to = 0;
   Pose2 T_from_to;
   Eigen::Matrix3d information = Eigen::Matrix3d::Zero();  ///< axes of `from`; may be singular
-  bool is_loop = false;  ///< may be wrong: its weight falls with its error
+  EdgeKind kind = EdgeKind::kMatch;
 };
 
 /// Where a pose lies as seen from another one, along the surest way through the graph.
@@ -33,33 +40,63 @@ class PoseGraph {
   const Pose2& pose(int node) const { return poses_[static_cast<std::size_t>(node)]; }
   void place(int node, const Pose2& pose) { poses_[static_cast<std::size_t>(node)] = pose; }
   const std::vector<GraphEdge>& edges() const { return edges_; }
+  /// The first node of those that edges tie to this one: two nodes are in one part of the graph
+  /// where these are the same.
+  int part(int node) const;
+  /// Moves a whole part, as one body: pose <- T * pose.
+  void movePart(int part, const Pose2& T);
 
   /// Nodes whose position is known to `most_sigma` [m] from `node`, nearest in that sense first
   /// (Dijkstra; an upper bound of the true covariance, which all ways together give).
   /// Cost: O(n log n) of the nodes found.
   std::vector<RelativeCovariance> surroundings(int node, double most_sigma) const;
 
-  /// Least squares over all poses but the first, which stays. @return the largest move, m.
-  /// Cost: a sparse Cholesky factorisation per iteration.
-  double optimise();
-  /// The same where loops are new, and the poses may be far from what they ask for: the kernel that
-  /// forgives errors begins wide and narrows (graduated non-convexity).
-  double closeLoops();
+  /// Least squares over all poses, at once; see Settlement.
+  void settle(bool has_new_loops);
 
  private:
   std::vector<Pose2> poses_;
   std::vector<GraphEdge> edges_;
-  std::vector<Eigen::Vector3d> spreads_;    ///< of each edge, for surroundings()
-  std::vector<std::vector<int>> edges_of_;  ///< of each node
+  struct Tie {  // an edge, for surroundings()
+    int node;
+    Eigen::Vector3d spread;
+  };
+  std::vector<std::vector<Tie>> ties_;  ///< of each node
+  std::vector<int> before_;  ///< an earlier node of its part, or itself where it is the first
+};
+
+/// Least squares over all poses of a graph but the first of each part, which stays: Gauss-Newton
+/// steps until no pose moves by more than 5 cm, one at a time, while the graph itself goes on as it
+/// is, and grows.
+class Settlement {
+ public:
+  /// @param graph          as it is now, with all edges that are asked.
+  /// @param has_new_loops  the poses may be far from what these ask for: the kernel that forgives
+  ///                       their errors begins wide and narrows (graduated non-convexity).
+  Settlement(const PoseGraph& graph, bool has_new_loops);
+  ~Settlement();
+  Settlement(Settlement&&) noexcept;
+  Settlement& operator=(Settlement&&) noexcept;
+
+  /// One trial of a step. @return whether all is settled, and nothing more to do.
+  /// Cost: a sparse Cholesky factorisation.
+  bool advance();
+
+  /// Gives the poses found to the graph it was begun with; nodes that have come since go along with
+  /// the last earlier one of their part.
+  void applyTo(PoseGraph& graph) const;
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
 };
 
 /// Errors of loops are forgiven from so many deviations on (Cauchy).
 inline constexpr double kLoopKernel = 3.0;
 
-/// The poses that agree best with all edges, the first held.
-/// @param kernel  of loops, deviations.
-/// @return        the largest move, m.
+/// The poses that agree best with all edges, the first of each part held.
+/// @return  the largest move, m.
 double optimisePoses(const std::vector<GraphEdge>& edges, std::vector<Pose2>& poses,
-                     int most_iterations, double kernel = kLoopKernel);
+                     int most_iterations);
 
 }  // namespace cca

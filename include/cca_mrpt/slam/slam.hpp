@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <deque>
 #include <optional>
 #include <vector>
 
 #include "cca_mrpt/slam/correlative_search.hpp"
 #include "cca_mrpt/slam/key_frames.hpp"
-#include "cca_mrpt/slam/loop_closing.hpp"
+#include "cca_mrpt/slam/loop_closer.hpp"
 #include "cca_mrpt/slam/motion_prior.hpp"
 
 namespace cca {
@@ -18,27 +19,90 @@ struct SlamPose {
       Eigen::Matrix3d::Zero();  ///< (x, y) map axes, theta: of the last match
   double agreement = 0.0;       ///< of the scan with what was seen before, [0, 1]
   int version = 0;              ///< counts corrections of the past by more than 5 cm
+  /// The scan contradicts what was seen before: nobody knows where in the map it was taken (yet).
+  bool is_lost = false;
+};
+
+/// A scan that a key frame was made of.
+struct KeyScan {
+  Scan scan;  ///< T_map_sensor is not used
+  Pose2 T_robot_sensor;
+};
+
+/// What a drive leaves for the next one through the same place.
+struct SlamMemory {
+  std::vector<KeyScan> scans;  ///< of each node of the graph
+  PoseGraph graph;             ///< of their sensors
+};
+
+/// What a step does besides finding its own pose: one thing at the most.
+struct SlamWork {
+  int places = 0;      ///< visits, or other parts of the graph, at which a frame was looked for
+  int iterations = 0;  ///< of the least squares over the graph
+
+  SlamWork& operator+=(const SlamWork& other);
 };
 
 /// Line SLAM: poses from wheels and laser, with loops.
+///
+/// The search for loops, and the solution of the graph, are spread over the scans that follow: a
+/// loop is closed some scans after the robot has come to it. How many is a matter of counts, never
+/// of time.
+///
+/// A robot whose scans contradict the map for a metre is lost: it begins a part of the graph of its
+/// own, and looks for its place in the map, anywhere, until both become one. So does a robot that
+/// has been carried away, one that goes on with an earlier map, and a second log of the building.
 class Slam {
  public:
-  explicit Slam(const Pose2& T_map_start = {}) : T_map_start_(T_map_start) {}
+  /// How a scan is matched to the frames in view; see matchSurface().
+  using Matcher = MatchResult (*)(const ScanSurface& query, const Pose2& start,
+                                  const PoseBelief& prior,
+                                  const std::vector<PlacedSurface>& references, double reach);
+
+  explicit Slam(const Pose2& T_map_start = {}, Matcher matcher = matchSurface)
+      : T_map_start_(T_map_start), matcher_(matcher) {}
 
   /// @param scan            T_map_sensor is not used.
   /// @param T_odom_robot    in any frame that stays; nothing: the robot goes on as it went.
   SlamPose step(const Scan& scan, const Pose2& T_robot_sensor,
                 const std::optional<Pose2>& T_odom_robot);
 
-  /// The last pass over a whole log: all poses made to agree with all lines.
-  void finish();
+  /// Takes what was left by earlier drives, each a part of its own, before the first scan. The
+  /// robot may be anywhere in it or elsewhere: its own drive is the map, until it has found itself
+  /// in the earliest of these, and goes on in its frame.
+  void remember(const SlamMemory& memory);
 
-  /// T_map_robot of each scan so far, in order, as the graph has them now.
+  /// From the next scan on the robot may be anywhere: a second log of the same place.
+  void startAnywhere() { starts_anywhere_ = frames_.size() > remembered_; }
+
+  /// The last pass over a whole log: lost parts look for their place once more, the largest part of
+  /// the robot's own drive is the map, and all poses are made to agree with all lines.
+  /// @param do_all  shares out what can be done at once; see adjust().
+  void finish(const DoAll& do_all = doInTurn);
+
+  /// T_map_robot of each scan so far, in order, as the graph has them now; those that are
+  /// remembered come first.
   std::vector<Pose2> trajectory() const;
+  /// Of each scan so far, whether its place in the map is known.
+  std::vector<bool> isPlaced() const;
+  /// Whether that of the last one is.
+  bool isLost() const;
+
+  /// Whether the robot has found itself in what it remembers, or remembers nothing.
+  bool isInMemory() const;
+  /// How many scans are remembered.
+  int remembered() const { return remembered_; }
+  /// The key frames of the map, for the next drive.
+  SlamMemory memory() const;
+
+  /// What the last step, or finish(), did.
+  const SlamWork& work() const { return work_; }
+  /// Whether nothing waits for the next scans.
+  bool isSettled() const { return !settlement_ && !loop_closer_.isSeeking() && places_.empty(); }
 
   const KeyFrames& keyFrames() const { return frames_; }
-  const std::vector<LoopVerdict>& loops() const { return loops_; }
-  const std::vector<LoopVerdict>& verdicts() const { return verdicts_; }
+  const std::vector<LoopVerdict>& loops() const { return loop_closer_.loops(); }
+  const std::vector<LoopVerdict>& verdicts() const { return loop_closer_.verdicts(); }
   int version() const { return version_; }
 
  private:
@@ -46,40 +110,75 @@ class Slam {
     int frame;
     Pose2 T_frame_sensor;
     Pose2 T_robot_sensor;
+    bool is_doubtful;  ///< contradicted what was seen before, and was nowhere else either
+  };
+  /// Scans that contradict what was seen before, in a row.
+  struct Doubt {
+    int scans = 0;
+    double way = 0.0;  ///< m
   };
   bool isNewPlace(const Pose2& T_map_sensor, const ScanSurface& surface) const;
-  void addKeyFrame(ScanSurface surface, const Pose2& T_map_sensor, const Pose2& wheels,
-                   const Eigen::Matrix3d& wheels_information);
-  void closeLoops(int frame);
-  bool agree(const LoopVerdict& a, const LoopVerdict& b) const;
-  void accept(const LoopVerdict& verdict);
+  int newFrame(const Scan& scan, const Pose2& T_robot_sensor, ScanSurface surface);
+  void forgetMovers(int frame);
+  void goOn(int frame, const GraphEdge& wheels);
+  void startPart(int frame);
+  SlamPose poseNow(const Pose2& T_robot_sensor, double agreement) const;
+  void countDoubt(bool is_doubtful, const Pose2& step);
+  std::optional<int> soughtPart(int frame) const;
+  int largestPart() const;
+  void workOnce();
+  std::vector<GraphEdge> soughtOnce();
+  void beginSettling(const std::vector<GraphEdge>& loops);
+  void takeSettled();
+  void tieVisits(int frame);
   void countVersion();
   struct Located {
     MatchResult match;
     double agreement = 0.0;  ///< with the frames in view
+    double in_common = 0.0;  ///< sights that these say something of
   };
-  static SearchWindow windowOf(const PoseBelief& prior);
+  /// Where the last scan was taken, should the next one say so, too: it agrees better there than at
+  /// T_map_sensor_.
+  struct Elsewhere {
+    Pose2 T_map_sensor;
+    double lead = 0.0;  ///< by so much
+  };
   Pose2 searched(const ScanSurface& surface, SearchWindow window) const;
-  Located located(const ScanSurface& surface, const PoseBelief& prior,
-                  const SearchWindow& window) const;
+  Located located(const ScanSurface& surface, const PoseBelief& prior, const Pose2& start,
+                  double reach) const;
+  PoseBelief beliefAfter(const MotionBelief& motion) const;
+  Located locatedAbout(const ScanSurface& surface, const PoseBelief& prior) const;
+  std::optional<Located> foundElsewhere(const ScanSurface& surface, const MotionBelief& motion,
+                                        const PoseBelief& prior, const Located& here);
 
   Pose2 T_map_start_;
+  Matcher matcher_;
   KeyFrames frames_;
   MotionPrior motion_;
-  std::vector<GraphEdge> wheel_edges_;
+  std::vector<KeyScan> key_scans_;
+  int remembered_ = 0;  ///< frames of earlier drives, the first ones
+  double usual_ = 0.9;  ///< agreement of the scans of late
+  Doubt doubt_;
+  bool starts_anywhere_ = false;
+  int map_part_ = 0;  ///< of the graph, which is the map
   std::vector<Passed> passed_;
   std::vector<int> view_;  ///< frames that the next scans are matched to
   std::optional<Pose2> last_odom_sensor_;
   Pose2 T_map_sensor_;
+  std::optional<Elsewhere> elsewhere_;
   // Since the last key frame: what the wheels alone say, and how well.
   Pose2 T_frame_wheels_;
   Eigen::Matrix3d wheels_covariance_ = Eigen::Matrix3d::Zero();
   Eigen::Matrix3d covariance_ = Eigen::Matrix3d::Zero();
-  std::vector<LoopVerdict> verdicts_, waiting_, loops_;
+  LoopCloser loop_closer_;
   int version_ = 0;
   std::vector<Pose2> at_version_;  ///< poses of the frames as whoever holds a map knows them
+  std::deque<int> places_;  ///< frames whose place in other parts of the graph is to be looked for
+  std::optional<Settlement> settlement_;  ///< under way
+  std::vector<GraphEdge> closing_;        ///< loops that it is about: in the graph when it is done
   int last_optimised_ = 0;
   bool unsettled_ = false;  ///< the graph has loops that its poses have not been solved for
+  SlamWork work_;
 };
 
 }  // namespace cca

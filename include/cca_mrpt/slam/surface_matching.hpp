@@ -41,6 +41,7 @@ struct MatchQuadric {
 struct MatchScale {
   double reach = 0.3;   ///< m
   double sigma = 0.05;  ///< m, of the robust (Cauchy) kernel
+  int stride = 1;       ///< one in so many returns of the query is asked, and counts as so many
 };
 
 /// Each return of `query` finds, in each reference, the nearest return among the beams that look
@@ -77,5 +78,10 @@ struct SightCount {
 /// @param T_viewer_other  pose of the other's sensor in the viewer's frame.
 SightCount compareSights(const ScanSurface& viewer, const ScanSurface& other,
                          const Pose2& T_viewer_other, double tolerance);
+
+/// Takes the surface, and with it all say in matches, from returns that more of the others saw
+/// through than saw: people, doors. Cost: O(returns x others).
+void forgetWhatMoved(ScanSurface& surface, const Pose2& T_map_sensor,
+                     const std::vector<PlacedSurface>& others, double tolerance);
 
 }  // namespace cca
