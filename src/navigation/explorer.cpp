@@ -3,9 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
 
-#include "cca_mrpt/navigation/motion_control.hpp"
+#include "cca_mrpt/navigation/drive/motion_control.hpp"
 
 namespace cca {
 namespace {
@@ -15,14 +14,16 @@ constexpr double kHome = 0.3;              // m
 constexpr double kReachedWayPoint = 0.15;  // m, a little more than Tangent Bug stops at
 constexpr int kHomeNumber = -2;            // among the numbers of goals
 
-constexpr double kAround = 0.8;        // m, of the robot: what may stand beside it
-constexpr double kLookAround = 0.5;    // of the full turning rate
-constexpr double kLookingTime = 30.0;  // s
+constexpr double kAround = 0.8;             // m, of the robot: what may stand beside it
+constexpr double kLookAround = 0.5;         // of the full turning rate
+constexpr double kLookingTime = 30.0;       // s
+constexpr double kTurn = 2.0 / 3.0 * M_PI;  // rad: three make one round, and none is ambiguous
+
+constexpr double kMuchUnreached = 1.0;  // m^2
+constexpr double kMuchOfAll = 0.05;
 
 GlobalPlannerParameters plannerParameters(const RobotParameters& robot,
                                           const ExplorerParameters& parameters) {
-  if (parameters.path != "known_space" && parameters.path != "paper")
-    throw std::runtime_error("path '" + parameters.path + "' is none of known_space, paper");
   GlobalPlannerParameters planner;
   planner.strategy = parameters.strategy;
   planner.smallest_gain = parameters.smallest_gain;
@@ -67,12 +68,6 @@ bool looksTowards(const Scan& scan, const Eigen::Vector2d& p_map) {
   return std::abs(off) <= half + std::abs(scan.angle_increment);
 }
 
-/// Where the robot still drives it stops first, the way that was found safe: turning would bend it.
-void turnOnTheSpot(double rate, const Observation& observation, Action& action) {
-  const bool drives = std::abs(observation.velocity.linear) > kStands;
-  if (!drives && action.velocity.linear == 0.0) action.velocity.angular = rate;
-}
-
 /// The first way-point that is not reached yet. One that the robot stands at would hold it there:
 /// Tangent Bug has arrived, and the next path may well begin with the same corner.
 std::size_t nextWayPoint(const std::vector<Eigen::Vector2d>& path, const Eigen::Vector2d& robot) {
@@ -82,6 +77,20 @@ std::size_t nextWayPoint(const std::vector<Eigen::Vector2d>& path, const Eigen::
 }
 
 }  // namespace
+
+const char* nameOf(ExplorationStatus status) {
+  switch (status) {
+    case ExplorationStatus::kExploring:
+      return "exploring";
+    case ExplorationStatus::kReturning:
+      return "returning";
+    case ExplorationStatus::kPaused:
+      return "paused";
+    case ExplorationStatus::kFinished:
+      return "finished";
+  }
+  return "";
+}
 
 Explorer::Explorer(const CcaParameters& mapping, const RobotParameters& robot,
                    const ExplorerParameters& parameters)
@@ -94,13 +103,18 @@ Explorer::Explorer(const CcaParameters& mapping, const RobotParameters& robot,
       progress_(robot) {}
 
 Action Explorer::step(const Observation& observation) {
-  map(observation.scan);
+  if (observation.is_placed) map(observation.scan);
   return navigate(observation);
 }
 
 void Explorer::map(const Scan& scan) {
   agreement_.add(compareWithMap(scan, line_map_.walls()));
   line_map_.insert(scan);
+}
+
+void Explorer::addBeside(const Scan& scan, const Pose2& T_map_robot) {
+  map(scan);
+  planner_.observe(scan, T_map_robot.position());
 }
 
 void Explorer::correctMap(const PastScans& past) {
@@ -111,39 +125,67 @@ void Explorer::correctMap(const PastScans& past) {
 void Explorer::correctNavigation(const PastScans& past) {
   planner_.correct(past);
   T_drive_map_ = T_drive_map_ * past.correctionHere().inverse();
-  if (start_map_) start_map_ = past.correctionAt(*start_map_) * *start_map_;
+  if (T_map_start_) T_map_start_ = past.correctionAt(T_map_start_->position()) * *T_map_start_;
+  T_map_turned_.reset();
   progress_.forgetWay();
 }
 
+void Explorer::changeMotion(const RobotParameters& robot) {
+  robot_ = robot_.movingAs(robot);
+  progress_.changeMotion(robot);
+  tangent_bug_.changeMotion(robot);
+}
+
 Action Explorer::navigate(const Observation& observation) {
+  Action action = decide(observation);
+  outcome_.reset();
+  // What others command is not known, nor what it would show of the base.
+  if (!leaves_driving_) {
+    tangent_bug_.noteSent(action.velocity, observation.velocity, observation.time);
+  }
+  return action;
+}
+
+Action Explorer::decide(const Observation& observation) {
   const Eigen::Vector2d robot = observation.T_map_robot.position();
-  if (!start_map_ && robot.allFinite()) start_map_ = robot;
+  if (!T_map_start_ && robot.allFinite()) T_map_start_ = observation.T_map_robot;
+  if (!observation.hazards.empty()) planner_.heed(observation.hazards);
   if (is_paused_) {
-    planner_.observe(observation.scan, robot);
+    if (observation.is_placed) planner_.observe(observation.scan, robot);
     progress_.excuse(observation.time);
     return {{}, {}, ExplorationStatus::kPaused, "paused"};
   }
+  if (leaves_driving_ && !observation.is_placed) {
+    progress_.excuse(observation.time);
+    return {{}, {}, ExplorationStatus::kExploring, "waiting until the pose is known again"};
+  }
+  if (is_returning_ != was_returning_) outcome_.reset();  // that of another goal
+  was_returning_ = is_returning_;
   return is_returning_ ? goHome(observation) : explore(observation);
 }
 
 Action Explorer::explore(const Observation& observation) {
-  const Plan& plan = planner_.update(observation.scan, observation.T_map_robot.position());
+  heedOutcome(observation.T_map_robot.position());
+  const Plan& plan =
+      planner_.update(observation.scan, observation.T_map_robot.position(), observation.is_placed);
   if (plan.finished) {
     why_finished_ = plan.reason;
     if (parameters_.return_to_start) {
-      is_returning_ = true;
+      is_returning_ = was_returning_ = true;
       return goHome(observation);
     }
     return {{}, {}, ExplorationStatus::kFinished, plan.reason};
   }
   if (plan.look_around) return lookAround(observation);
   looks_around_since_.reset();
+  T_map_turned_.reset();
   if (plan.path.empty()) {
     const std::string why = plan.reason.empty() ? "waiting for a scan" : plan.reason;
     return {{}, {}, ExplorationStatus::kExploring, why};
   }
+  if (leaves_driving_) return leaveGoal(plan, observation);
   Action action{{}, plan.path.back(), ExplorationStatus::kExploring, plan.reason};
-  const std::size_t next = parameters_.path == "paper"
+  const std::size_t next = parameters_.path == PathKind::kPaper
                                ? plan.path.size() - 1
                                : nextWayPoint(plan.path, observation.T_map_robot.position());
   const bool is_last = next + 1 == plan.path.size();
@@ -161,10 +203,39 @@ Action Explorer::explore(const Observation& observation) {
       planner_.noteArrival();
     } else {
       const Eigen::Vector2d look_at_robot = observation.T_map_robot.inverse() * plan.look_at;
-      turnOnTheSpot(velocityTowards(look_at_robot, true, robot_).angular, observation, action);
+      turnOnTheSpot(velocityTowards(look_at_robot, true, robot_).angular, action);
     }
   }
   return action;
+}
+
+// The goal of the last action is the planner's still: it decides in its updates only.
+void Explorer::heedOutcome(const Eigen::Vector2d& robot_map) {
+  if (!outcome_) return;
+  const bool has_failed = *outcome_ == DriveOutcome::kFailed;
+  outcome_.reset();
+  if (T_map_turned_) {
+    T_map_turned_->theta = wrapAngle(T_map_turned_->theta + kTurn);
+    if (has_failed) planner_.noteLookAround(robot_map);  // it sees no more from here
+  } else if (has_failed) {
+    planner_.setGoalAside();
+  } else {
+    planner_.noteArrival();
+  }
+}
+
+// Others have ways of their own: that ours does not become shorter says nothing.
+Action Explorer::leaveGoal(const Plan& plan, const Observation& observation) {
+  const Eigen::Vector2d goal = plan.path.back(), ahead = plan.look_at - goal;
+  progress_.note(planner_.goals(), plan.path, observation.time);
+  if (progress_.isOverdue(observation.time)) planner_.setGoalAside();
+  return {{}, goal, ExplorationStatus::kExploring, plan.reason, std::atan2(ahead.y(), ahead.x())};
+}
+
+// Where the robot still drives it stops first, the way that was found safe: turning would bend it.
+void Explorer::turnOnTheSpot(double rate, Action& action) const {
+  const bool drives = std::abs(tangent_bug_.motion().expected().velocity.linear) > kStands;
+  if (!drives && action.velocity.linear == 0.0) action.velocity.angular = rate;
 }
 
 // A disc may always turn. Should something hold it nevertheless, then not for ever.
@@ -172,25 +243,40 @@ Action Explorer::lookAround(const Observation& observation) {
   const Eigen::Vector2d robot = observation.T_map_robot.position();
   if (!looks_around_since_) looks_around_since_ = observation.time;
   if (observation.time - *looks_around_since_ > kLookingTime) planner_.noteLookAround(robot);
+  if (leaves_driving_) return leaveTurning(observation.T_map_robot);
   Action action{{}, robot, ExplorationStatus::kExploring, planner_.plan().reason};
   action.velocity = driveTo(robot, observation);
-  turnOnTheSpot(kLookAround * robot_.max_angular_velocity, observation, action);
+  turnOnTheSpot(kLookAround * robot_.max_angular_velocity, action);
   return action;
 }
 
+Action Explorer::leaveTurning(const Pose2& T_map_robot) {
+  if (!T_map_turned_) {
+    T_map_turned_ = {T_map_robot.x, T_map_robot.y, wrapAngle(T_map_robot.theta + kTurn)};
+  }
+  return {{},
+          T_map_turned_->position(),
+          ExplorationStatus::kExploring,
+          planner_.plan().reason,
+          T_map_turned_->theta};
+}
+
 Action Explorer::goHome(const Observation& observation) {
-  const Eigen::Vector2d robot = observation.T_map_robot.position();
+  const Eigen::Vector2d robot = observation.T_map_robot.position(),
+                        start = T_map_start_->position();
   planner_.observe(observation.scan, robot);
   const std::string why = why_finished_.empty() ? "called back" : why_finished_;
-  if ((robot - *start_map_).norm() < kHome)
+  const bool is_back = leaves_driving_ && outcome_ == DriveOutcome::kReached;
+  if ((robot - start).norm() < kHome || is_back)
     return {{}, {}, ExplorationStatus::kFinished, why + "; back at the start"};
-  const auto path = planner_.pathTo(robot, *start_map_);
+  const auto path = planner_.pathTo(robot, start);
   progress_.note(kHomeNumber, path, observation.time);
-  if (path.empty() || progress_.isOverdue(observation.time))
+  if (path.empty() || progress_.isOverdue(observation.time) || outcome_ == DriveOutcome::kFailed)
     return {{}, {}, ExplorationStatus::kFinished, why + "; the way back to the start is blocked"};
-  Action action{{}, *start_map_, ExplorationStatus::kReturning, "back to the start"};
+  Action action{{}, start, ExplorationStatus::kReturning, "back to the start", T_map_start_->theta};
+  if (leaves_driving_) return action;
   const std::size_t next = nextWayPoint(path, robot);
-  action.velocity = driveTo(next + 1 < path.size() ? path[next] : *start_map_, observation);
+  action.velocity = driveTo(next + 1 < path.size() ? path[next] : start, observation);
   if (progress_.isStuck(observation.time)) planner_.bar(progress_.shortest());
   return action;
 }
@@ -209,15 +295,27 @@ Velocity Explorer::driveTo(const Eigen::Vector2d& way_point_map, const Observati
     for (Eigen::Vector2d& p : obstacles) p = T_drive_map_ * p;
     tangent_bug_.setKnownObstacles(std::move(obstacles));
   }
+  std::vector<Eigen::Vector2d> hazards;
+  for (const auto* points : {&observation.hazards, &observation.seen_elsewhere}) {
+    for (const Eigen::Vector2d& p_map : *points) hazards.push_back(T_drive_map_ * p_map);
+  }
+  tangent_bug_.setHazards(std::move(hazards));
   Scan scan = observation.scan;
   scan.T_map_sensor = T_drive_map_ * scan.T_map_sensor;
   return tangent_bug_.step(scan, T_drive_map_ * observation.T_map_robot, observation.velocity,
                            observation.time);
 }
 
+bool Explorer::leavesMuch() const {
+  const double side = grid().resolution();
+  const double seen = static_cast<double>(grid().revealed()) * side * side;
+  return planner_.plan().finished &&
+         planner_.plan().unreached > std::max(kMuchUnreached, kMuchOfAll * seen);
+}
+
 // By Tangent Bug alone the robot may have to drive away from its goal for long.
 bool Explorer::isStuck(double time) {
-  return parameters_.path == "known_space" && progress_.isStuck(time);
+  return parameters_.path == PathKind::kKnownSpace && progress_.isStuck(time);
 }
 
 }  // namespace cca

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "cca_mrpt/navigation/aside_goals.hpp"
+#include "cca_mrpt/navigation/goals/aside_goals.hpp"
 
 #include <gtest/gtest.h>
 

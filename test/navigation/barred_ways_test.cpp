@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "cca_mrpt/navigation/barred_ways.hpp"
+#include "cca_mrpt/navigation/place/barred_ways.hpp"
 
 #include <gtest/gtest.h>
 

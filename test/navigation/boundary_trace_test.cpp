@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "cca_mrpt/navigation/boundary_trace.hpp"
+#include "cca_mrpt/navigation/drive/tangent_bug/boundary_trace.hpp"
 
 #include <gtest/gtest.h>
 

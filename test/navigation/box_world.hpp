@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "cca_mrpt/mapping/scan.hpp"
-#include "cca_mrpt/navigation/robot.hpp"
+#include "cca_mrpt/navigation/drive/robot.hpp"
 
 namespace cca::testing {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "cca_mrpt/navigation/circling.hpp"
+#include "cca_mrpt/navigation/drive/tangent_bug/circling.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "cca_mrpt/navigation/configuration_space.hpp"
+#include "cca_mrpt/navigation/drive/tangent_bug/configuration_space.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "cca_mrpt/navigation/exploration_grid.hpp"
+#include "cca_mrpt/navigation/place/exploration_grid.hpp"
 
 #include <gtest/gtest.h>
 
@@ -49,9 +49,9 @@ TEST(ExplorationGrid, ForgetsWhatHasMovedAway) {
 
 // A robot that stands beside a passage has several beams in each cell of its walls, and one of them
 // would be enough to count for the cell in front.
-TEST(ExplorationGrid, NoiseOfACentimetreThickensNoWall) {
+double thickened(double sigma) {
   std::mt19937 random(1);
-  std::normal_distribution<double> noise(0.0, 0.01);
+  std::normal_distribution<double> noise(0.0, sigma);
   ExplorationGrid grid(0.05);
   int occupied = 0, looked_at = 0;
   for (int scans = 0; scans < 200; ++scans) {
@@ -69,7 +69,46 @@ TEST(ExplorationGrid, NoiseOfACentimetreThickensNoWall) {
       EXPECT_EQ(grid.at({20, y}), CellState::kOccupied) << y;
     }
   }
-  EXPECT_LT(occupied, 0.01 * looked_at);
+  return static_cast<double>(occupied) / looked_at;
+}
+
+TEST(ExplorationGrid, NoiseOfACentimetreThickensNoWall) { EXPECT_LT(thickened(0.01), 0.01); }
+
+TEST(ExplorationGrid, NoiseOfThreeCentimetresThickensHardlyAnyWall) {
+  EXPECT_LT(thickened(0.03), 0.1);
+}
+
+/// A full turn in a corridor of 14 x 2 m along x, on its middle line at x.
+Scan turnInACorridor(double x, double bearing_sigma, std::mt19937& random) {
+  std::normal_distribution<double> noise(0.0, bearing_sigma);
+  Scan scan;
+  scan.angle_increment = M_PI / 270.0;
+  scan.T_map_sensor = {x, 0.0, 0.0};
+  for (std::size_t k = 0; k < 540; ++k) {
+    const double bearing = scan.bearing(k) + noise(random);
+    const double end = std::cos(bearing) > 0.0 ? 14.0 - x : x;
+    scan.ranges.push_back(
+        std::min(end / std::abs(std::cos(bearing)), 1.0 / std::abs(std::sin(bearing))));
+  }
+  return scan;
+}
+
+// Beams that graze a wall go through it where their bearing is not quite what it is thought to be.
+TEST(ExplorationGrid, BearingNoiseOpensNoWallThatTheRobotLooksAlong) {
+  std::mt19937 random(1);
+  ExplorationGrid grid(0.05);
+  for (int k = 0; k <= 100; ++k) grid.insert(turnInACorridor(3.0 + 0.08 * k, 0.0087, random));
+  for (int k = 0; k < 500; ++k) grid.insert(turnInACorridor(11.0, 0.0087, random));
+  int open = 0, behind = 0;
+  for (int x = 60; x < 220; ++x) {
+    for (const int side : {-21, 20}) {
+      open += grid.at({x, side}) != CellState::kOccupied;
+      const CellState beyond = grid.at({x, side < 0 ? -25 : 24});
+      behind += beyond == CellState::kFree || beyond == CellState::kPresumedFree;
+    }
+  }
+  EXPECT_LE(open, 6);
+  EXPECT_EQ(behind, 0);
 }
 
 TEST(ExplorationGrid, LeavesInvalidRangesAndPosesAlone) {

@@ -3,6 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <functional>
+#include <optional>
+
+#include "cca_mrpt/navigation/place/hazard_memory.hpp"
 #include "known_world.hpp"
 
 namespace cca {
@@ -40,21 +44,38 @@ struct Driver {
   double half_view = M_PI;  // rad
 
   const KnownWorld& world;
+  std::vector<Eigen::Vector2d> low;  // m, below the laser
+  HazardMemory memory;
 
   explicit Driver(const ExplorerParameters& parameters = {}, const KnownWorld& place = kRooms)
       : explorer({}, {}, parameters), world(place) {}
 
   Action step() {
     const Scan scan = ahead(world.scanFrom(T_map_robot, 4.0), half_view);
-    const Action action = explorer.step({scan, T_map_robot, velocity, time});
-    velocity = action.velocity;
+    Observation observation{scan, T_map_robot, velocity, time};
+    observation.hazards = touched();
+    const Action action = explorer.step(observation);
+    move(action.velocity);
+    return action;
+  }
+
+  void move(const Velocity& command) {
+    velocity = command;
     constexpr double kPeriod = 0.1;
     const Eigen::Vector2d way = kPeriod * velocity.linear * T_map_robot.heading();
     T_map_robot = {T_map_robot.x + way.x(), T_map_robot.y + way.y(),
                    wrapAngle(T_map_robot.theta + kPeriod * velocity.angular)};
     distance += way.norm();
     time += kPeriod;
-    return action;
+  }
+
+  /// What a sensor near the ground has told of, 0.8 m and 80 degrees to both sides.
+  std::vector<Eigen::Vector2d> touched() {
+    for (const Eigen::Vector2d& p_map : low) {
+      const Eigen::Vector2d p = T_map_robot.inverse() * p_map;
+      if (p.norm() < 0.8 && std::abs(std::atan2(p.y(), p.x())) < 1.4) memory.add({p_map}, time);
+    }
+    return memory.around(T_map_robot.position(), time);
   }
 
   Action run(int most_steps = 4000) {
@@ -105,9 +126,49 @@ TEST(Explorer, WithANarrowViewStopsBeforeItTurnsToLook) {
   EXPECT_TRUE(has_turned);
 }
 
+// It stands in clear view of the door, and the laser sees over it.
+TEST(Explorer, DrivesAroundWhatOnlyOtherSensorsMeetAndDoesNotMapIt) {
+  Driver driver;
+  for (int k = 0; k <= 30; ++k) driver.low.emplace_back(2.5, 1.2 + 0.02 * k);
+  double least = INFINITY;
+  Action action;
+  for (int i = 0; i < 4000 && action.status != ExplorationStatus::kFinished; ++i) {
+    action = driver.step();
+    for (const auto& p : driver.low) {
+      least = std::min(least, (driver.T_map_robot.position() - p).norm());
+    }
+  }
+  EXPECT_EQ(action.status, ExplorationStatus::kFinished);
+  EXPECT_EQ(driver.explorer.grid().at({120, 20}), CellState::kFree);
+  EXPECT_GE(least, RobotParameters{}.radius);
+  EXPECT_LT(least, 1.0) << "it was in the way";
+  for (const MapLine& line : driver.explorer.lineMap().lines()) {
+    const Eigen::Vector2d middle = 0.5 * (line.segment.start + line.segment.end);
+    EXPECT_FALSE(std::abs(middle.x() - 2.5) < 0.2 && std::abs(middle.y() - 1.5) < 0.5);
+  }
+}
+
+// Two lasers, one at each end of the robot, do not see what is between them.
+TEST(Explorer, DrivesWithLasersThatLookAwayFromWhereItStands) {
+  Driver driver;
+  const auto look = [&driver](double x, double theta) {
+    const Pose2 at = driver.T_map_robot * Pose2{x, 0.0, theta};
+    return ahead(driver.world.scanFrom(at, 4.0), 1.3);
+  };
+  Action action;
+  for (int i = 0; i < 4000 && action.status != ExplorationStatus::kFinished; ++i) {
+    driver.explorer.addBeside(look(-0.15, M_PI), driver.T_map_robot);
+    action =
+        driver.explorer.step({look(0.15, 0.0), driver.T_map_robot, driver.velocity, driver.time});
+    driver.move(action.velocity);
+  }
+  EXPECT_EQ(action.status, ExplorationStatus::kFinished);
+  EXPECT_EQ(driver.explorer.grid().at({120, 20}), CellState::kFree);
+}
+
 TEST(Explorer, AlsoFinishesByTangentBugAlone) {
   ExplorerParameters parameters;
-  parameters.path = "paper";
+  parameters.path = PathKind::kPaper;
   Driver driver(parameters);
   EXPECT_EQ(driver.run().status, ExplorationStatus::kFinished);
   EXPECT_EQ(driver.explorer.grid().at({120, 20}), CellState::kFree);
@@ -151,7 +212,7 @@ struct StrayingDriver {
     return action;
   }
   void correct() {
-    past.correct(truth);
+    past.correct(truth, std::vector<bool>(truth.size(), true));
     explorer.correctMap(past);
     explorer.correctNavigation(past);
     T_map_true = {};
@@ -200,6 +261,36 @@ TEST(Explorer, DrivesOnAsItDidWhereThePastIsCorrected) {
   EXPECT_NEAR(with.velocity.angular, without.velocity.angular, 0.2);
 }
 
+TEST(Explorer, DrivesNoFasterThanItIsToldWhileItDrives) {
+  Driver driver;
+  for (int i = 0; i < 200 && driver.velocity.linear < 0.5; ++i) driver.step();
+  ASSERT_GE(driver.velocity.linear, 0.5);
+  RobotParameters slow;
+  slow.max_linear_velocity = 0.2;
+  slow.max_angular_velocity = 0.5;
+  driver.explorer.changeMotion(slow);
+  double fastest = 0.0;
+  for (int i = 0; i < 4000; ++i) {
+    const Action action = driver.step();
+    if (action.status == ExplorationStatus::kFinished) break;
+    if (i < 10) continue;  // it brakes
+    EXPECT_LE(action.velocity.linear, 0.2 + 1e-9);
+    EXPECT_LE(std::abs(action.velocity.angular), 0.5 + 1e-9);
+    fastest = std::max(fastest, action.velocity.linear);
+  }
+  EXPECT_NEAR(fastest, 0.2, 0.02);
+  EXPECT_EQ(driver.explorer.grid().at({120, 20}), CellState::kFree);
+}
+
+TEST(Explorer, BelievesInAnotherLatencyWhereItIsTold) {
+  Driver driver;
+  for (int i = 0; i < 60; ++i) driver.step();
+  RobotParameters late;
+  late.latency = 0.3;
+  driver.explorer.changeMotion(late);
+  EXPECT_NEAR(driver.explorer.shownMotion().latency(), 0.3, 1e-9);
+}
+
 TEST(Explorer, StandsStillWhilePausedAndGoesOnAfterwards) {
   Driver driver;
   for (int i = 0; i < 20; ++i) driver.step();
@@ -225,6 +316,22 @@ TEST(Explorer, GivesUpGoalsThatARobotWhichCannotMoveDoesNotReach) {
 }
 
 // Glass across one of two doors: the laser sees through, the robot gets no farther.
+// Behind windows too narrow to pass.
+TEST(Explorer, TellsWhereMuchInViewWasNotReached) {
+  const KnownWorld windows{{"##################", "#....#...........#", "#................#",
+                            "#....#...........#", "#................#", "#....#...........#",
+                            "#................#", "#....#...........#", "##################"},
+                           10};
+  for (const KnownWorld* world : {&windows, &kRooms}) {
+    Driver driver({}, *world);
+    EXPECT_FALSE(driver.explorer.leavesMuch()) << "before it has finished";
+    while (driver.time < 600.0 && driver.step().status != ExplorationStatus::kFinished) {
+    }
+    EXPECT_LT(driver.time, 600.0);
+    EXPECT_EQ(driver.explorer.leavesMuch(), world == &windows);
+  }
+}
+
 TEST(Explorer, TakesTheOtherDoorWhereSomethingUnseenHoldsIt) {
   ExplorerParameters parameters;
   parameters.return_to_start = true;
@@ -251,10 +358,140 @@ TEST(Explorer, TakesTheOtherDoorWhereSomethingUnseenHoldsIt) {
     EXPECT_EQ(driver.explorer.grid().at(c), CellState::kFree) << c.x << ", " << c.y;
 }
 
-TEST(Explorer, RefusesAPathThatIsNone) {
+/// A navigation that takes the robot to the goals of the explorer, or fails to.
+struct OtherNavigation {
+  enum class Answer { kGoes, kFails, kSilent };
+  std::function<Answer(const Eigen::Vector2d&)> answer = [](const auto&) { return Answer::kGoes; };
+  Explorer explorer;
+  double half_view = M_PI;  // rad
+  Pose2 T_map_robot = kStart;
+  double time = 0.0;
+  bool is_placed = true;
+
+  explicit OtherNavigation(const ExplorerParameters& parameters = {})
+      : explorer({}, {}, parameters) {
+    explorer.leaveDriving();
+  }
+
+  /// Half a metre a step, on ways that are known, and turned to the goal's heading at its end.
+  Action step() {
+    const Scan scan = ahead(kRooms.scanFrom(T_map_robot, 4.0), half_view);
+    Observation observation{scan, T_map_robot, {}, time};
+    observation.is_placed = is_placed;
+    const Action action = explorer.step(observation);
+    EXPECT_EQ(action.velocity.linear, 0.0);
+    EXPECT_EQ(action.velocity.angular, 0.0);
+    time += 1.0;
+    if (!action.goal) return action;
+    const Answer does = answer(*action.goal);
+    GlobalPlanner planner = explorer.planner();
+    const auto path = planner.pathTo(T_map_robot.position(), *action.goal);
+    const Eigen::Vector2d next = path.size() > 2 ? path[1] : *action.goal;
+    const Eigen::Vector2d way = next - T_map_robot.position();
+    if (does == Answer::kFails) {
+      explorer.noteOutcome(DriveOutcome::kFailed);
+    } else if (does == Answer::kGoes && (way.norm() > 0.5 || path.size() > 2)) {
+      const Eigen::Vector2d p =
+          T_map_robot.position() + std::min(0.5, way.norm()) * way.normalized();
+      T_map_robot = {p.x(), p.y(), std::atan2(way.y(), way.x())};
+    } else if (does == Answer::kGoes) {
+      T_map_robot = {action.goal->x(), action.goal->y(), action.goal_heading};
+      explorer.noteOutcome(DriveOutcome::kReached);
+    }
+    return action;
+  }
+
+  Action run(int most_steps = 2000) {
+    Action action;
+    for (int i = 0; i < most_steps && action.status != ExplorationStatus::kFinished; ++i) {
+      action = step();
+    }
+    return action;
+  }
+};
+using Answer = OtherNavigation::Answer;
+
+TEST(Explorer, ExploresByGoalsThatAnotherNavigationDrivesTo) {
   ExplorerParameters parameters;
-  parameters.path = "straight";
-  EXPECT_THROW(Explorer({}, {}, parameters), std::runtime_error);
+  parameters.return_to_start = true;
+  for (const double half_view : {M_PI, 2.4, 0.8}) {
+    OtherNavigation other(parameters);
+    other.half_view = half_view;
+    const Action last = other.run();
+    EXPECT_EQ(last.status, ExplorationStatus::kFinished);
+    EXPECT_NE(last.reason.find("back at the start"), std::string::npos) << last.reason;
+    EXPECT_EQ(other.explorer.grid().at({120, 20}), CellState::kFree) << half_view;
+    EXPECT_LT(other.time, 200.0) << half_view;
+  }
+}
+
+// The laser is fixed to the robot: where it looks is part of the goal.
+TEST(Explorer, LooksAroundByGoalsThatTurnTheRobotWhereItStands) {
+  OtherNavigation other;
+  other.half_view = 0.8;
+  const Action first = other.step();
+  ASSERT_TRUE(first.goal);
+  EXPECT_LT((*first.goal - kStart.position()).norm(), 1e-9);
+  EXPECT_NEAR(std::abs(wrapAngle(first.goal_heading - kStart.theta)), 2.0 / 3.0 * M_PI, 1e-9);
+}
+
+TEST(Explorer, TriesAnotherGoalWhereTheOtherNavigationFailsOnce) {
+  OtherNavigation other;
+  std::optional<Eigen::Vector2d> refused;
+  other.answer = [&](const Eigen::Vector2d& goal) {
+    if (refused) return Answer::kGoes;
+    refused = goal;
+    return Answer::kFails;
+  };
+  other.step();
+  ASSERT_TRUE(refused);
+  Action second = other.step();
+  for (int i = 0; i < 20 && !second.goal; ++i) second = other.step();
+  ASSERT_TRUE(second.goal) << second.reason;
+  EXPECT_GT((*second.goal - *refused).norm(), 0.1);
+  EXPECT_EQ(other.run().status, ExplorationStatus::kFinished);
+  EXPECT_EQ(other.explorer.grid().at({120, 20}), CellState::kFree);
+}
+
+TEST(Explorer, EndsWhereTheOtherNavigationAlwaysFailsOrNeverAnswers) {
+  for (const Answer always : {Answer::kFails, Answer::kSilent}) {
+    for (const double half_view : {M_PI, 0.8}) {
+      OtherNavigation other;
+      other.half_view = half_view;
+      other.answer = [&](const Eigen::Vector2d&) { return always; };
+      EXPECT_EQ(other.run(20000).status, ExplorationStatus::kFinished);
+    }
+  }
+}
+
+TEST(Explorer, HasNoGoalForOthersWhilePausedOrLost) {
+  OtherNavigation other;
+  ASSERT_TRUE(other.step().goal);
+  other.explorer.pause(true);
+  EXPECT_FALSE(other.step().goal);
+  other.explorer.pause(false);
+  EXPECT_TRUE(other.step().goal);
+  other.is_placed = false;
+  for (int i = 0; i < 100; ++i) {
+    const Action action = other.step();
+    EXPECT_FALSE(action.goal);
+    EXPECT_EQ(action.status, ExplorationStatus::kExploring);
+  }
+  other.is_placed = true;
+  EXPECT_TRUE(other.step().goal);
+}
+
+// Called back while a goal is reached: that was not the start.
+TEST(Explorer, IsNotHomeBecauseAnEarlierGoalWasReached) {
+  OtherNavigation other;
+  for (int i = 0; i < 10; ++i) other.step();
+  other.explorer.noteOutcome(DriveOutcome::kReached);
+  other.explorer.returnToStart();
+  const Action action = other.step();
+  EXPECT_EQ(action.status, ExplorationStatus::kReturning) << action.reason;
+  ASSERT_TRUE(action.goal);
+  EXPECT_LT((*action.goal - kStart.position()).norm(), 1e-9);
+  EXPECT_EQ(other.run().status, ExplorationStatus::kFinished);
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "cca_mrpt/navigation/frontier_views.hpp"
+#include "cca_mrpt/navigation/goals/frontier_views.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "cca_mrpt/navigation/global_planner.hpp"
+#include "cca_mrpt/navigation/goals/global_planner.hpp"
 
 #include <gtest/gtest.h>
 
-#include "cca_mrpt/navigation/grid_paths.hpp"
+#include "cca_mrpt/navigation/place/grid_paths.hpp"
 #include "known_world.hpp"
 
 namespace cca {
@@ -55,11 +55,12 @@ class EveryStrategy : public testing::TestWithParam<const char*> {};
 
 TEST_P(EveryStrategy, SeesTwoRoomsToTheLastSquareAndFinishes) {
   GlobalPlannerParameters parameters;
-  parameters.strategy = GetParam();
+  parameters.strategy = strategyNamed(GetParam());
   GlobalPlanner planner(parameters);
   const Drive d = drive(planner, kTwoRooms, {1.0, 1.0});
   EXPECT_TRUE(d.last.finished);
   EXPECT_EQ(d.last.reason, "no reachable frontier of useful size is left");
+  EXPECT_LT(d.last.unreached, 0.1);
   int unseen = 0;
   for (int y = 0; y < kTwoRooms.height(); ++y) {
     for (int x = 0; x < kTwoRooms.width(); ++x) {
@@ -100,6 +101,22 @@ TEST(GlobalPlanner, LooksAtLastAsFarAsItCanWhereItCannotGo) {
   GlobalPlanner planner;
   EXPECT_TRUE(drive(planner, window, {1.7, 1.375}).last.finished);
   EXPECT_EQ(planner.grid().at(planner.grid().cellOf({6.3, 1.376})), CellState::kFree);
+  EXPECT_GT(planner.plan().unreached, 0.5);
+}
+
+// Whatever holds it: it drives to and fro, and does not get to where it wants to.
+TEST(GlobalPlanner, EndsWhereDrivingShowsNothingNewForLong) {
+  const KnownWorld hall{std::vector<std::string>(40, std::string(40, '.')), 10};
+  GlobalPlanner planner;
+  const Eigen::Vector2d ends[] = {{10.0, 10.0}, {10.3, 10.0}};
+  int steps = 0;
+  for (; steps < 2000 && !planner.plan().finished; ++steps) {
+    const Eigen::Vector2d robot = ends[steps % 2];
+    planner.update(hall.scanFrom({robot.x(), robot.y(), 0.0}, 4.0), robot);
+  }
+  EXPECT_GT(0.3 * steps, 100.0);  // m
+  EXPECT_LT(0.3 * steps, 150.0);
+  EXPECT_NE(planner.plan().reason.find("hardly anything new"), std::string::npos);
 }
 
 // Dozens of places promise a part of the room behind the window; each would take its time.
@@ -290,9 +307,7 @@ TEST(GlobalPlanner, IsDeterministic) {
 }
 
 TEST(GlobalPlanner, NamesTheStrategiesThatThereAre) {
-  GlobalPlannerParameters parameters;
-  parameters.strategy = "cleverest";
-  EXPECT_THROW(GlobalPlanner{parameters}, std::runtime_error);
+  EXPECT_THROW(strategyNamed("cleverest"), std::runtime_error);
 }
 
 }  // namespace

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "cca_mrpt/mapping/scan.hpp"
-#include "cca_mrpt/navigation/beam.hpp"
-#include "cca_mrpt/navigation/exploration_grid.hpp"
+#include "cca_mrpt/navigation/place/beam.hpp"
+#include "cca_mrpt/navigation/place/exploration_grid.hpp"
 
 namespace cca {
 

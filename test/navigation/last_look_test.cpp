@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "cca_mrpt/navigation/last_look.hpp"
+#include "cca_mrpt/navigation/goals/last_look.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "cca_mrpt/navigation/moving_points.hpp"
+#include "cca_mrpt/navigation/drive/moving_points.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "cca_mrpt/navigation/progress_watch.hpp"
+#include "cca_mrpt/navigation/drive/tangent_bug/progress_watch.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "cca_mrpt/navigation/safe_velocity.hpp"
+#include "cca_mrpt/navigation/drive/safe_velocity.hpp"
 
 #include <gtest/gtest.h>
 
@@ -14,6 +14,7 @@ namespace {
 
 constexpr double kPeriod = 0.1, kRadius = 0.27;
 const RobotParameters kRobot;
+const Velocity kBrakes{kRobot.max_linear_acceleration, kRobot.max_angular_acceleration};
 
 std::vector<Hazard> seenFrom(const Pose2& pose, const std::vector<Eigen::Vector2d>& points) {
   std::vector<Hazard> hazards;
@@ -22,7 +23,7 @@ std::vector<Hazard> seenFrom(const Pose2& pose, const std::vector<Eigen::Vector2
 }
 
 TEST(SafeVelocity, WithoutHazardsGivesWhatIsWantedWithinTheAccelerations) {
-  const Velocity velocity = safeVelocity({0.7, 1.5}, {0, 0}, {}, kRobot, kRadius, kPeriod);
+  const Velocity velocity = safeVelocity({0.7, 1.5}, {0, 0}, {}, kRobot, kRadius, kPeriod, kBrakes);
   EXPECT_NEAR(velocity.linear, kRobot.max_linear_acceleration * kPeriod, 1e-12);
   EXPECT_NEAR(velocity.angular, kRobot.max_angular_acceleration * kPeriod, 1e-12);
 }
@@ -42,7 +43,7 @@ TEST(SafeVelocity, NoWishLeadsIntoAPoint) {
     for (int i = 0; i < 300; ++i) {
       if (i % 10 == 0) wanted = {std::abs(uniform(generator)), 1.5 * uniform(generator)};
       const Velocity command =
-          safeVelocity(wanted, velocity, seenFrom(pose, points), kRobot, kRadius, kPeriod);
+          safeVelocity(wanted, velocity, seenFrom(pose, points), kRobot, kRadius, kPeriod, kBrakes);
       drive(command, kRobot, kPeriod, pose, velocity);
       for (const auto& p : points) ASSERT_GE((p - pose.position()).norm(), kRadius - 0.003);
     }
@@ -56,7 +57,7 @@ TEST(SafeVelocity, StopsBeforeAWallAtFullSpeed) {
   Velocity velocity;
   for (int i = 0; i < 100; ++i) {
     const Velocity command =
-        safeVelocity({0.7, 0.0}, velocity, seenFrom(pose, wall), kRobot, kRadius, kPeriod);
+        safeVelocity({0.7, 0.0}, velocity, seenFrom(pose, wall), kRobot, kRadius, kPeriod, kBrakes);
     drive(command, kRobot, kPeriod, pose, velocity);
   }
   EXPECT_LE(pose.x, 2.0 - kRadius + 1e-6);
@@ -69,7 +70,7 @@ TEST(SafeVelocity, WhatTouchesTheRobotComesNoNearer) {
     const Eigen::Vector2d p(0.249 * std::cos(bearing), 0.249 * std::sin(bearing));
     for (const double wanted : {0.7, 0.1, 0.01, 0.001}) {
       const Velocity velocity =
-          safeVelocity({wanted, 0.0}, {0, 0}, {{p, 0.0}}, kRobot, kRadius, kPeriod);
+          safeVelocity({wanted, 0.0}, {0, 0}, {{p, 0.0}}, kRobot, kRadius, kPeriod, kBrakes);
       if (bearing < 0.5 * M_PI) {
         EXPECT_DOUBLE_EQ(velocity.linear, 0.0) << bearing;
       }
@@ -82,7 +83,7 @@ TEST(SafeVelocity, WhatTouchesTheRobotComesNoNearer) {
 
 TEST(SafeVelocity, TurningOnTheSpotIsSafeInContact) {
   const Velocity velocity =
-      safeVelocity({0.0, 1.5}, {0, 0}, {{{0.25, 0.0}, 0.0}}, kRobot, kRadius, kPeriod);
+      safeVelocity({0.0, 1.5}, {0, 0}, {{{0.25, 0.0}, 0.0}}, kRobot, kRadius, kPeriod, kBrakes);
   EXPECT_GT(velocity.angular, 0.0);
   EXPECT_DOUBLE_EQ(velocity.linear, 0.0);
 }
@@ -90,15 +91,16 @@ TEST(SafeVelocity, TurningOnTheSpotIsSafeInContact) {
 TEST(SafeVelocity, LeavesAContactButDoesNotDeepenIt) {
   const auto ahead = std::vector<Hazard>{{{0.25, 0.0}, 0.0}};
   const auto behind = std::vector<Hazard>{{{-0.25, 0.0}, 0.0}};
-  EXPECT_DOUBLE_EQ(safeVelocity({0.5, 0}, {0, 0}, ahead, kRobot, kRadius, kPeriod).linear, 0.0);
-  EXPECT_GT(safeVelocity({0.5, 0}, {0, 0}, behind, kRobot, kRadius, kPeriod).linear, 0.0);
+  EXPECT_DOUBLE_EQ(safeVelocity({0.5, 0}, {0, 0}, ahead, kRobot, kRadius, kPeriod, kBrakes).linear,
+                   0.0);
+  EXPECT_GT(safeVelocity({0.5, 0}, {0, 0}, behind, kRobot, kRadius, kPeriod, kBrakes).linear, 0.0);
 }
 
 TEST(SafeVelocity, AHazardWithAnAllowanceMayComeNearerByIt) {
   const std::vector<Hazard> strict{{{kRadius + 0.001, 0.0}}};
   const std::vector<Hazard> lenient{{{kRadius + 0.001, 0.0}, 0.0, 0.1}};
   const auto speed = [&](const std::vector<Hazard>& hazards) {
-    return safeVelocity({0.1, 0.0}, {0, 0}, hazards, kRobot, kRadius, kPeriod).linear;
+    return safeVelocity({0.1, 0.0}, {0, 0}, hazards, kRobot, kRadius, kPeriod, kBrakes).linear;
   };
   EXPECT_LT(speed(strict), 0.02);
   EXPECT_GT(speed(lenient), 0.02);
@@ -107,13 +109,14 @@ TEST(SafeVelocity, AHazardWithAnAllowanceMayComeNearerByIt) {
 TEST(SafeVelocity, BrakesForSomebodyWhoComesNearerAndNotForAWallAsFarAway) {
   const Velocity present{0.7, 0.0};
   const std::vector<Hazard> wall{{{1.2, 0.0}, 0.0}}, walker{{{1.2, 0.0}, 1.0}};
-  EXPECT_DOUBLE_EQ(safeVelocity(present, present, wall, kRobot, kRadius, kPeriod).linear, 0.7);
-  EXPECT_LT(safeVelocity(present, present, walker, kRobot, kRadius, kPeriod).linear, 0.7);
+  EXPECT_DOUBLE_EQ(safeVelocity(present, present, wall, kRobot, kRadius, kPeriod, kBrakes).linear,
+                   0.7);
+  EXPECT_LT(safeVelocity(present, present, walker, kRobot, kRadius, kPeriod, kBrakes).linear, 0.7);
 }
 
 TEST(SafeVelocity, StandsStillForSomebodyWhoTouchesIt) {
   const Velocity velocity =
-      safeVelocity({0.7, 1.0}, {0, 0}, {{{0.26, 0.1}, 1.0}}, kRobot, kRadius, kPeriod);
+      safeVelocity({0.7, 1.0}, {0, 0}, {{{0.26, 0.1}, 1.0}}, kRobot, kRadius, kPeriod, kBrakes);
   EXPECT_DOUBLE_EQ(velocity.linear, 0.0);
   EXPECT_DOUBLE_EQ(velocity.angular, 0.0);
 }

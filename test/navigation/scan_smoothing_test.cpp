@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "cca_mrpt/navigation/scan_smoothing.hpp"
+#include "cca_mrpt/navigation/place/scan_smoothing.hpp"
 
 #include <gtest/gtest.h>
 

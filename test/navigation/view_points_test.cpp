@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "cca_mrpt/navigation/view_points.hpp"
+#include "cca_mrpt/navigation/goals/view_points.hpp"
 
 #include <gtest/gtest.h>
 

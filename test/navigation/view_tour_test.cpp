@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "cca_mrpt/navigation/view_tour.hpp"
+#include "cca_mrpt/navigation/goals/view_tour.hpp"
 
 #include <gtest/gtest.h>
 

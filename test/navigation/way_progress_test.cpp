@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "cca_mrpt/navigation/way_progress.hpp"
+#include "cca_mrpt/navigation/drive/way_progress.hpp"
 
 #include <gtest/gtest.h>
 

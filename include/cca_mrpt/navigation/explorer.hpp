@@ -4,16 +4,18 @@
 #include <Eigen/Core>
 #include <optional>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "cca_mrpt/mapping/line_map.hpp"
 #include "cca_mrpt/mapping/scan.hpp"
 #include "cca_mrpt/mapping/scan_agreement.hpp"
-#include "cca_mrpt/navigation/exploration_grid.hpp"
-#include "cca_mrpt/navigation/global_planner.hpp"
-#include "cca_mrpt/navigation/past_scans.hpp"
-#include "cca_mrpt/navigation/robot.hpp"
-#include "cca_mrpt/navigation/tangent_bug.hpp"
-#include "cca_mrpt/navigation/way_progress.hpp"
+#include "cca_mrpt/navigation/drive/robot.hpp"
+#include "cca_mrpt/navigation/drive/tangent_bug/tangent_bug.hpp"
+#include "cca_mrpt/navigation/drive/way_progress.hpp"
+#include "cca_mrpt/navigation/goals/global_planner.hpp"
+#include "cca_mrpt/navigation/place/exploration_grid.hpp"
+#include "cca_mrpt/navigation/place/past_scans.hpp"
 
 namespace cca {
 
@@ -23,9 +25,20 @@ struct Observation {
   Pose2 T_map_robot;
   Velocity velocity;  ///< as measured
   double time = 0.0;  ///< s, never falling
+  /// Whether T_map_robot is known. Where it is not, the robot drives on by its wheels and what it
+  /// sees, and nothing is added to the map.
+  bool is_placed = true;
+  /// m, map frame: what other sensors see of what the laser may see, too (other lasers). The robot
+  /// does not drive into it.
+  std::vector<Eigen::Vector2d> seen_elsewhere{};
+  /// m, map frame: what no laser sees (bumpers, cliff sensors). Ways lead around it, too.
+  std::vector<Eigen::Vector2d> hazards{};
 };
 
 enum class ExplorationStatus { kExploring, kReturning, kPaused, kFinished };
+
+/// "exploring", "returning", "paused" or "finished".
+const char* nameOf(ExplorationStatus status);
 
 /// What the robot shall do next.
 struct Action {
@@ -33,11 +46,25 @@ struct Action {
   std::optional<Eigen::Vector2d> goal;  ///< m, map frame
   ExplorationStatus status = ExplorationStatus::kExploring;
   std::string reason;  ///< one sentence for people: why it drives there, or why it has finished
+  double goal_heading = 0.0;  ///< rad, map frame: where to look from the goal, see leaveDriving()
 };
 
+/// What has become of a goal that somebody else was to drive to.
+enum class DriveOutcome { kReached, kFailed };
+
+/// What drives between the robot and its goal.
+enum class PathKind {
+  kKnownSpace,  ///< the corners of the shortest known way, Tangent Bug between them
+  kPaper,       ///< Tangent Bug alone, straight to the goal
+};
+
+/// As options and files name them.
+inline constexpr std::pair<const char*, PathKind> kPathNames[] = {
+    {"known_space", PathKind::kKnownSpace}, {"paper", PathKind::kPaper}};
+
 struct ExplorerParameters {
-  std::string strategy = "view_tour";
-  std::string path = "known_space";
+  Strategy strategy = Strategy::kViewTour;
+  PathKind path = PathKind::kKnownSpace;
   double worth = 80.0;
   double smallest_gain = 0.1;
   bool return_to_start = false;
@@ -46,10 +73,9 @@ struct ExplorerParameters {
 /// See describe(CcaParameters&, ...).
 template <class Field>
 void describe(ExplorerParameters& p, Field&& field) {
-  field("strategy", p.strategy,
-        {"view_tour", "greedy", "nearest_frontier", "gain_distance", "information"},
+  field("strategy", p.strategy, kStrategyNames,
         "how the next goal is chosen; greedy is the paper's");
-  field("path", p.path, {"known_space", "paper"},
+  field("path", p.path, kPathNames,
         "way-points along what is known to be free, or (paper) Tangent Bug straight to the goal");
   field("worth", p.worth, 0.0, 1e6, "m/m^2",
         "way that an unseen square metre is worth: exploration ends when nothing that is "
@@ -66,7 +92,6 @@ void describe(ExplorerParameters& p, Field&& field) {
 /// unreachable is set aside, and a place of finite size has finitely many goals.
 class Explorer {
  public:
-  /// @throws std::runtime_error for an unknown strategy or path.
   Explorer(const CcaParameters& mapping, const RobotParameters& robot,
            const ExplorerParameters& parameters);
 
@@ -78,11 +103,27 @@ class Explorer {
   void map(const Scan& scan);
   Action navigate(const Observation& observation);
 
+  /// Takes a scan of another laser than the one that the robot drives by: it adds to all that is
+  /// known. @param scan  at scan.T_map_sensor. @param T_map_robot  at its time.
+  void addBeside(const Scan& scan, const Pose2& T_map_robot);
+
   /// Take a correction of the past, of which the next observation knows already: the two halves of
   /// it, as above. The map and all that is remembered of places is made anew or moves along; the
   /// robot drives on as it did. Cost: that of the scans.
   void correctMap(const PastScans& past);
   void correctNavigation(const PastScans& past);
+
+  /// Somebody else drives to the goals of the actions, whose velocities are zero: a navigation that
+  /// knows of footprints that are no discs. Without an outcome, a goal has its time as any other.
+  /// Where the robot's pose is unknown there is no goal. To be called before the first step.
+  void leaveDriving() { leaves_driving_ = true; }
+  /// What has become of the goal of the last action; heeded by the next step. One that failed is
+  /// set aside as one that proved unreachable.
+  void noteOutcome(DriveOutcome outcome) { outcome_ = outcome; }
+
+  /// The robot moves otherwise from now on: its speeds, accelerations and latency (the rest stays).
+  /// What the odometry has shown is learned anew where accelerations or latency change.
+  void changeMotion(const RobotParameters& robot);
 
   /// While paused it maps, and stands still.
   void pause(bool paused) { is_paused_ = paused; }
@@ -93,13 +134,23 @@ class Explorer {
   /// Cells known from a saved map. To be called before the first step.
   void seed(const std::vector<Cell>& cells, CellState state) { planner_.seed(cells, state); }
 
+  /// What the odometry has shown of how the base obeys.
+  const ShownMotion& shownMotion() const { return tangent_bug_.motion().shown(); }
   const LineMap& lineMap() const { return line_map_; }
   /// How far the scans agree with the line map that the earlier ones made.
   const ScanAgreement& agreement() const { return agreement_; }
   const ExplorationGrid& grid() const { return planner_.grid(); }
   const GlobalPlanner& planner() const { return planner_; }
+  /// Whether it has finished although much is in view that no way leads to: places where the robot
+  /// could stand of a square metre at least, and of a twentieth of all that was seen.
+  bool leavesMuch() const;
 
  private:
+  Action decide(const Observation& observation);
+  void heedOutcome(const Eigen::Vector2d& robot_map);
+  Action leaveGoal(const Plan& plan, const Observation& observation);
+  Action leaveTurning(const Pose2& T_map_robot);
+  void turnOnTheSpot(double rate, Action& action) const;
   Action explore(const Observation& observation);
   Action lookAround(const Observation& observation);
   Action goHome(const Observation& observation);
@@ -117,11 +168,15 @@ class Explorer {
   Pose2 T_drive_map_;
   TangentBug tangent_bug_;  ///< in the drive frame
   WayProgress progress_;
-  std::optional<Eigen::Vector2d> start_map_;
+  std::optional<Pose2> T_map_start_;
   std::optional<Eigen::Vector2d> way_point_;  ///< drive frame
   std::optional<double> looks_around_since_;  ///< s
+  std::optional<Pose2> T_map_turned_;  ///< where somebody else is to turn it to, looking around
+  std::optional<DriveOutcome> outcome_;
+  bool leaves_driving_ = false;
   bool is_paused_ = false;
   bool is_returning_ = false;
+  bool was_returning_ = false;  ///< at the last step
   std::string why_finished_;
 };
 

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+#include <vector>
+
+#include "cca_mrpt/navigation/drive/local_view.hpp"
+#include "cca_mrpt/navigation/drive/tangent_bug/boundary_trace.hpp"
+#include "cca_mrpt/navigation/drive/tangent_bug/circling.hpp"
+#include "cca_mrpt/navigation/drive/tangent_bug/configuration_space.hpp"
+
+namespace cca {
+
+/// Boundary following [Kamon, Rimon & Rivlin 1998, Sec. 3]: along the obstacle in one direction,
+/// by the shortest way that is in sight, keeping d_followed and the proof of having been all
+/// around.
+///
+/// The boundary in sight is traced from where the robot stands beside it; the robot heads for the
+/// farthest place of the trace to which the straight way is free, and so cuts its pockets.
+class BoundaryFollower {
+ public:
+  /// Follows the boundary through the place of the configuration space nearest to `start_map`.
+  /// d_followed starts as the least distance to the goal of all its places in sight, both ways.
+  /// @param space  for tracing, seen from the present view.
+  void start(const Eigen::Vector2d& start_map, bool on_the_right, const Eigen::Vector2d& goal_map,
+             const LocalView& view, const ConfigurationSpace& space);
+
+  /// @param trace_space  for tracing; @param way_space  with a slightly smaller radius, for ways.
+  /// @param d_reach  m, at this step.
+  /// @return the place to head for; none where the boundary is no longer in sight.
+  std::optional<Eigen::Vector2d> step(const Eigen::Vector2d& goal_map, const LocalView& view,
+                                      const ConfigurationSpace& trace_space,
+                                      const ConfigurationSpace& way_space, double d_reach);
+
+  bool onTheRight() const { return on_the_right_; }
+  double followedDistance() const { return d_followed_; }  ///< d_followed, m
+  /// Whether the boundary has been circled, and its place nearest to the goal been looked at:
+  /// d_reach has come close to d_followed. Where a short cut passed that place by, a second round
+  /// keeps close to the boundary.
+  bool circled() const;
+  double length() const { return length_; }                           ///< m, followed so far
+  const std::vector<BoundaryPoint>& trace() const { return trace_; }  ///< in sight, from the robot
+
+  /// A place a little ahead, on the obstacle's side, of all that the traces since the last call
+  /// would have gone through: where the robot gets nowhere, that gap is too narrow after all.
+  std::optional<Eigen::Vector2d> takeNarrowPlace();
+
+ private:
+  void include(const std::vector<BoundaryPoint>& trace, const Eigen::Vector2d& goal_map);
+  void include(const Eigen::Vector2d& p_map, const Eigen::Vector2d& goal_map);
+  bool lookedAtNearest() const;
+  bool findAnchor(const LocalView& view, const ConfigurationSpace& space);
+  void noteNarrowPlace();
+  void moveAnchor(const Eigen::Vector2d& x_map, const Eigen::Vector2d& goal_map, std::size_t last);
+
+  bool on_the_right_ = true;
+  double length_ = 0.0, heading_ = 0.0;  ///< of the walk, at the anchor
+  double d_followed_ = 0.0;
+  double least_reach_ = 0.0;  ///< m, the least d_reach of this following
+  bool closely_ = false;
+  Circling circling_;
+  std::vector<BoundaryPoint> trace_;
+  std::size_t anchor_ = 0;  ///< of the trace
+  std::optional<Eigen::Vector2d> narrow_map_;
+  double narrow_turn_ = 0.0;
+};
+
+}  // namespace cca

@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "cca_mrpt/navigation/goals/aside_goals.hpp"
+#include "cca_mrpt/navigation/goals/frontier_views.hpp"
+#include "cca_mrpt/navigation/goals/goal_selection.hpp"
+#include "cca_mrpt/navigation/goals/last_look.hpp"
+#include "cca_mrpt/navigation/goals/unpaid_way.hpp"
+#include "cca_mrpt/navigation/goals/view_tour.hpp"
+#include "cca_mrpt/navigation/place/known_place.hpp"
+
+namespace cca {
+
+struct GlobalPlannerParameters {
+  Strategy strategy = Strategy::kViewTour;
+  double clearance = 0.30;            ///< m, kept from known obstacles
+  double smallest_gain = 0.1;         ///< m^2, frontiers that promise less are left
+  std::size_t smallest_frontier = 5;  ///< cells, likewise
+  double worth = 80.0;                ///< m of way that an unseen square metre is worth
+  ViewTourParameters tour;
+};
+
+/// Where to go next, and how.
+struct Plan {
+  bool finished = false;
+  /// m, map frame, from the robot to the goal: corner points, two at least. Empty where finished,
+  /// before the first scan that shows something, and where it takes some more calls to find out
+  /// what is left to see.
+  std::vector<Eigen::Vector2d> path;
+  Eigen::Vector2d look_at = Eigen::Vector2d::Zero();  ///< m, map frame: what the goal is to show
+  /// At the start, and where no goal is known, not all directions have been looked into from here
+  /// (a laser of less than 360 degrees): the robot shall turn on the spot.
+  bool look_around = false;
+  std::string reason;
+  /// m^2, where finished: places in view at which the robot could stand, had it found a way there.
+  double unreached = 0.0;
+};
+
+/// The paper's global planner (Step 0): keeps what is known of the place, and sets one goal after
+/// the other until no reachable frontier of useful size is left.
+///
+/// A goal is a place to look from: the one of the shortest way that sees a point up to two metres
+/// behind a frontier. By `view_tour`, it is the middle of the frontier itself, to drive in there,
+/// where that promises much. A goal is given up as soon as that point has been seen, or the way to
+/// it is blocked. Small frontiers wait until no other is left, or one comes by. Places from which
+/// all directions have been looked into are never goals again; a goal that showed nothing new is
+/// set aside until the map has changed. When no frontier is left, all reached places are asked what
+/// is in view from there (LastLook), and then passages that look just too narrow are tried.
+class GlobalPlanner {
+ public:
+  explicit GlobalPlanner(const GlobalPlannerParameters& parameters = {});
+
+  /// Takes a scan, and decides anew where that is due. Cost: cells crossed by the scan; a decision
+  /// costs O(known blocks) for the ways, and a bounded number of view points.
+  const Plan& update(const Scan& scan, const Eigen::Vector2d& robot_map, bool is_placed = true);
+
+  /// Takes a scan and decides nothing.
+  void observe(const Scan& scan, const Eigen::Vector2d& robot_map) {
+    place_.observe(scan, robot_map);
+  }
+
+  /// See KnownPlace::heed().
+  void heed(const std::vector<Eigen::Vector2d>& places_map) { place_.heed(places_map); }
+
+  /// Exploration stays inside a polygon (m, map frame); fewer than three corners: no limit.
+  void limitTo(std::vector<Eigen::Vector2d> polygon) { views_.limitTo(std::move(polygon)); }
+
+  /// Takes a correction of the past: what is known is made anew from the scans, goals and barred
+  /// ways go with them, and the next goal is decided on at the next update.
+  /// Cost: that of observing all the scans.
+  void correct(const PastScans& past);
+
+  /// Sets the present goal aside until the map has changed, e.g. where it proved unreachable. The
+  /// third one of the last look that this happens to at the same place ends the exploration.
+  void setGoalAside();
+
+  /// Says that the robot got no farther on a way (m, map frame), from its beginning on: further
+  /// ways lead around that place.
+  void bar(const std::vector<Eigen::Vector2d>& way) { place_.bar(way); }
+
+  /// The same, where what the present goal is to show can be seen on another way. A goal that this
+  /// happens to twice is set aside.
+  /// @return whether there is another way. Cost: a search over the known blocks.
+  bool goAround(const std::vector<Eigen::Vector2d>& way);
+
+  /// Says that the robot is as near to the goal as it gets: if there is nothing new to see from
+  /// here, the goal is not tried again until the map has changed.
+  void noteArrival();
+
+  /// Says that nothing more will be seen from here, wherever the laser has looked.
+  void noteLookAround(const Eigen::Vector2d& robot_map);
+
+  /// The shortest known way from one place to another; empty where there is none. It leads along
+  /// places where the robot got no farther only where there is no other.
+  std::vector<Eigen::Vector2d> pathTo(const Eigen::Vector2d& robot_map,
+                                      const Eigen::Vector2d& goal_map);
+
+  /// Declares cells as known from a saved map.
+  void seed(const std::vector<Cell>& cells, CellState state) { place_.seed(cells, state); }
+
+  const ExplorationGrid& grid() const { return place_.grid(); }
+  const FreeSpace& space() const { return place_.space(); }
+  const FrontierCells& frontierCells() const { return place_.frontierCells(); }
+  const Plan& plan() const { return plan_; }
+  /// Number of goals set so far.
+  int goals() const { return goals_; }
+
+ private:
+  bool isScanned(const Eigen::Vector2d& p_map) const;
+  bool isGoalUnseen() const;
+  bool goalStands() const;
+  bool pathStands() const;
+  void advance(const Eigen::Vector2d& robot_map);
+  void replan(const Eigen::Vector2d& robot_map);
+  bool takeWayTo(Cell goal, const Eigen::Vector2d& robot_map);
+  bool isTimeToReconsider(const Eigen::Vector2d& robot_map) const;
+  void decide(const Eigen::Vector2d& robot_map);
+  void findViews();
+  bool recall();
+  std::optional<ViewPoint> choose();
+  void lookAround();
+  bool lookLast(const Eigen::Vector2d& robot_map);
+  void dropGoal();
+  bool drivesInVain() const;
+  std::string whatIsLeft();
+  bool drivesTo(const ViewPoint& chosen, const Eigen::Vector2d& robot_map, const char* reason);
+
+  GlobalPlannerParameters parameters_;
+  KnownPlace place_;
+  FrontierViews views_;
+  ViewTour view_tour_;
+  LastLook last_look_;
+  UnpaidWay unpaid_way_;
+  AsideGoals aside_;
+  bool has_looked_around_ = false;  ///< from the start
+  bool is_corrected_ = false;       ///< since the last decision
+  std::optional<ViewPoint> goal_;
+  Eigen::Vector2d decided_at_ = Eigen::Vector2d::Zero();
+  std::size_t revealed_then_ = 0;  ///< at the last decision
+  bool is_last_look_ = false;      ///< the goal is one of last_look_
+  /// When last_look_ began.
+  std::optional<std::size_t> revealed_at_last_look_;
+  /// Goals of the last look that were set aside one after the other while the robot was at the same
+  /// place: it is held there, and each further goal would take its time in vain.
+  int given_up_here_ = 0;
+  Eigen::Vector2d given_up_at_ = Eigen::Vector2d::Zero();  ///< m, map frame
+  int goals_ = 0;
+  Plan plan_;
+};
+
+}  // namespace cca

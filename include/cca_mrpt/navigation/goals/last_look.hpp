@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "cca_mrpt/navigation/goals/goal_selection.hpp"
+#include "cca_mrpt/navigation/goals/view_points.hpp"
+#include "cca_mrpt/navigation/place/known_place.hpp"
+
+namespace cca {
+
+/// What is left to see when there is no frontier left to go to: all places that the robot can
+/// reach, one or two in each block of the free space (0.2 m), are asked what is unknown in view
+/// from there.
+///
+/// A frontier asks the other way round, from where a point behind it is seen. Through a gap that
+/// the robot does not fit through, each place sees another wedge of what lies behind, and a point
+/// says little of the wedge. So the frontiers say only which places have them in view. All of this
+/// at once would be too much work for a step: it is done a bounded number of looks at a time, while
+/// the robot stands.
+class LastLook {
+ public:
+  /// What a view point must fulfil beyond its gain.
+  using Filter = std::function<bool(const ViewPoint&)>;
+
+  /// @param smallest_gain      m^2, places that promise less are left.
+  /// @param smallest_frontier  cells; what lies behind smaller frontiers does not count.
+  /// @param worth              m of way that an unseen square metre is worth; likewise.
+  LastLook(double smallest_gain, std::size_t smallest_frontier, double worth)
+      : smallest_gain_(smallest_gain), smallest_frontier_(smallest_frontier), worth_(worth) {}
+
+  /// Begins anew with the frontiers of now. Cost: O(frontier cells).
+  void begin(KnownPlace& place);
+
+  /// The best place to look from by a strategy other than kViewTour, by the ways last found and
+  /// what is known by now, of those that are worth their way; it stays among the places. Goes on
+  /// through the places first, if it has
+  /// not been through all of them.
+  /// @return empty if there is none, or not before another call, see isUnderWay().
+  /// Cost: O(frontier cells), and a bounded number of looks.
+  std::optional<ViewPoint> next(KnownPlace& place, Strategy strategy, const Filter& filter);
+
+  /// Takes out a place that could not be reached, with those around it (0.5 m).
+  void drop(Cell place);
+
+  /// The places that were left when next() found none that is worth its way, with their ways.
+  const std::vector<ViewPoint>& left() const { return found_; }
+  /// Likewise: what the best of them promises. For people.
+  std::string whatIsLeft() const;
+
+  /// Whether there are places that have not been asked yet.
+  bool isUnderWay() const { return is_under_way_; }
+
+ private:
+  std::vector<Cell> openings(KnownPlace& place) const;
+  void findPlaces(const KnownPlace& place);
+  void askPlaces(const KnownPlace& place);
+  std::optional<ViewPoint> choose(const KnownPlace& place, Strategy strategy, const Filter& filter);
+  ViewPoint lookFrom(const KnownPlace& place, Cell cell);
+
+  double smallest_gain_;
+  std::size_t smallest_frontier_;
+  double worth_;
+  bool is_under_way_ = false;
+  int looks_left_ = 0;          ///< that may be made in this call
+  std::vector<Cell> openings_;  ///< frontier cells that were not asked yet for who sees them
+  std::vector<Cell> blocks_;    ///< that see one, and were not asked yet
+  std::uint32_t pass_ = 0, call_ = 0;
+  TiledGrid<std::uint32_t> block_passes_{0};   ///< the last pass that a block was put among them
+  TiledGrid<std::uint32_t> opening_calls_{0};  ///< the last call that a cell was an opening in
+  /// As they were when they were asked: gains only become less as more is seen.
+  std::vector<ViewPoint> found_;
+};
+
+}  // namespace cca

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include "cca_mrpt/navigation/place/exploration_grid.hpp"
+#include "cca_mrpt/navigation/place/frontier.hpp"
+#include "cca_mrpt/navigation/place/grid_paths.hpp"
+#include "cca_mrpt/navigation/place/scanned_places.hpp"
+
+namespace cca {
+
+/// A place to look from, and what is expected to be seen.
+struct ViewPoint {
+  Cell cell;              ///< traversable and reached
+  Cell target;            ///< the unknown cell that it is there to see
+  double distance = 0.0;  ///< m, of the way there
+  double gain = 0.0;      ///< m^2 of unknown area in view if all of it were free
+  double expected = 0.0;  ///< m^2 of it that will be seen, as viewFrom() expects
+};
+
+/// The unknown side neighbour of a frontier cell. Precondition: isFrontier(grid, c).
+Cell unknownBeside(const ExplorationGrid& grid, Cell c);
+
+/// A cell behind the middle of a frontier, up to `depth` metres into the unknown: what one wants to
+/// see, where the frontier itself is in view already. Never beyond what is known.
+Cell cellBehind(const ExplorationGrid& grid, const Frontier& frontier, double depth);
+
+/// Whether nothing known to be an obstacle stands between two cells.
+bool isInView(const ExplorationGrid& grid, Cell from, Cell to);
+
+/// Visits the blocks of FreeSpace that are in view from a cell if all unknown cells were free, by
+/// rays as those of viewFrom: each once for every ray through it. Cost: O(range / resolution) for
+/// each ray.
+void eachBlockInView(const ExplorationGrid& grid, Cell from, double range,
+                     const std::function<void(Cell block)>& visit);
+
+/// The place of the shortest way from which a cell is in free view.
+///
+/// 90 rays go out from the cell and end at occupied cells and presumed walls.
+/// @param range  m, how far off it may be.
+/// @return       empty where no reached place sees the cell.
+/// Cost: O(range / resolution).
+std::optional<ViewPoint> nearestViewPoint(const ExplorationGrid& grid, const FreeSpace& space,
+                                          const DistanceField& field, const ScannedPlaces& scanned,
+                                          Cell target, double range);
+
+/// The unknown area in view from a cell if all unknown cells were free [Gonzalez-Banos & Latombe
+/// 2002]: 72 rays end at occupied cells and presumed walls.
+///
+/// @return m^2; at most pi range^2.
+double unknownAreaInView(const ExplorationGrid& grid, Cell from, double range);
+
+/// What a place is good for: like unknownAreaInView, by 360 rays, as fine as a laser's beams, that
+/// may cut the corners of opaque cells (one cell's length in all).
+///
+/// @param from        a known cell.
+/// @param is_opening  whether what lies behind a known cell counts: a missing cell of a wall would
+///                    promise all that is behind it.
+/// The unknown is not free: each ray is expected to end there after half a metre on average, so of
+/// a stretch of u metres it sees (1 - exp(-2 u)) / 2. In furnished buildings a rest shows some 0.25
+/// m^2, whether the area in view is 0.3 or 3 m^2; a gap into a room shows what its width lets
+/// through.
+///
+/// @return the place with its gain and what is expected of it; the target is the middle of the
+/// longest unknown stretch of a
+///         ray, or the place itself where nothing unknown is in view. The distance is 0.
+ViewPoint viewFrom(const ExplorationGrid& grid, Cell from, double range,
+                   const std::function<bool(Cell)>& is_opening);
+
+}  // namespace cca

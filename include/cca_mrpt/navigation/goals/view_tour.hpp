@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "cca_mrpt/navigation/goals/tour.hpp"
+#include "cca_mrpt/navigation/goals/view_points.hpp"
+#include "cca_mrpt/navigation/place/grid_paths.hpp"
+
+namespace cca {
+
+struct ViewTourParameters {
+  /// Weight of the gain-weighted mean arrival against the length of the tour. Measured on the
+  /// worlds: 0 (shortest tour) is late at 90 % coverage, 30 leaves too many rests behind.
+  double hurry = 10.0;
+  double stay = 0.5;            ///< m, by how much another tour must cost less than going on
+  double worth = 80.0;          ///< m of way that an unseen square metre is worth
+  std::size_t most_stops = 16;  ///< of a tour
+  int fields_per_choice = 2;    ///< distance fields computed anew at most, each choice
+  double horizon = 40.0;        ///< m, beyond which ways between stops are only estimated
+};
+
+/// Our own way to choose the next goal, where no frontier promises so much that it is driven into:
+/// the first stop of a tour that sees everything soon.
+///
+/// 1. Of all view points, few that see all frontiers between them are kept (greedy set cover, as in
+///    art-gallery and next-best-view planning).
+/// 2. An open tour through them is found whose cost is its length plus the gain-weighted mean
+///    arrival (see TourObjective): nearby rests are finished in passing, large unknown areas come
+///    early.
+/// 3. A stop that makes the tour longer by more than it is worth is left out, and so is the end of
+///    the tour from where on nothing is worth its way.
+/// 4. The tour that begins with the present goal is kept unless another is clearly cheaper.
+class ViewTour {
+ public:
+  explicit ViewTour(const ViewTourParameters& parameters = {}) : parameters_(parameters) {}
+
+  /// @param view_points  with distances from the robot and gains.
+  /// @param reach        m, how far the robot sees.
+  /// @param present      target of the present goal, if it still stands.
+  /// @param only_rests   nothing large is left to hurry for: the shortest tour is taken.
+  /// @return             index of the view point to go to; empty where none is worth its way.
+  /// Cost: O(n^2 reach) lines of sight for n view points, and a few distance fields.
+  std::optional<std::size_t> choose(const ExplorationGrid& grid, const FreeSpace& space,
+                                    const std::vector<ViewPoint>& view_points, double reach,
+                                    std::optional<Cell> present, bool only_rests);
+
+  /// Finds ways from one of the stops that the last choice had too little time for: the next choice
+  /// need not estimate them. For the steps between two choices. Cost: one distance field.
+  void prepare(const ExplorationGrid& grid, const FreeSpace& space);
+
+ private:
+  struct Stop {
+    std::size_t view_point;
+    double gain;     ///< m^2, around what it is there to see
+    double promise;  ///< m^2, expected to be seen from it
+    bool sees_present;
+  };
+  struct CachedField {
+    Cell block;
+    std::uint32_t made = 0;  ///< number of the choice that computed it
+    std::uint32_t used = 0;
+    DistanceField field;
+  };
+
+  std::vector<Stop> cover(const ExplorationGrid& grid, const std::vector<ViewPoint>& view_points,
+                          double reach, std::optional<Cell> present, bool only_rests) const;
+  Eigen::MatrixXd distances(const ExplorationGrid& grid, const FreeSpace& space,
+                            const std::vector<ViewPoint>& view_points,
+                            const std::vector<Stop>& stops);
+  DistanceField* fieldAt(const ExplorationGrid& grid, const FreeSpace& space, Cell cell,
+                         int& budget);
+
+  ViewTourParameters parameters_;
+  std::vector<CachedField> fields_;
+  std::vector<Cell> last_stops_;
+  std::vector<std::size_t> estimated_;  ///< of the last stops, whose ways were only estimated
+  std::uint32_t choices_ = 0;
+};
+
+}  // namespace cca

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Core>
+#include <cmath>
+#include <limits>
+
+#include "cca_mrpt/navigation/place/cell.hpp"
+
+namespace cca {
+
+/// The number of the beam at a bearing (rad, sensor frame), as a fraction in [-0.5, turn - 0.5)
+/// with `turn` the beams of a full one; past the last beam it lies outside the scan.
+/// Precondition: angle_increment is not 0.
+inline double beamAt(double bearing, double angle_min, double angle_increment) {
+  const double turn = 2.0 * M_PI / std::abs(angle_increment);
+  const double beam = std::fmod((bearing - angle_min) / angle_increment, turn);
+  return beam < -0.5 ? beam + turn : beam;
+}
+
+/// Visits the cells that a straight line crosses, in order [Amanatides & Woo 1987].
+///
+/// @param origin     start, in cells (metres / resolution).
+/// @param direction  unit vector.
+/// @param length     in cells; the visit ends with the last cell entered before it.
+/// @param visit      bool(Cell, double entered): false ends the visit. `entered`: the distance from
+///                   the origin, in cells, at which the line enters the cell (0 for the first).
+/// Cost: O(length).
+template <class Visit>
+void walkBeam(const Eigen::Vector2d& origin, const Eigen::Vector2d& direction, double length,
+              Visit&& visit) {
+  constexpr double kNever = std::numeric_limits<double>::infinity();
+  Cell c{static_cast<int>(std::floor(origin.x())), static_cast<int>(std::floor(origin.y()))};
+  const int step_x = direction.x() > 0.0 ? 1 : -1, step_y = direction.y() > 0.0 ? 1 : -1;
+  const double spacing_x = direction.x() != 0.0 ? std::abs(1.0 / direction.x()) : kNever;
+  const double spacing_y = direction.y() != 0.0 ? std::abs(1.0 / direction.y()) : kNever;
+  double next_x = kNever, next_y = kNever;
+  if (spacing_x < kNever)
+    next_x = (direction.x() > 0.0 ? c.x + 1 - origin.x() : origin.x() - c.x) * spacing_x;
+  if (spacing_y < kNever)
+    next_y = (direction.y() > 0.0 ? c.y + 1 - origin.y() : origin.y() - c.y) * spacing_y;
+  double entered = 0.0;
+  while (entered <= length && visit(c, entered)) {
+    if (next_x < next_y) {
+      entered = next_x;
+      next_x += spacing_x;
+      c.x += step_x;
+    } else {
+      entered = next_y;
+      next_y += spacing_y;
+      c.y += step_y;
+    }
+  }
+}
+
+}  // namespace cca

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "cca_mrpt/navigation/place/cell.hpp"
+#include "cca_mrpt/navigation/place/exploration_grid.hpp"
+
+namespace cca {
+
+/// Where the robot's centre may be, as far as is known: free cells that keep a clearance from every
+/// occupied cell, and cells where it has been. The robot's configuration space, since the robot is
+/// round.
+///
+/// Unknown cells are not grown: what they hold is for the local planner to see in time.
+class FreeSpace {
+ public:
+  /// Blocks of kBlock x kBlock cells are the coarse squares that long paths are searched on.
+  static constexpr int kBlockBits = 2, kBlock = 1 << kBlockBits;
+  static Cell blockOf(Cell c) { return {c.x >> kBlockBits, c.y >> kBlockBits}; }
+  static unsigned bitOf(Cell c) {
+    return 1u << (((c.y & (kBlock - 1)) << kBlockBits) | (c.x & (kBlock - 1)));
+  }
+
+  /// @param clearance   m, from a cell's centre to the nearest point of an occupied cell.
+  /// @param resolution  m, the grid's.
+  FreeSpace(double clearance, double resolution);
+
+  /// Takes over the cells that have changed. Cost: cells that became occupied or ceased to be,
+  /// times the cells of the grown disc.
+  void update(const ExplorationGrid& grid, const std::vector<Cell>& changed);
+
+  /// The robot's centre has been in this cell, so it can be there again, whatever noise says of the
+  /// clearance, as long as the cell itself is not seen occupied: what the robot came through must
+  /// not close behind it.
+  void pass(Cell c);
+
+  /// Shuts a cell that looks free, or opens it again: the robot could not drive there. A cell that
+  /// it has been in stays open.
+  void bar(Cell c, bool is_barred);
+
+  /// Asks for less clearance from now on: `clearance`, m, up to the present one. All that is known
+  /// lies in the cells from `low` to `high`. Cost: O(these cells), and the occupied ones times the
+  /// cells of the disc.
+  void reduceClearance(double clearance, Cell low, Cell high);
+
+  bool isTraversable(Cell c) const { return isTraversable(cells_.at(c)); }
+  /// Like isTraversable, for each cell of a block: bit 4 (y mod 4) + (x mod 4).
+  unsigned traversableCells(Cell block) const { return blocks_.at(block); }
+  /// The same of the eight blocks around one, in the order of kNeighbours.
+  std::array<std::uint16_t, 8> traversableAround(Cell block) const { return blocks_.around(block); }
+
+  double clearance() const { return clearance_; }
+
+  /// Grows whenever a cell becomes traversable or ceases to be.
+  std::uint64_t revision() const { return revision_; }
+
+ private:
+  static constexpr std::uint32_t kFree = 0x80000000, kOccupied = 0x40000000, kPassed = 0x20000000,
+                                 kBarred = 0x10000000;
+  static bool isTraversable(std::uint32_t cell) {
+    return cell == kFree || (cell & (kPassed | kOccupied)) == kPassed;
+  }
+  void grow(Cell obstacle, const std::vector<Cell>& disc, bool is_growing);
+  void mark(Cell c);
+
+  double clearance_, resolution_;
+  std::uint64_t revision_ = 0;
+  std::vector<Cell> disc_;
+  TiledGrid<std::uint32_t> cells_;   ///< state bits, and the number of obstacles within clearance
+  TiledGrid<std::uint16_t> blocks_;  ///< traversable cells, a bit each
+};
+
+}  // namespace cca

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <vector>
+
+#include "cca_mrpt/navigation/place/exploration_grid.hpp"
+
+namespace cca {
+
+/// Neighbouring frontier cells: free, with the unknown on the other side [Yamauchi 1997].
+struct Frontier {
+  std::vector<Cell> cells;
+  Cell middle;  ///< the member nearest to the mean of all
+};
+
+/// Whether a cell is free, or presumed so, and a side neighbour is unknown. A presumed wall is not
+/// unknown here. At the end of the laser's range most cells of a frontier are presumed ones:
+/// without them it falls to pieces as small as a beam, and a room behind it would not be missed.
+bool isFrontier(const ExplorationGrid& grid, Cell c);
+
+/// The frontier cells of a grid, kept up to date cell by cell.
+class FrontierCells {
+ public:
+  /// Cost: cells changed.
+  void update(const ExplorationGrid& grid, const std::vector<Cell>& changed);
+
+  /// All frontier cells; the order depends only on the grid's history.
+  const std::vector<Cell>& cells() const { return cells_; }
+  bool contains(Cell c) const { return place_.at(c) != 0; }
+
+  /// Groups of 8-connected frontier cells, none longer than `extent` cells in any direction: a
+  /// longer line is cut into pieces. Cost: O(frontier cells).
+  std::vector<Frontier> frontiers(int extent);
+
+ private:
+  void review(const ExplorationGrid& grid, Cell c);
+
+  std::vector<Cell> cells_;
+  TiledGrid<std::uint32_t> place_{0};    ///< index in cells_, plus 1; 0: no frontier
+  TiledGrid<std::uint32_t> grouped_{0};  ///< number of the last grouping that took the cell
+  std::uint32_t grouping_ = 0;
+};
+
+}  // namespace cca

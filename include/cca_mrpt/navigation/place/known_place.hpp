@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "cca_mrpt/navigation/place/barred_ways.hpp"
+#include "cca_mrpt/navigation/place/exploration_grid.hpp"
+#include "cca_mrpt/navigation/place/free_space.hpp"
+#include "cca_mrpt/navigation/place/frontier.hpp"
+#include "cca_mrpt/navigation/place/grid_paths.hpp"
+#include "cca_mrpt/navigation/place/past_scans.hpp"
+#include "cca_mrpt/navigation/place/scanned_places.hpp"
+
+namespace cca {
+
+/// What is known of the place: what the laser has seen, where the robot can be, the shortest ways,
+/// the frontiers, and from where there is nothing more to see.
+class KnownPlace {
+ public:
+  /// @param clearance  m, that ways keep from known obstacles.
+  explicit KnownPlace(double clearance) : space_(clearance, grid_.resolution()) {}
+
+  /// Takes a scan. A robot that is nowhere on the grid, or not finite, adds what it saw and no
+  /// passage. Cost: cells crossed by the scan.
+  void observe(const Scan& scan, const Eigen::Vector2d& robot_map);
+
+  /// Makes everything anew from scans whose poses were corrected, and moves what was barred along.
+  /// @return where cells got to. Cost: that of observing all the scans.
+  CellMove correct(const PastScans& past);
+
+  /// Declares cells as known from a saved map.
+  void seed(const std::vector<Cell>& cells, CellState state);
+
+  /// Takes places (m, map frame) for occupied, whatever the laser saw there: in its plane it may
+  /// soon see them free again, so they are to be told with each scan for as long as they count.
+  void heed(const std::vector<Eigen::Vector2d>& places_map);
+
+  /// Says that nothing more will be seen from a cell, wherever the laser has looked.
+  void noteScanned(Cell c) { scanned_.addAll(c); }
+
+  /// Shuts the beginning of a way (m, map frame) that could not be driven, see BarredWays.
+  void bar(const std::vector<Eigen::Vector2d>& way) {
+    barred_.bar(way, grid_.resolution(), space_);
+  }
+  /// Opens what was barred last.
+  void openLast() { barred_.openLast(space_); }
+  /// Opens all that was barred. @return whether there was any.
+  bool openAll() { return barred_.openAll(space_); }
+
+  /// Takes a cell for open from now on where the robot fits in at any point of it, not only at its
+  /// centre: passages of just the robot's width are worth a try when there is no other way.
+  /// @return whether that is new. Cost: O(cells between the corners of what is known), once.
+  bool openNarrowPassages();
+
+  /// Finds the shortest ways from a place (m, map frame) anew: to everywhere, or at least to
+  /// `until`. Cost: O(known blocks), none where all of them are known from there already.
+  void findWays(const Eigen::Vector2d& from_map, std::optional<Cell> until = std::nullopt);
+  /// The ways last found.
+  const DistanceField& ways() const { return ways_; }
+  /// The shortest of them to a cell: corners, m, map frame; empty where there is none.
+  std::vector<Eigen::Vector2d> wayTo(Cell goal) const {
+    return shortestPath(space_, grid_.resolution(), ways_, goal);
+  }
+
+  /// m^2: where the robot could stand as far as is known, and no way was last found to. Cost:
+  /// O(cells between the corners of what is known / 16).
+  double unreached() const;
+
+  /// See FrontierCells::frontiers(); those longer than 2 m are several.
+  std::vector<Frontier> frontiers() { return frontier_cells_.frontiers(kFrontierExtent); }
+
+  /// Whether a place (m, map frame) is finite and within what a grid can hold.
+  bool isOnGrid(const Eigen::Vector2d& p_map) const;
+
+  const ExplorationGrid& grid() const { return grid_; }
+  const FreeSpace& space() const { return space_; }
+  const FrontierCells& frontierCells() const { return frontier_cells_; }
+  const ScannedPlaces& scanned() const { return scanned_; }
+  /// m, map frame: where the robot was at the last scan.
+  const std::optional<Eigen::Vector2d>& lastPlace() const { return last_place_; }
+  /// m, the longest that a beam was seen to be free; 1 at least.
+  double laserRange() const { return laser_range_; }
+
+ private:
+  static constexpr int kFrontierExtent = 40;  // cells
+
+  void learnRange(const Scan& scan);
+  void presumeFreeBelow(const Eigen::Vector2d& robot_map);
+  void notePassage(const Eigen::Vector2d& robot_map);
+  void takeChanges();
+
+  ExplorationGrid grid_;
+  FreeSpace space_;
+  FrontierCells frontier_cells_;
+  ScannedPlaces scanned_;
+  std::vector<std::pair<std::vector<Cell>, CellState>> seeds_;  ///< stay where they are
+  BarredWays barred_;
+  DistanceField ways_;
+  std::optional<Eigen::Vector2d> last_place_;
+  double laser_range_ = 1.0;
+  bool has_narrow_passages_ = false;
+  /// Where all ways were found from, and in what space.
+  std::optional<std::pair<Cell, std::uint64_t>> all_ways_from_;
+};
+
+}  // namespace cca

@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "cca_mrpt/navigation/drive/moving_points.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "cca_mrpt/navigation/place/beam.hpp"
+
+namespace cca {
+namespace {
+
+constexpr double kAge = 0.45;  // s, of the scan to compare with: a walker has gone its own depth
+constexpr double kLongAge = 1.35;  // s, of another: somebody of 0.2 m/s has come by kClearly
+constexpr double kClearly = 0.12;  // m, beyond the noise
+constexpr int kBeamsAround = 2;    // of the other scan, to each side
+constexpr int kLeastBeams = 3;     // of a mover
+constexpr double kJoined = 0.2;    // m, between neighbouring returns of a mover
+constexpr double kBody = 0.8;      // m, how far a mover reaches from its suspicious part
+constexpr double kNearby = 0.75;   // m, around a place where a mover was
+constexpr double kStill = 0.05;    // m, beyond the noise: a walker of 0.15 m/s goes farther in kAge
+constexpr double kHeeded = 2.0;    // m; what is farther cannot come before the robot stands
+
+// The beam of a scan next to the direction of a point; it may lie outside the scan.
+int beamTowards(const Scan& scan, const Eigen::Vector2d& p_sensor) {
+  return static_cast<int>(std::lround(
+      beamAt(std::atan2(p_sensor.y(), p_sensor.x()), scan.angle_min, scan.angle_increment)));
+}
+
+// The shortest free distance that the scan saw around the direction of a point; 0 where unknown.
+double seenAround(const Scan& scan, const Eigen::Vector2d& p_sensor) {
+  const int beam = beamTowards(scan, p_sensor), n = static_cast<int>(scan.size());
+  if (beam < kBeamsAround || beam >= n - kBeamsAround) return 0.0;
+  double least = INFINITY;
+  for (int i = beam - kBeamsAround; i <= beam + kBeamsAround; ++i) {
+    least = std::min(least, scan.freeRange(static_cast<std::size_t>(i)));
+  }
+  return least;
+}
+
+// Map frame, by beam; the origin where there is no return.
+std::vector<Eigen::Vector2d> pointsOf(const Scan& scan) {
+  std::vector<Eigen::Vector2d> points(scan.size(), Eigen::Vector2d::Zero());
+  for (std::size_t i = 0; i < scan.size(); ++i) {
+    if (!isReturn(scan.ranges[i])) continue;
+    const double bearing = scan.T_map_sensor.theta + scan.bearing(i);
+    points[i] = scan.T_map_sensor.position() +
+                scan.ranges[i] * Eigen::Vector2d(std::cos(bearing), std::sin(bearing));
+  }
+  return points;
+}
+
+// First and last beam of each run of returns of `scan` that lie where `other` saw free space.
+std::vector<std::pair<std::size_t, std::size_t>> runsInFreeSpace(
+    const Scan& scan, const std::vector<Eigen::Vector2d>& points, const Scan& other,
+    double clearly) {
+  const Pose2 T = other.T_map_sensor.inverse();
+  const double c = std::cos(T.theta), s = std::sin(T.theta);
+  std::vector<std::pair<std::size_t, std::size_t>> runs;
+  std::size_t length = 0;
+  for (std::size_t i = 0; i <= scan.size(); ++i) {
+    bool in_free_space = false;
+    if (i < scan.size() && isReturn(scan.ranges[i]) && scan.ranges[i] <= MovingPoints::kFarthest) {
+      const Eigen::Vector2d p(T.x + c * points[i].x() - s * points[i].y(),
+                              T.y + s * points[i].x() + c * points[i].y());
+      in_free_space = p.norm() < seenAround(other, p) - clearly;
+    }
+    const bool goes_on =
+        in_free_space && length > 0 && (points[i] - points[i - 1]).norm() < kJoined;
+    if (!goes_on) {
+      if (length >= kLeastBeams) runs.emplace_back(i - length, i - 1);
+      length = 0;
+    }
+    if (in_free_space) ++length;
+  }
+  return runs;
+}
+
+double distanceToSegment(const Eigen::Vector2d& p, const Eigen::Vector2d& a,
+                         const Eigen::Vector2d& b) {
+  const Eigen::Vector2d d = b - a;
+  const double length_sq = d.squaredNorm();
+  const double t = length_sq > 0.0 ? std::clamp(d.dot(p - a) / length_sq, 0.0, 1.0) : 0.0;
+  return (p - a - t * d).norm();
+}
+
+// Whether a scan, whose returns lie at `points`, saw a surface within `gate` of a point.
+bool sawSurfaceAt(const Scan& scan, const std::vector<Eigen::Vector2d>& points,
+                  const Eigen::Vector2d& p_map, double gate) {
+  const int n = static_cast<int>(scan.size());
+  if (n == 0) return false;
+  const int beam = beamTowards(scan, scan.T_map_sensor.inverse() * p_map);
+  const auto wrapped = [n](int i) { return static_cast<std::size_t>((i % n + n) % n); };
+  for (int i = beam - kBeamsAround; i <= beam + kBeamsAround; ++i) {
+    const std::size_t a = wrapped(i), b = wrapped(i + 1);
+    if (!isReturn(scan.ranges[a])) continue;
+    const bool joined = isReturn(scan.ranges[b]) && (points[a] - points[b]).norm() < kJoined;
+    if (distanceToSegment(p_map, points[a], joined ? points[b] : points[a]) < gate) return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+std::vector<bool> MovingPoints::update(const Scan& scan, double range_sigma, double time) {
+  std::vector<bool> moving(scan.size(), false);
+  const std::vector<Eigen::Vector2d> points = pointsOf(scan);
+  while (past_.size() > 1 && past_[1].time <= time - kLongAge) past_.pop_front();
+  places_.erase(std::remove_if(places_.begin(), places_.end(),
+                               [&](const Place& place) { return time - place.time > kMemory; }),
+                places_.end());
+  if (!past_.empty() && past_.front().time < time) {
+    const double clearly = kClearly + 4.0 * range_sigma;
+    const Past &long_ago = past_.front(), &lately = scanBefore(time - kAge);
+    for (const Past* earlier : {&long_ago, &lately}) {
+      for (const auto& [first, last] : runsInFreeSpace(scan, points, earlier->scan, clearly)) {
+        markBody(points, first, last, moving);
+        places_.push_back({points[(first + last) / 2], time});
+      }
+    }
+    for (const auto& [first, last] : runsInFreeSpace(lately.scan, lately.points, scan, clearly)) {
+      places_.push_back({lately.points[(first + last) / 2], time});
+    }
+  }
+  for (std::size_t i = 0; i < scan.size(); ++i) {
+    if (moving[i] || !isReturn(scan.ranges[i])) continue;
+    moving[i] = std::any_of(places_.begin(), places_.end(), [&](const Place& place) {
+      return (place.p_map - points[i]).squaredNorm() < kNearby * kNearby;
+    });
+  }
+  if (!places_.empty() && places_.back().time == time) last_seen_ = time;
+  findUnsettled(scan, points, moving, range_sigma, time);
+  past_.push_back({scan, points, time});
+  return moving;
+}
+
+// The latest scan of at least that age; else the oldest.
+const MovingPoints::Past& MovingPoints::scanBefore(double time) const {
+  std::size_t i = 0;
+  while (i + 1 < past_.size() && past_[i + 1].time <= time) ++i;
+  return past_[i];
+}
+
+void MovingPoints::findUnsettled(const Scan& scan, const std::vector<Eigen::Vector2d>& points,
+                                 const std::vector<bool>& moving, double range_sigma, double time) {
+  unsettled_.clear();
+  if (!areAround(time)) return;
+  const bool old_enough = !past_.empty() && past_.front().time <= time - kAge;
+  const Past* earlier = old_enough ? &scanBefore(time - kAge) : nullptr;
+  for (std::size_t i = 0; i < scan.size(); ++i) {
+    if (moving[i] || !isReturn(scan.ranges[i]) || scan.ranges[i] > kHeeded) continue;
+    const bool settled = old_enough && sawSurfaceAt(earlier->scan, earlier->points, points[i],
+                                                    kStill + 2.0 * range_sigma);
+    if (!settled) unsettled_.push_back(points[i]);
+  }
+}
+
+// All that is joined to the suspicious run, as far as a body reaches.
+void MovingPoints::markBody(const std::vector<Eigen::Vector2d>& points, std::size_t first,
+                            std::size_t last, std::vector<bool>& moving) {
+  const Eigen::Vector2d middle = points[(first + last) / 2];
+  const auto joined = [&](std::size_t i, std::size_t j) {
+    return (points[i] - points[j]).norm() < kJoined && (points[j] - middle).norm() < kBody;
+  };
+  while (first > 0 && joined(first, first - 1)) --first;
+  while (last + 1 < points.size() && joined(last, last + 1)) ++last;
+  for (std::size_t i = first; i <= last; ++i) moving[i] = true;
+}
+
+}  // namespace cca

@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "cca_mrpt/navigation/drive/tangent_bug/boundary_follower.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace cca {
+namespace {
+
+constexpr double kAhead = 4.0;  // m, traced in front of the robot
+constexpr double kAheadClosely = 0.6;
+constexpr double kLookedAt = 0.15;  // m
+constexpr double kSensed = 8.0;     // m, traced each way for the first d_followed
+constexpr double kBeside = 1.0;     // m
+constexpr double kLost = 0.3;       // m, how far the boundary may move between two steps
+constexpr double kNarrow = 0.3;     // m, ahead
+constexpr double kHidden = 0.1;     // m, beyond what a beam sees
+
+bool isInSight(const LocalView& view, const Eigen::Vector2d& p_map) {
+  const double distance = (p_map - view.T_map_sensor.position()).norm();
+  return distance <= view.seenDistanceTowards(p_map) + kHidden + 2.0 * view.range_sigma;
+}
+
+}  // namespace
+
+void BoundaryFollower::start(const Eigen::Vector2d& start_map, bool on_the_right,
+                             const Eigen::Vector2d& goal_map, const LocalView& view,
+                             const ConfigurationSpace& space) {
+  *this = {};
+  on_the_right_ = on_the_right;
+  d_followed_ = INFINITY;
+  least_reach_ = INFINITY;
+  const auto seen = [&](const Eigen::Vector2d& p_map) { return isInSight(view, p_map); };
+  include(traceBoundary(space, start_map, !on_the_right, kSensed, seen), goal_map);
+  trace_ = traceBoundary(space, start_map, on_the_right, kSensed, seen);
+  include(trace_, goal_map);
+  include(start_map, goal_map);
+  heading_ = trace_.empty() ? 0.0 : trace_.front().heading;
+}
+
+std::optional<Eigen::Vector2d> BoundaryFollower::step(const Eigen::Vector2d& goal_map,
+                                                      const LocalView& view,
+                                                      const ConfigurationSpace& trace_space,
+                                                      const ConfigurationSpace& way_space,
+                                                      double d_reach) {
+  const Eigen::Vector2d x = view.T_map_robot.position();
+  const auto seen = [&](const Eigen::Vector2d& p_map) { return isInSight(view, p_map); };
+  // Out of sight, the boundary beside the robot is the one that it has been following.
+  const bool found = findAnchor(view, trace_space);
+  auto trace = traceBoundary(trace_space, found ? trace_[anchor_].center_map : x, on_the_right_,
+                             closely_ ? kAheadClosely : kAhead, seen);
+  if (trace.empty() || (!found && (trace.front().center_map - x).norm() > kBeside)) {
+    return std::nullopt;
+  }
+  trace_ = std::move(trace);
+  include(trace_, goal_map);
+  noteNarrowPlace();
+  std::size_t target = trace_.size() - 1;
+  while (target > 0 && !way_space.isFree(x, trace_[target].center_map)) --target;
+  moveAnchor(x, goal_map, target);
+  least_reach_ = std::min(least_reach_, d_reach);
+  if (circling_.closed() && !lookedAtNearest() && !closely_) {
+    closely_ = true;
+    circling_.reset();
+  }
+  return trace_[target].center_map;
+}
+
+// The first place of the last trace, from the anchor on, that the present scan shows as a boundary.
+bool BoundaryFollower::findAnchor(const LocalView& view, const ConfigurationSpace& space) {
+  for (std::size_t i = anchor_; i < trace_.size(); ++i) {
+    const Eigen::Vector2d& p = trace_[i].center_map;
+    if (!isInSight(view, p) || std::abs(space.clearance(p) - space.radius) > kLost) continue;
+    length_ += trace_[i].length - trace_[anchor_].length;
+    heading_ += trace_[i].heading - trace_[anchor_].heading;
+    anchor_ = i;
+    return true;
+  }
+  return false;
+}
+
+void BoundaryFollower::noteNarrowPlace() {
+  for (const BoundaryPoint& point : trace_) {
+    if (point.length < kNarrow) continue;
+    const double turn = (point.heading - trace_.front().heading) * (on_the_right_ ? -1.0 : 1.0);
+    if (!narrow_map_ || turn > narrow_turn_) {
+      narrow_map_ = point.center_map;
+      narrow_turn_ = turn;
+    }
+    return;
+  }
+}
+
+bool BoundaryFollower::lookedAtNearest() const { return least_reach_ < d_followed_ + kLookedAt; }
+
+bool BoundaryFollower::circled() const {
+  return circling_.closed() && (lookedAtNearest() || closely_);
+}
+
+std::optional<Eigen::Vector2d> BoundaryFollower::takeNarrowPlace() {
+  const auto place = narrow_map_;
+  narrow_map_.reset();
+  return place;
+}
+
+// Around the last point in sight the disc only seems to turn: what lies behind it is not known yet.
+void BoundaryFollower::include(const std::vector<BoundaryPoint>& trace,
+                               const Eigen::Vector2d& goal_map) {
+  for (const BoundaryPoint& point : trace) {
+    if (point.obstacle != trace.back().obstacle) include(point.center_map, goal_map);
+  }
+}
+
+void BoundaryFollower::include(const Eigen::Vector2d& p_map, const Eigen::Vector2d& goal_map) {
+  const double distance = (p_map - goal_map).norm();
+  d_followed_ = std::min(d_followed_, distance);
+}
+
+// To the trace's place nearest to the robot, up to the target.
+void BoundaryFollower::moveAnchor(const Eigen::Vector2d& x_map, const Eigen::Vector2d& goal_map,
+                                  std::size_t last) {
+  std::size_t nearest = 0;
+  for (std::size_t i = 1; i <= last; ++i) {
+    if ((trace_[i].center_map - x_map).norm() < (trace_[nearest].center_map - x_map).norm()) {
+      nearest = i;
+    }
+  }
+  // The trace is made anew each time: its first heading joins the walk's.
+  heading_ += wrapAngle(trace_.front().heading - heading_);
+  for (std::size_t i = 0; i <= nearest; ++i) {
+    include(trace_[i].center_map, goal_map);
+    circling_.add(trace_[i].center_map, length_ + trace_[i].length,
+                  heading_ + trace_[i].heading - trace_.front().heading);
+  }
+  anchor_ = nearest;
+  if (trace_[nearest].length > kNarrow) narrow_map_.reset();
+  length_ += trace_[nearest].length;
+  heading_ += trace_[nearest].heading - trace_.front().heading;
+}
+
+}  // namespace cca

@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "cca_mrpt/navigation/goals/last_look.hpp"
+
+#include <algorithm>
+#include <cstdlib>
+#include <sstream>
+
+namespace cca {
+namespace {
+
+constexpr int kLooksAtATime = 60;  // some 10 ms, 30 in a wide hall
+constexpr int kAround = 10;        // cells
+
+/// Cells of a block that the robot can reach: the first one, and beside obstacles, where a few
+/// centimetres count, also the last one.
+std::vector<Cell> placesIn(const KnownPlace& place, Cell block) {
+  constexpr unsigned kAll = 0xFFFF;
+  const unsigned traversable = place.space().traversableCells(block);
+  std::vector<Cell> cells;
+  for (int k = 0; traversable >> k; ++k) {
+    const Cell c{FreeSpace::kBlock * block.x + k % FreeSpace::kBlock,
+                 FreeSpace::kBlock * block.y + k / FreeSpace::kBlock};
+    if ((traversable >> k & 1) && place.ways().isReached(c)) cells.push_back(c);
+  }
+  if (cells.size() > 1) cells.erase(cells.begin() + 1, cells.end() - (traversable != kAll));
+  return cells;
+}
+
+}  // namespace
+
+void LastLook::begin(KnownPlace& place) {
+  openings_ = openings(place);
+  blocks_.clear();
+  found_.clear();
+  ++pass_;
+  is_under_way_ = !openings_.empty();
+}
+
+std::optional<ViewPoint> LastLook::next(KnownPlace& place, Strategy strategy,
+                                        const Filter& filter) {
+  if (!is_under_way_ && found_.empty()) return {};
+  looks_left_ = kLooksAtATime;
+  ++call_;
+  for (const Cell c : openings(place)) opening_calls_[c] = call_;
+  findPlaces(place);
+  askPlaces(place);
+  is_under_way_ = !openings_.empty() || !blocks_.empty();
+  return is_under_way_ ? std::nullopt : choose(place, strategy, filter);
+}
+
+void LastLook::drop(Cell place) {
+  const auto is_around = [&](const ViewPoint& view) {
+    return std::max(std::abs(view.cell.x - place.x), std::abs(view.cell.y - place.y)) <= kAround;
+  };
+  found_.erase(std::remove_if(found_.begin(), found_.end(), is_around), found_.end());
+}
+
+std::string LastLook::whatIsLeft() const {
+  const auto ratio = [](const ViewPoint& view) { return view.expected / (view.distance + 1e-9); };
+  const auto best =
+      std::max_element(found_.begin(), found_.end(),
+                       [&](const auto& a, const auto& b) { return ratio(a) < ratio(b); });
+  if (best == found_.end()) return "no reachable frontier of useful size is left";
+  std::ostringstream text;
+  text.precision(2);
+  text << "nothing that is left is worth its way, at best some " << best->expected << " m^2 for "
+       << best->distance << " m";
+  return text.str();
+}
+
+std::vector<Cell> LastLook::openings(KnownPlace& place) const {
+  std::vector<Cell> cells;
+  for (const Frontier& frontier : place.frontiers()) {
+    if (frontier.cells.size() >= smallest_frontier_)
+      cells.insert(cells.end(), frontier.cells.begin(), frontier.cells.end());
+  }
+  return cells;
+}
+
+void LastLook::findPlaces(const KnownPlace& place) {
+  for (; !openings_.empty() && looks_left_ > 0; openings_.pop_back(), --looks_left_) {
+    eachBlockInView(place.grid(), openings_.back(), place.laserRange(), [&](Cell block) {
+      if (block_passes_.at(block) == pass_) return;
+      block_passes_[block] = pass_;
+      blocks_.push_back(block);
+    });
+  }
+}
+
+void LastLook::askPlaces(const KnownPlace& place) {
+  for (; openings_.empty() && !blocks_.empty() && looks_left_ > 0; blocks_.pop_back()) {
+    if (place.scanned().containsBlock(blocks_.back())) continue;
+    std::optional<ViewPoint> best;
+    for (const Cell c : placesIn(place, blocks_.back())) {
+      const ViewPoint view = lookFrom(place, c);
+      if (!best || view.gain > best->gain) best = view;
+    }
+    if (best && best->gain >= smallest_gain_) found_.push_back(*best);
+  }
+}
+
+// Only the place that seems best is asked again, until one is as good as it seemed.
+std::optional<ViewPoint> LastLook::choose(const KnownPlace& place, Strategy strategy,
+                                          const Filter& filter) {
+  for (ViewPoint& view : found_) view.distance = place.ways().distanceTo(view.cell);
+  found_.erase(std::remove_if(found_.begin(), found_.end(),
+                              [&](const ViewPoint& view) {
+                                return !place.ways().isReached(view.cell) ||
+                                       place.scanned().contains(view.cell);
+                              }),
+               found_.end());
+  const auto isWorthIt = [&](const ViewPoint& view) {
+    return worth_ * view.expected > view.distance;
+  };
+  while (true) {
+    const auto end = std::stable_partition(found_.begin(), found_.end(), isWorthIt);
+    const auto best = selectGoal(strategy, {found_.begin(), end});
+    if (!best) break;
+    is_under_way_ = looks_left_ <= 0;
+    if (is_under_way_) break;
+    const auto view = found_.begin() + static_cast<std::ptrdiff_t>(*best);
+    const ViewPoint now = lookFrom(place, view->cell);
+    if (now.gain < smallest_gain_ || !filter(now)) {
+      found_.erase(view);
+    } else if (now.gain >= view->gain) {
+      return now;
+    } else {
+      *view = now;
+    }
+  }
+  return {};
+}
+
+ViewPoint LastLook::lookFrom(const KnownPlace& place, Cell cell) {
+  --looks_left_;
+  ViewPoint view = viewFrom(place.grid(), cell, place.laserRange(),
+                            [&](Cell c) { return opening_calls_.at(c) == call_; });
+  view.distance = place.ways().distanceTo(cell);
+  return view;
+}
+
+}  // namespace cca

@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "cca_mrpt/navigation/goals/view_tour.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace cca {
+namespace {
+
+constexpr std::uint32_t kFieldLife = 30;  // choices: known space grows, so ways get shorter
+constexpr std::size_t kMostFields = 32;
+
+double apart(Cell a, Cell b) { return std::hypot(a.x - b.x, a.y - b.y); }
+
+/// Per view point, the view points whose targets it sees; its own always.
+std::vector<std::vector<std::size_t>> visibility(const ExplorationGrid& grid,
+                                                 const std::vector<ViewPoint>& view_points,
+                                                 double reach) {
+  std::vector<std::vector<std::size_t>> sees(view_points.size());
+  for (std::size_t a = 0; a < view_points.size(); ++a) {
+    for (std::size_t b = 0; b < view_points.size(); ++b) {
+      const Cell from = view_points[a].cell, to = view_points[b].target;
+      if (a == b || (apart(from, to) * grid.resolution() < reach && isInView(grid, from, to)))
+        sees[a].push_back(b);
+    }
+  }
+  return sees;
+}
+
+}  // namespace
+
+std::optional<std::size_t> ViewTour::choose(const ExplorationGrid& grid, const FreeSpace& space,
+                                            const std::vector<ViewPoint>& view_points, double reach,
+                                            std::optional<Cell> present, bool only_rests) {
+  if (view_points.empty()) return {};
+  ++choices_;
+  const std::vector<Stop> stops = cover(grid, view_points, reach, present, only_rests);
+  const Eigen::MatrixXd distance = distances(grid, space, view_points, stops);
+  TourObjective objective;
+  objective.hurry = only_rests ? 0.0 : parameters_.hurry;
+  double sum = 0.0;
+  for (const Stop& stop : stops) sum += stop.gain;
+  std::vector<double> worth;
+  for (const Stop& stop : stops) {
+    objective.weights.push_back(sum > 0.0 ? stop.gain / sum : 0.0);
+    worth.push_back(parameters_.worth * stop.promise);
+  }
+
+  const Tour best = findTour(distance, objective);
+  const std::vector<std::size_t> driven = worthTheWay(distance, worth, best.stops);
+  if (driven.empty()) return {};
+  for (const std::size_t k : driven) {
+    if (!stops[k].sees_present) continue;
+    const Tour same = findTour(distance, objective, k);
+    if (same.cost < best.cost + parameters_.stay) return stops[k].view_point;
+  }
+  return stops[driven.front()].view_point;
+}
+
+std::vector<ViewTour::Stop> ViewTour::cover(const ExplorationGrid& grid,
+                                            const std::vector<ViewPoint>& view_points, double reach,
+                                            std::optional<Cell> present, bool only_rests) const {
+  const auto sees = visibility(grid, view_points, reach);
+  std::vector<bool> is_covered(view_points.size(), false);
+  std::vector<Stop> stops;
+  while (stops.size() < parameters_.most_stops) {
+    std::size_t best = 0;
+    std::ptrdiff_t most = 0;
+    for (std::size_t a = 0; a < view_points.size(); ++a) {
+      const auto count = std::count_if(sees[a].begin(), sees[a].end(),
+                                       [&](std::size_t b) { return !is_covered[b]; });
+      const bool is_nearer = view_points[a].distance < view_points[best].distance;
+      if (count < most || count == 0 || (count == most && !is_nearer)) continue;
+      most = count;
+      best = a;
+    }
+    if (most == 0) break;
+    Stop stop{best, 0.0, 0.0, false};
+    for (const std::size_t b : sees[best]) {
+      if (is_covered[b]) continue;
+      is_covered[b] = true;
+      stop.gain += view_points[b].gain;
+      if (present && view_points[b].target == *present) stop.sees_present = true;
+    }
+    // What lies around the target of a rest is mostly the inside of what hides it.
+    stop.promise = only_rests ? viewFrom(grid, view_points[best].cell, reach,
+                                         [&](Cell c) { return isFrontier(grid, c); })
+                                    .expected
+                              : stop.gain;
+    stops.push_back(stop);
+  }
+  return stops;
+}
+
+Eigen::MatrixXd ViewTour::distances(const ExplorationGrid& grid, const FreeSpace& space,
+                                    const std::vector<ViewPoint>& view_points,
+                                    const std::vector<Stop>& stops) {
+  const auto n = static_cast<Eigen::Index>(stops.size());
+  Eigen::MatrixXd distance = Eigen::MatrixXd::Zero(n + 1, n + 1);
+  const auto view = [&](Eigen::Index i) -> const ViewPoint& {
+    return view_points[stops[static_cast<std::size_t>(i) - 1].view_point];
+  };
+  int budget = parameters_.fields_per_choice;
+  last_stops_.clear();
+  estimated_.clear();
+  for (Eigen::Index i = 1; i <= n; ++i) {
+    distance(0, i) = distance(i, 0) = view(i).distance;
+    DistanceField* field = i > 1 ? fieldAt(grid, space, view(i).cell, budget) : nullptr;
+    if (i > 1 && !field) estimated_.push_back(last_stops_.size());
+    last_stops_.push_back(view(i).cell);
+    for (Eigen::Index j = 1; j < i; ++j) {
+      double way = field ? field->reach(space, view(j).cell) : DistanceField::kUnreached;
+      // Beyond the horizon or the budget: somewhere between the straight line and the way by the
+      // robot's place.
+      if (way == DistanceField::kUnreached) {
+        way = 0.5 * (view(i).distance + view(j).distance +
+                     apart(view(i).cell, view(j).cell) * grid.resolution());
+      }
+      distance(i, j) = distance(j, i) = way;
+    }
+  }
+  return distance;
+}
+
+void ViewTour::prepare(const ExplorationGrid& grid, const FreeSpace& space) {
+  if (estimated_.empty()) return;
+  const std::size_t stop = estimated_.back();
+  estimated_.pop_back();
+  int budget = 1;
+  DistanceField* field = fieldAt(grid, space, last_stops_[stop], budget);
+  for (std::size_t before = 0; before < stop; ++before) field->reach(space, last_stops_[before]);
+}
+
+DistanceField* ViewTour::fieldAt(const ExplorationGrid& grid, const FreeSpace& space, Cell cell,
+                                 int& budget) {
+  constexpr int kSameSite = 2;  // blocks
+  const Cell block = FreeSpace::blockOf(cell);
+  CachedField* entry = nullptr;
+  for (CachedField& cached : fields_) {
+    const int off =
+        std::max(std::abs(cached.block.x - block.x), std::abs(cached.block.y - block.y));
+    if (off > kSameSite) continue;
+    entry = &cached;
+    break;
+  }
+  if (entry && choices_ - entry->made < kFieldLife) {
+    entry->used = choices_;
+    return &entry->field;
+  }
+  if (budget-- <= 0) return nullptr;
+  if (!entry && fields_.size() < kMostFields) {
+    fields_.emplace_back();
+    entry = &fields_.back();
+  }
+  if (!entry) {
+    entry = &*std::min_element(fields_.begin(), fields_.end(),
+                               [](const auto& a, const auto& b) { return a.used < b.used; });
+  }
+  entry->block = block;
+  entry->made = entry->used = choices_;
+  entry->field.begin(space, grid.resolution(), cell, parameters_.horizon);
+  return &entry->field;
+}
+
+}  // namespace cca

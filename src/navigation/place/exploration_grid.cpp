@@ -1,0 +1,242 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "cca_mrpt/navigation/place/exploration_grid.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "cca_mrpt/mapping/cross.hpp"
+#include "cca_mrpt/navigation/place/beam.hpp"
+#include "cca_mrpt/navigation/place/scan_smoothing.hpp"
+
+namespace cca {
+namespace {
+
+constexpr int kPass = 8, kReturn = 2 * kPass;  // weight of a beam that passes, of a return
+// Bounds of the evidence: 8 scans forget an obstacle.
+constexpr int kSurest = 8 * kPass, kFreest = -4 * kPass;
+// Cells. Noise of this deviation leaves nearly every return in its cell or beside it; of a beam of
+// twice the deviation four are worth one.
+constexpr double kSmallNoise = 0.3;
+constexpr double kWithin = 2.0;  // deviations: where a beam may be
+// Cells. What lies before a return is known to be free only up to this distance: noise and rounding
+// must not open the wall.
+constexpr double kBeforeSurface = 0.3;
+constexpr double kSteepest = 4.0;        // widest gap in one surface, in spacings of the beams
+constexpr double kWidestPresumed = 0.5;  // m: no robot fits through
+constexpr double kWidestGuess = 1.5;
+// Of the gap, from it to a third return.
+constexpr double kLeastReach = 0.2, kMostReach = 4.0;
+constexpr double kInLine = 0.03;             // m, grows with that
+constexpr std::size_t kMostBetween = 8;      // rays between two beams
+constexpr double kLongestRangeCells = 4000;  // 200 m at 5 cm
+
+Eigen::Vector2d directionOf(const Scan& scan, std::size_t beam) {
+  const double angle = scan.T_map_sensor.theta + scan.bearing(beam);
+  return {std::cos(angle), std::sin(angle)};
+}
+
+bool isUsable(const Scan& scan, double resolution) {
+  const Pose2& T = scan.T_map_sensor;
+  const double farthest = resolution * (kFarthestCell - kLongestRangeCells - 1.0);
+  return std::isfinite(T.theta) && std::abs(T.x) < farthest && std::abs(T.y) < farthest &&
+         std::isfinite(scan.angle_min) && std::isfinite(scan.angle_increment);
+}
+
+}  // namespace
+
+void ExplorationGrid::insert(const Scan& raw_scan) {
+  changed_.clear();
+  if (!isUsable(raw_scan, resolution_)) return;
+  noise_.add(raw_scan);
+  // Near the robot a cell has many beams, of which a single one that reads short would be enough.
+  const bool is_noisy = noise_.rangeSigma() > kSmallNoise * resolution_;
+  const Scan scan = is_noisy ? smoothScan(raw_scan, noise_.rangeSigma()) : raw_scan;
+  ++scans_;
+  const Eigen::Vector2d origin = scan.T_map_sensor.position() / resolution_;
+  directions_.clear();
+  for (std::size_t i = 0; i < scan.size(); ++i) directions_.push_back(directionOf(scan, i));
+  findCertainRanges(scan);
+  // Returns first: a cell that holds one is not cleared by a beam that passes beside the surface.
+  for (std::size_t i = 0; i < scan.size(); ++i) {
+    const double range = scan.ranges[i] / resolution_;
+    if (!isReturn(range) || range > kLongestRangeCells) continue;
+    const Eigen::Vector2d hit = origin + (range + kBehindSurface) * directions_[i];
+    add(cellOf(hit * resolution_), kReturn / kPass * weightOf(noise_.variance(scan.ranges[i])));
+  }
+  for (std::size_t i = 0; i < scan.size(); ++i) {
+    const double range = certain_ranges_[i];
+    const double free_range =
+        isReturn(scan.ranges[i]) ? range - kBeforeSurface * resolution_ : range;
+    if (!(free_range > 0.0)) continue;
+    passThrough(origin, directions_[i], std::min(free_range / resolution_, kLongestRangeCells),
+                scan.ranges[i]);
+  }
+  presumeFree(scan);
+  presumeWalls(scan);
+}
+
+/// Of a beam that may lie so far beside or before where it is thought to be. @param variance  m^2.
+int ExplorationGrid::weightOf(double variance) const {
+  const double small = kSmallNoise * resolution_;
+  return std::max(1, static_cast<int>(kPass * std::min(1.0, small * small / variance) + 0.5));
+}
+
+// A beam may have gone anywhere within the bearing noise, past an edge beside it or farther along a
+// wall that it grazes: what is certain is only what all of that is free. Between two beams the
+// inverse range is taken for linear, as it is along a wall.
+void ExplorationGrid::findCertainRanges(const Scan& scan) {
+  const std::size_t n = scan.size();
+  certain_ranges_.resize(n);
+  for (std::size_t i = 0; i < n; ++i) certain_ranges_[i] = scan.freeRange(i);
+  const double within = kWithin * noise_.bearingSigma() / std::abs(scan.angle_increment);
+  if (!(within > 0.0)) return;
+  const double small = kSmallNoise * resolution_ / noise_.bearingSigma();
+  const auto whole = static_cast<std::size_t>(std::min(within, static_cast<double>(n)));
+  for (std::size_t i = 0; i < n; ++i) {
+    const double range = scan.freeRange(i);
+    if (range <= small) continue;
+    double& certain = certain_ranges_[i];
+    for (const int side : {-1, 1}) {
+      double before = 1.0 / range;
+      for (std::size_t k = 1; k <= whole + 1; ++k) {
+        const std::size_t j = side > 0 ? i + k : i - k;
+        if (j >= n) break;
+        const double beside = scan.freeRange(j);
+        if (!(beside > 0.0)) continue;
+        const double share = std::min(1.0, within - static_cast<double>(k - 1));
+        const double inverse = before + share * (1.0 / beside - before);
+        certain = std::min(certain, 1.0 / inverse);
+        before = 1.0 / beside;
+      }
+    }
+  }
+}
+
+// Most cells are as surely free as can be already.
+void ExplorationGrid::passThrough(const Eigen::Vector2d& origin, const Eigen::Vector2d& direction,
+                                  double length, double ends_at) {
+  TiledGrid<Evidence>::Reader evidence(evidence_);
+  const double near_end = (ends_at - kWithin * noise_.rangeSigma()) / resolution_;
+  const double across = noise_.bearingSigma() * resolution_;
+  walkBeam(origin, direction, length, [&](Cell c, double entered) {
+    if (evidence.at(c) == kFreest) return true;
+    const double far = across * entered;
+    const double along = entered + 1.0 > near_end ? noise_.rangeSigma() : 0.0;
+    add(c, -weightOf(far * far + along * along));
+    return true;
+  });
+}
+
+// Far from the sensor the beams are wider apart than the cells. What lies between two returns of
+// one surface is most likely more of it, not a gap into the unknown.
+void ExplorationGrid::presumeWalls(const Scan& scan) {
+  const std::size_t n = scan.size();
+  for (std::size_t i = 0; i + 1 < n; ++i) {
+    const double a = scan.ranges[i], b = scan.ranges[i + 1];
+    if (!isReturn(a) || !isReturn(b) || std::max(a, b) > kLongestRangeCells * resolution_) continue;
+    const double behind = kBehindSurface * resolution_;
+    const Eigen::Vector2d origin = scan.T_map_sensor.position();
+    const Eigen::Vector2d from = origin + (a + behind) * directions_[i];
+    const Eigen::Vector2d to = origin + (b + behind) * directions_[i + 1];
+    const double gap = (to - from).norm();
+    const double spacing = std::min(a, b) * std::abs(scan.angle_increment);
+    if (gap < resolution_) continue;
+    if (gap > kSteepest * spacing) {
+      // Seen at a grazing angle: one surface only where a third return lies in line with both, and
+      // that lies about as far from them as they from each other. A return from around a corner,
+      // close by, is in line with anything: it would wall up doorways.
+      const Eigen::Vector2d along = (to - from) / gap;
+      const auto isInLine = [&](std::size_t k, const Eigen::Vector2d& end) {
+        if (k >= n || !isReturn(scan.ranges[k])) return false;
+        const Eigen::Vector2d p = origin + (scan.ranges[k] + behind) * directions_[k];
+        const Eigen::Vector2d offset = p - end;
+        const double reach = std::abs(offset.dot(along)) / gap;
+        return reach > kLeastReach && reach < kMostReach &&
+               std::abs(cross(along, offset)) < kInLine * (1.0 + reach);
+      };
+      if (gap > kWidestGuess || !(isInLine(i - 1, from) || isInLine(i + 2, to))) continue;
+    }
+    const Evidence presumption = gap > kWidestPresumed ? kWallGuessed : kWallPresumed;
+    walkBeam(from / resolution_, (to - from) / gap, gap / resolution_, [&](Cell c, double) {
+      if (evidence_.at(c) < presumption) write(c, presumption);
+      return true;
+    });
+  }
+}
+
+// What lies between two neighbouring beams is most likely as free as they are.
+void ExplorationGrid::presumeFree(const Scan& scan) {
+  const Eigen::Vector2d origin = scan.T_map_sensor.position() / resolution_;
+  const auto freeRange = [&](std::size_t i) { return scan.freeRange(i) / resolution_; };
+  const double apart = std::abs(scan.angle_increment);
+  // By k / (between + 1) of the way from one beam to the next: few turns serve all beams.
+  std::array<std::array<Eigen::Matrix2d, kMostBetween + 1>, kMostBetween + 1> turns;
+  for (std::size_t between = 1; between <= kMostBetween; ++between) {
+    for (std::size_t k = 1; k <= between; ++k) {
+      const double angle = scan.angle_increment * static_cast<double>(k) / (between + 1.0);
+      turns[between][k] = Eigen::Rotation2Dd(angle).toRotationMatrix();
+    }
+  }
+  for (std::size_t i = 0; i + 1 < scan.size(); ++i) {
+    const double range =
+        std::min({freeRange(i), freeRange(i + 1), kLongestRangeCells}) - kBeforeSurface;
+    if (!(range > 0.0)) continue;
+    const auto between =
+        static_cast<std::size_t>(std::min(range * apart, static_cast<double>(kMostBetween)));
+    for (std::size_t k = 1; k <= between; ++k) {
+      const Eigen::Vector2d direction = turns[between][k] * directions_[i];
+      const double gapless = std::min(1.0 / apart, range);
+      TiledGrid<Evidence>::Reader evidence(evidence_);
+      walkBeam(origin + gapless * direction, direction, range - gapless, [&](Cell c, double) {
+        if (evidence.at(c) == kNever && evidence_.at(c) == kNever) write(c, kFreePresumed);
+        return true;
+      });
+    }
+  }
+}
+
+void ExplorationGrid::add(Cell cell, int weight) {
+  std::uint32_t& counted = counted_[cell];
+  if (counted == scans_) return;
+  counted = scans_;
+  Evidence& evidence = evidence_[cell];
+  const int base = evidence <= kWallPresumed ? 0 : evidence;
+  write(cell, evidence, static_cast<Evidence>(std::clamp(base + weight, kFreest, kSurest)));
+}
+
+void ExplorationGrid::set(Cell cell, CellState state) {
+  if (!isStorable(cell)) return;
+  constexpr Evidence kValue[] = {kNever,        kFreePresumed, kWallGuessed,
+                                 kWallPresumed, kFreest,       kSurest};
+  write(cell, kValue[static_cast<int>(state)]);
+}
+
+void ExplorationGrid::write(Cell cell, Evidence& evidence, Evidence value) {
+  revealed_ += evidence <= kWallPresumed && value > kWallPresumed;
+  if (stateOf(evidence) != stateOf(value)) {
+    changed_.push_back(cell);
+    if (evidence == kNever) {
+      const bool first = highest_.x < lowest_.x;
+      lowest_ = first ? cell : Cell{std::min(lowest_.x, cell.x), std::min(lowest_.y, cell.y)};
+      highest_ = first ? cell : Cell{std::max(highest_.x, cell.x), std::max(highest_.y, cell.y)};
+    }
+  }
+  evidence = value;
+}
+
+bool ExplorationGrid::covers(const Eigen::Vector2d& p_map) const {
+  return p_map.allFinite() && p_map.cwiseAbs().maxCoeff() < resolution_ * kFarthestCell;
+}
+
+Cell ExplorationGrid::cellOf(const Eigen::Vector2d& p_map) const {
+  return {static_cast<int>(std::floor(p_map.x() / resolution_)),
+          static_cast<int>(std::floor(p_map.y() / resolution_))};
+}
+
+Eigen::Vector2d ExplorationGrid::centreOf(Cell cell) const {
+  return resolution_ * Eigen::Vector2d(cell.x + 0.5, cell.y + 0.5);
+}
+
+}  // namespace cca

@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "cca_mrpt/navigation/place/known_place.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "cca_mrpt/navigation/place/beam.hpp"
+
+namespace cca {
+namespace {
+
+constexpr double kLongestStep = 0.5;  // m, between scans; a farther one is a jump
+
+}  // namespace
+
+void KnownPlace::observe(const Scan& scan, const Eigen::Vector2d& robot_map) {
+  learnRange(scan);
+  grid_.insert(scan);
+  if (isOnGrid(robot_map)) presumeFreeBelow(robot_map);
+  takeChanges();
+  if (!isOnGrid(robot_map)) return;
+  notePassage(robot_map);
+  scanned_.add(grid_.cellOf(robot_map), scan);
+}
+
+void KnownPlace::learnRange(const Scan& scan) {
+  for (std::size_t beam = 0; beam < scan.size(); ++beam) {
+    const double seen = scan.freeRange(beam);
+    if (isReturn(seen)) laser_range_ = std::max(laser_range_, seen);
+  }
+}
+
+// Lasers that look away from the robot never see where it stands.
+void KnownPlace::presumeFreeBelow(const Eigen::Vector2d& robot_map) {
+  const double reach = space_.clearance() / grid_.resolution() - 1.0;
+  const int cells = static_cast<int>(reach);
+  const Cell here = grid_.cellOf(robot_map);
+  for (int y = -cells; y <= cells; ++y) {
+    for (int x = -cells; x <= cells; ++x) {
+      const Cell c = here + Cell{x, y};
+      if (std::hypot(x, y) > reach || grid_.at(c) != CellState::kUnknown) continue;
+      grid_.set(c, CellState::kPresumedFree);
+    }
+  }
+}
+
+void KnownPlace::notePassage(const Eigen::Vector2d& robot_map) {
+  const Eigen::Vector2d from = last_place_.value_or(robot_map) / grid_.resolution();
+  const Eigen::Vector2d step = robot_map / grid_.resolution() - from;
+  const double length = step.norm();
+  last_place_ = robot_map;
+  if (length == 0.0 || length > kLongestStep / grid_.resolution()) return;
+  walkBeam(from, step / length, length, [&](Cell c, double) {
+    space_.pass(c);
+    return true;
+  });
+}
+
+void KnownPlace::seed(const std::vector<Cell>& cells, CellState state) {
+  for (const Cell c : cells) grid_.set(c, state);
+  takeChanges();
+  seeds_.emplace_back(cells, state);
+}
+
+void KnownPlace::heed(const std::vector<Eigen::Vector2d>& places_map) {
+  for (const Eigen::Vector2d& p_map : places_map) {
+    if (isOnGrid(p_map)) grid_.set(grid_.cellOf(p_map), CellState::kOccupied);
+  }
+  takeChanges();
+}
+
+CellMove KnownPlace::correct(const PastScans& past) {
+  KnownPlace anew(space_.clearance());
+  for (const auto& [cells, state] : seeds_) anew.seed(cells, state);
+  for (const auto& kept : past.kept()) anew.observe(kept.scan, kept.T_map_robot.position());
+  const CellMove moved = [&past, grid = ExplorationGrid(grid_.resolution())](Cell c) {
+    const Eigen::Vector2d p_was = grid.centreOf(c);
+    return grid.cellOf(past.correctionAt(p_was) * p_was);
+  };
+  anew.barred_ = std::move(barred_);
+  anew.barred_.move(moved, anew.space_);
+  anew.has_narrow_passages_ = has_narrow_passages_;
+  *this = std::move(anew);
+  return moved;
+}
+
+void KnownPlace::takeChanges() {
+  space_.update(grid_, grid_.changed());
+  frontier_cells_.update(grid_, grid_.changed());
+}
+
+bool KnownPlace::openNarrowPassages() {
+  if (has_narrow_passages_) return false;
+  has_narrow_passages_ = true;
+  const double half_diagonal = std::sqrt(0.5) * grid_.resolution();
+  space_.reduceClearance(space_.clearance() - half_diagonal, grid_.lowest(), grid_.highest());
+  return true;
+}
+
+void KnownPlace::findWays(const Eigen::Vector2d& from_map, std::optional<Cell> until) {
+  const std::pair from(grid_.cellOf(from_map), space_.revision());
+  if (all_ways_from_ == from) return;
+  ways_.search(space_, grid_.resolution(), from.first, DistanceField::kUnreached, until);
+  all_ways_from_.reset();
+  if (ways_.isComplete()) all_ways_from_ = from;
+}
+
+double KnownPlace::unreached() const {
+  int cells = 0;
+  const Cell low = FreeSpace::blockOf(grid_.lowest()), high = FreeSpace::blockOf(grid_.highest());
+  for (int y = low.y; y <= high.y; ++y) {
+    for (int x = low.x; x <= high.x; ++x) {
+      const unsigned traversable = space_.traversableCells({x, y});
+      for (int k = 0; traversable >> k; ++k) {
+        const Cell c{FreeSpace::kBlock * x + k % FreeSpace::kBlock,
+                     FreeSpace::kBlock * y + k / FreeSpace::kBlock};
+        cells += (traversable >> k & 1) && !ways_.isReached(c);
+      }
+    }
+  }
+  return cells * grid_.resolution() * grid_.resolution();
+}
+
+bool KnownPlace::isOnGrid(const Eigen::Vector2d& p_map) const { return grid_.covers(p_map); }
+
+}  // namespace cca
