@@ -4,13 +4,18 @@
 #include <cmath>
 #include <sstream>
 
+#include "cca_mrpt/baselines/adaptive_fuzzy_clustering.hpp"
 #include "cca_mrpt/baselines/convolution_clustering.hpp"
 #include "cca_mrpt/baselines/expectation_maximisation.hpp"
+#include "cca_mrpt/baselines/extended_split_and_merge.hpp"
 #include "cca_mrpt/baselines/hough_transform.hpp"
 #include "cca_mrpt/baselines/incremental.hpp"
 #include "cca_mrpt/baselines/iterative_end_point_fit.hpp"
+#include "cca_mrpt/baselines/kalman_grouping.hpp"
 #include "cca_mrpt/baselines/line_regression.hpp"
+#include "cca_mrpt/baselines/predicted_features.hpp"
 #include "cca_mrpt/baselines/ransac.hpp"
+#include "cca_mrpt/baselines/scan_regression.hpp"
 #include "cca_mrpt/baselines/seeded_region_growing.hpp"
 #include "cca_mrpt/baselines/split_and_merge.hpp"
 #include "cca_mrpt/baselines/weighted_line_fitting.hpp"
@@ -72,6 +77,12 @@ const std::vector<Baseline>& all() {
                &iterativeEndPointFit),
       baseline("convolution-clustering", "Fernandez et al. 2010", &convolutionClustering),
       baseline("seeded-region-growing", "Gao et al. 2018", &seededRegionGrowing),
+      baseline("adaptive-fuzzy-clustering", "Ip et al. 2002; the paper's [14]",
+               &adaptiveFuzzyClustering),
+      baseline("extended-split-and-merge", "the paper's [13]", &extendedSplitAndMerge),
+      baseline("scan-regression", "the paper's [8]", &scanRegression),
+      baseline("predicted-features", "Zhao & Chen 2011; the paper's [18]", &predictedFeatures),
+      baseline("kalman-grouping", "Zhang, Xie & Adams; the paper's [12]", &kalmanGrouping),
   };
   return baselines;
 }

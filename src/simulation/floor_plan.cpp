@@ -31,6 +31,7 @@ void FloorPlan::addDisc(const Eigen::Vector2d& centre, double radius, int corner
     disc.push_back(centre + radius * Eigen::Vector2d(std::cos(angle), std::sin(angle)));
   }
   solids.push_back(disc);
+  arcs.push_back({centre, radius, 0.0, 2.0 * M_PI});
 }
 
 void FloorPlan::addWall(const Eigen::Vector2d& from, const Eigen::Vector2d& to, double thickness,
@@ -62,6 +63,9 @@ void FloorPlan::addArcWall(const Eigen::Vector2d& centre, double radius, double 
   for (int i = 0; i <= pieces; ++i) wall.push_back(at(radius + 0.5 * thickness, i));
   for (int i = pieces; i >= 0; --i) wall.push_back(at(radius - 0.5 * thickness, i));
   solids.push_back(wall);
+  for (const double r : {radius - 0.5 * thickness, radius + 0.5 * thickness}) {
+    arcs.push_back({centre, r, from_angle, to_angle - from_angle});
+  }
 }
 
 void FloorPlan::addOuterWalls(double thickness) {

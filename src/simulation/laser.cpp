@@ -75,9 +75,11 @@ Scan sweep(const World& world, const std::vector<Body>& bodies, const Pose2& T_m
   scan.angle_increment = parameters.beams > 1 ? field_of_view / (parameters.beams - 1) : 0.0;
   scan.free_range_without_return = parameters.range;
   scan.T_map_sensor = T_map_sensor;
-  scan.ranges = parameters.caster == "mrpt" ? castByMrpt(world, scan, parameters)
-                                            : castExact(world, bodies, scan, parameters, random);
-  if (parameters.caster == "mrpt") scan.free_range_without_return *= 0.8;  // it looks no farther
+  scan.ranges = parameters.caster == Caster::kMrpt
+                    ? castByMrpt(world, scan, parameters)
+                    : castExact(world, bodies, scan, parameters, random);
+  if (parameters.caster == Caster::kMrpt)
+    scan.free_range_without_return *= 0.8;  // it looks no farther
   for (double& range : scan.ranges) range = withNoise(range, parameters, random);
   return scan;
 }

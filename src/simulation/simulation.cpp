@@ -67,12 +67,19 @@ void Simulation::drive(const Velocity& command, double dt) {
   const double step = std::min(kLongestStep, longest_way / fastest);
   const int steps = std::max(1, static_cast<int>(std::ceil(dt / step - 1e-9)));
   const double start = time_;
+  under_way_.push_back({start, command});
   for (int i = 1; i <= steps; ++i) {
-    advance(command, dt / steps);
+    advance(heard(start + dt * (i - 0.5) / steps), dt / steps);
     moveOthers(dt / steps);
     time_ = start + dt * i / steps;
     record(i == steps);
   }
+}
+
+Velocity Simulation::heard(double time) {
+  const double sent_by = time - parameters_.robot.latency;
+  while (under_way_.size() > 1 && under_way_[1].time <= sent_by) under_way_.pop_front();
+  return under_way_.front().time <= sent_by ? under_way_.front().command : Velocity{};
 }
 
 void Simulation::advance(const Velocity& command, double dt) {

@@ -112,7 +112,7 @@ TEST(Laser, SeesDiscsAndBoxesAtTheirSurface) {
 
 TEST(Laser, MrptsSimulatorIsSelectableAndLooksLessFar) {
   LaserParameters parameters;
-  parameters.caster = "mrpt";
+  parameters.caster = Caster::kMrpt;
   parameters.range_noise = 0.0;
   Random random(1);
   const Eigen::Vector2d p(2.0, 1.5);

@@ -61,6 +61,20 @@ TEST(Simulation, KeepsWithinVelocityAndAccelerationLimits) {
   }
 }
 
+TEST(Simulation, ActsOnACommandWhenTheLatencyIsOver) {
+  SimulationParameters late;
+  late.robot.latency = 0.15;
+  Simulation simulation(room(), {1.0, 1.0, 1.57}, late);
+  simulation.drive({0.5, 0.0}, 0.1);
+  EXPECT_EQ(simulation.velocity().linear, 0.0);
+  simulation.drive({0.0, 1.0}, 0.1);
+  EXPECT_NEAR(simulation.velocity().linear, 0.05, 1e-9) << "50 ms of the first command";
+  EXPECT_EQ(simulation.velocity().angular, 0.0);
+  simulation.drive({0.0, 1.0}, 0.1);
+  EXPECT_NEAR(simulation.velocity().linear, 0.05, 1e-9) << "up for 50 ms, and down again";
+  EXPECT_NEAR(simulation.velocity().angular, 0.2, 1e-9);
+}
+
 TEST(Simulation, RecordsItsWayDenselyEnough) {
   Simulation simulation(room(), {1.0, 1.0, 1.57}, {});
   for (int i = 0; i < 30; ++i) simulation.drive({0.7, 0.4}, 1.0);

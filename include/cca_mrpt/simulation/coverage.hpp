@@ -39,6 +39,8 @@ class Coverage {
   /// Share of the visible cells seen up to each look, in [0, 1]; empty after giveUp(). Waits for
   /// the visible cells.
   std::vector<double> curve();
+  /// Returns once the visible cells are known: from then on sofar() tells.
+  void wait() { learnVisible(); }
   /// The last of curve(), or nothing while the visible cells are not known. For people.
   std::optional<double> sofar();
 

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "cca_mrpt/mapping/arc.hpp"
 #include "cca_mrpt/simulation/world.hpp"
 
 namespace cca {
@@ -22,6 +23,7 @@ struct FloorPlan {
   double width = 0.0, height = 0.0;  ///< m
   Pose2 start;                       ///< where a robot stands when nobody says otherwise
   std::vector<Polygon> solids;       ///< may overlap
+  std::vector<Arc> arcs;             ///< the round faces among them, of which solids have chords
 
   /// An axis-parallel box between two opposite corners.
   void addBox(const Eigen::Vector2d& lowest, const Eigen::Vector2d& highest);

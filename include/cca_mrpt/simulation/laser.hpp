@@ -2,7 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <string>
+#include <utility>
 #include <vector>
 
 #include "cca_mrpt/mapping/scan.hpp"
@@ -12,6 +12,16 @@
 
 namespace cca {
 
+/// How beams are traced.
+enum class Caster {
+  kExact,  ///< exact cell edges, see walkBeam()
+  kMrpt,   ///< MRPT's simulator, which sees 80 % of the range and no bodies
+};
+
+/// As options and files name them.
+inline constexpr std::pair<const char*, Caster> kCasterNames[] = {{"exact", Caster::kExact},
+                                                                  {"mrpt", Caster::kMrpt}};
+
 /// The simulated laser.
 struct LaserParameters {
   double range = 8.0;
@@ -20,7 +30,7 @@ struct LaserParameters {
   double range_noise = 0.01;
   double angle_noise_deg = 0.0;
   double dropout = 0.0;
-  std::string caster = "exact";
+  Caster caster = Caster::kExact;
 };
 
 /// See describe(CcaParameters&, ...).
@@ -33,7 +43,7 @@ void describe(LaserParameters& p, Field&& field) {
   field("angle_noise_deg", p.angle_noise_deg, 0.0, 10.0, "deg",
         "standard deviation of a beam's direction");
   field("dropout", p.dropout, 0.0, 1.0, "", "share of beams that give an invalid reading");
-  field("caster", p.caster, {"exact", "mrpt"},
+  field("caster", p.caster, kCasterNames,
         "how beams are traced: exact cell edges, or MRPT's simulator (sees 80 % of the range)");
 }
 

@@ -8,7 +8,7 @@ namespace cca {
 /// How a simulated exploration is run.
 struct RunParameters {
   int seed = 1;
-  std::string pose = "truth";
+  std::string pose = "slam";
   double control_period = 0.1;
   double longest_time = 14400.0;
 };
@@ -17,7 +17,7 @@ struct RunParameters {
 template <class Field>
 void describe(RunParameters& p, Field&& field) {
   field("seed", p.seed, 0, 2147483647, "", "of all that is random: same seed, same run");
-  field("pose", p.pose, {"truth", "slam", "odometry", "icp"},
+  field("pose", p.pose, {"slam", "truth", "odometry", "icp"},
         "where the robot takes its pose from");
   field("control_period", p.control_period, 0.01, 1.0, "s", "between two scans and decisions");
   field("longest_time", p.longest_time, 1.0, 1e6, "s", "simulated time after which a run fails");

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <deque>
 #include <vector>
 
 #include "cca_mrpt/navigation/explorer.hpp"
@@ -13,7 +14,7 @@
 namespace cca {
 
 struct SimulationParameters {
-  RobotParameters robot;
+  RobotParameters robot;  ///< as it is, whatever the planner is told of it
   LaserParameters laser;
   OdometryParameters odometry;
   std::uint64_t seed = 1;
@@ -40,7 +41,8 @@ class Simulation {
   /// A new scan from the true place, with the true pose. Each call draws new noise.
   Observation observe();
 
-  /// Drives for dt seconds towards a commanded velocity, within the robot's limits.
+  /// Drives for dt seconds towards a commanded velocity, within the robot's limits. The base hears
+  /// of the command when the robot's latency is over, and drives by the one before until then.
   void drive(const Velocity& command, double dt);
 
   double time() const { return time_; }           ///< s since the start
@@ -58,6 +60,12 @@ class Simulation {
   const std::vector<TimedPose>& trajectory() const { return trajectory_; }
 
  private:
+  struct Sent {
+    double time;
+    Velocity command;
+  };
+
+  Velocity heard(double time);
   void advance(const Velocity& command, double dt);
   void moveOthers(double dt);
   /// m, from a point to the nearest obstacle or mover, at most limit.
@@ -69,6 +77,7 @@ class Simulation {
   Movers movers_;
   Pose2 T_map_robot_;
   Velocity velocity_;
+  std::deque<Sent> under_way_;  ///< the first one is what the base acts on
   Odometry odometry_;
   Random laser_random_;
   double time_ = 0.0, distance_ = 0.0;
