@@ -1,15 +1,11 @@
 # find_package(cca_mrpt [COMPONENTS mapping slam navigation baselines simulation io])
 #
-# The targets cca_mrpt::mapping, ::navigation and ::baselines need Eigen only; ::slam, ::simulation
-# and ::io are there when they are asked for as components: slam brings Ceres with it, the others Ceres and MRPT.
+# The targets cca_mrpt::mapping, ::slam, ::navigation and ::baselines need Eigen only; ::simulation and ::io
+# are there when they are asked for as components, and bring MRPT with them.
 include(CMakeFindDependencyMacro)
 find_dependency(Eigen3 NO_MODULE)
 include(${cca_mrpt_DIR}/cca_mrpt_eigen.cmake)
 foreach(component ${cca_mrpt_FIND_COMPONENTS})
-  if(component MATCHES "^(slam|simulation|io)$" AND NOT TARGET cca_mrpt::slam)
-    find_dependency(Ceres)
-    include(${cca_mrpt_DIR}/cca_mrpt_slam.cmake)
-  endif()
   if(component MATCHES "^(simulation|io)$" AND NOT TARGET cca_mrpt::simulation)
     find_dependency(MRPT COMPONENTS maps obs slam gui opengl io img)
     find_dependency(nlohmann_json)

@@ -24,12 +24,8 @@ else()
   install(FILES ${CMAKE_CURRENT_BINARY_DIR}/cca_mrptConfigVersion.cmake DESTINATION ${config_dir})
 endif()
 
-# The Eigen-only layers stand in an export of their own, so that using them needs neither MRPT nor Ceres.
-set(eigen_layers cca_mapping cca_navigation)
-set(slam_layers cca_slam)
-if(NOT CCA_WITH_SLAM)
-  set(slam_layers "")
-endif()
+# The Eigen-only layers stand in an export of their own, so that using them needs no MRPT.
+set(eigen_layers cca_mapping cca_navigation cca_slam)
 set(mrpt_layers cca_evaluation cca_simulation cca_io)
 if(CCA_WITH_EVIDENCE)
   list(APPEND eigen_layers cca_baselines)
@@ -38,7 +34,7 @@ endif()
 if(NOT CCA_WITH_MRPT)
   set(mrpt_layers "")
 endif()
-foreach(kind eigen slam mrpt)
+foreach(kind eigen mrpt)
   if(${kind}_layers)
     #catkin_lint: ignore_once undefined_target (cca_layer() defines them)
     install(TARGETS ${${kind}_layers} EXPORT cca_mrpt_${kind}

@@ -4,6 +4,6 @@ generate_messages(DEPENDENCIES geometry_msgs std_msgs)
 # The layers are exported as CMake targets, by cca_mrpt-extras.cmake.
 #catkin_lint: ignore missing_export_lib unused_include_path
 catkin_package(INCLUDE_DIRS include
-               CATKIN_DEPENDS geometry_msgs message_runtime nav_msgs roscpp rosgraph_msgs sensor_msgs std_msgs
-                              std_srvs visualization_msgs
+               CATKIN_DEPENDS actionlib dynamic_reconfigure geometry_msgs message_runtime move_base_msgs nav_msgs
+                              roscpp rosgraph_msgs sensor_msgs std_msgs std_srvs visualization_msgs
                CFG_EXTRAS cca_mrpt-extras.cmake)

@@ -17,6 +17,9 @@ class Belief {
  public:
   Belief(const Parameters& parameters, const Pose2& T_map_start);
 
+  /// Goes on with an earlier map, from anywhere in it: to be called first, by line SLAM only.
+  void remember(const SlamMemory& memory);
+
   /// Replaces the true pose of an observation by what the robot believes.
   /// @return whether the poses of the past have been corrected, see past().
   bool replacePose(Observation& observation, const Pose2& T_odom_robot);
@@ -26,11 +29,17 @@ class Belief {
 
   /// The scans to make maps from, where they are believed to have been taken.
   const PastScans& past() const { return past_; }
-  /// T_map_robot of all scans, in their order, as believed now.
+  /// How many of these are of an earlier map: the first ones.
+  std::size_t remembered() const {
+    return slam_ ? static_cast<std::size_t>(slam_->remembered()) : 0;
+  }
+  /// T_map_robot of all scans of this drive, in their order, as believed now.
   const std::vector<Pose2>& trajectory() const { return trajectory_; }
   const std::string& source() const { return source_; }
   int loops() const { return slam_ ? static_cast<int>(slam_->loops().size()) : 0; }
   int corrections() const { return version_; }
+  /// Line SLAM, where the belief comes from it.
+  const Slam* slam() const { return slam_ ? &*slam_ : nullptr; }
 
  private:
   void correctPast();

@@ -18,7 +18,7 @@ namespace {
 
 using namespace evidence;
 
-struct Options {
+struct ExtractorComparison {
   std::vector<std::string> inputs;
   std::vector<double> noises;
   std::vector<std::string> extractors;
@@ -28,7 +28,7 @@ struct Options {
   bool pieces = false;
 };
 
-bool isChosen(const Options& options, const std::string& name) {
+bool isChosen(const ExtractorComparison& options, const std::string& name) {
   return options.extractors.empty() ||
          std::find(options.extractors.begin(), options.extractors.end(), name) !=
              options.extractors.end();
@@ -46,7 +46,7 @@ void append(std::vector<LabelledScan>& all, std::vector<LabelledScan> more) {
   for (LabelledScan& scan : more) all.push_back(std::move(scan));
 }
 
-std::vector<ScanGroup> gather(const Options& options, const LaserParameters& laser) {
+std::vector<ScanGroup> gather(const ExtractorComparison& options, const LaserParameters& laser) {
   std::vector<ScanGroup> groups;
   std::vector<double> noises = options.noises;
   if (noises.empty()) noises.push_back(laser.range_noise);
@@ -131,7 +131,7 @@ class Results {
   std::ostringstream csv_;
 };
 
-void compare(const Options& options, const Parameters& parameters) {
+void compare(const ExtractorComparison& options, const Parameters& parameters) {
   Results results;
   const auto groups = gather(options, parameters.laser);
   if (!options.out.empty()) makeFolder(options.out);
@@ -160,7 +160,7 @@ void compare(const Options& options, const Parameters& parameters) {
   writeFile(options.out + "/comparison.csv", results.text());
 }
 
-void fit(const Options& options, const Parameters& parameters) {
+void fit(const ExtractorComparison& options, const Parameters& parameters) {
   std::vector<LabelledScan> scans;
   for (ScanGroup& group : gather(options, parameters.laser)) {
     if (group.name == "simulated") append(scans, std::move(group.scans));
@@ -180,7 +180,7 @@ void fit(const Options& options, const Parameters& parameters) {
 void addCompareExtractorsCommand(CLI::App& program) {
   auto* command = program.add_subcommand("compare-extractors",
                                          "classical line extractors and ours on the same scans");
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<ExtractorComparison>();
   command->add_option("INPUT", options->inputs,
                       "worlds (.yaml, true segments beside them) and logs");
   command->add_option("--polygons", options->polygons, "also scans from inside random polygons")

@@ -18,7 +18,7 @@
 #include "cca_mrpt/simulation/coverage.hpp"
 #include "cca_mrpt/simulation/simulation.hpp"
 #include "commands.hpp"
-#include "exploration_record.hpp"
+#include "moved.hpp"
 #include "parameter_options.hpp"
 
 namespace cca::apps {
@@ -81,7 +81,7 @@ Result perform(const Run& run, const World& world, const Parameters& parameters)
   simulated.seed = static_cast<std::uint64_t>(run.number) + 1;
   Simulation simulation(world, run.T_map_start, simulated);
   ExplorerParameters exploration = parameters.exploration;
-  exploration.strategy = run.strategy;
+  exploration.strategy = strategyNamed(run.strategy);
   Explorer explorer(parameters.mapping, parameters.robot, exploration);
   Coverage coverage(world, run.T_map_start.position(), parameters.robot.radius,
                     parameters.laser.range);
@@ -257,7 +257,7 @@ void addCompareStrategiesCommand(CLI::App& program) {
       "compare-strategies",
       "every strategy on the same worlds, starts and seeds: how far it drives");
   auto options = std::make_shared<CompareOptions>();
-  options->strategies = {"view_tour", "greedy", "nearest_frontier", "gain_distance", "information"};
+  for (const auto& named : kStrategyNames) options->strategies.push_back(named.first);
   command->add_option("WORLD", options->worlds, "worlds, map_server YAML files")->required();
   command->add_option("--strategies", options->strategies, "names, comma-separated")
       ->delimiter(',')

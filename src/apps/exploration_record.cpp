@@ -7,14 +7,14 @@
 
 #include "cca_mrpt/io/atomic_file.hpp"
 #include "cca_mrpt/io/local_frame.hpp"
+#include "cca_mrpt/io/memory_file.hpp"
 #include "cca_mrpt/io/pose_files.hpp"
 #include "cca_mrpt/io/trajectory_error.hpp"
+#include "moved.hpp"
 
 namespace cca::apps {
 
 namespace {
-
-constexpr double kEveryDistance = 0.1, kEveryTurn = 0.25;  // m, rad, between kept scans
 
 double rounded(double value, double per_unit) { return std::round(value * per_unit) / per_unit; }
 
@@ -27,15 +27,6 @@ double quantile(std::vector<double> values, double share) {
 
 }  // namespace
 
-bool keepIfMoved(std::optional<Pose2>& last, const Pose2& now) {
-  if (last && (now.position() - last->position()).norm() < kEveryDistance &&
-      std::abs(wrapAngle(now.theta - last->theta)) < kEveryTurn) {
-    return false;
-  }
-  last = now;
-  return true;
-}
-
 ExplorationRecord::ExplorationRecord(const Simulation& simulation, const Eigen::Vector2d& origin,
                                      const Parameters& parameters, const std::string& folder)
     : folder_(folder),
@@ -44,7 +35,8 @@ ExplorationRecord::ExplorationRecord(const Simulation& simulation, const Eigen::
       rawlog_(folder + "/run.rawlog", simulation.parameters().laser.range),
       grid_(simulation.T_map_robot().position()),
       coverage_(simulation.world(), simulation.T_map_robot().position(),
-                simulation.parameters().robot.radius, simulation.parameters().laser.range) {}
+                simulation.parameters().robot.radius, simulation.parameters().laser.range),
+      replay_(simulation.world().name, simulation.parameters().robot.radius) {}
 
 void ExplorationRecord::add(const Cycle& cycle) {
   ++scans_;
@@ -53,22 +45,23 @@ void ExplorationRecord::add(const Cycle& cycle) {
     look(cycle.T_map_robot, cycle.time, cycle.distance);
   if (cycle.goal && (!goal_ || *goal_ != *cycle.goal)) ++goals_;
   goal_ = cycle.goal;
-  const auto& [scan, T_map_robot, velocity, time] = cycle.believed;
+  const Scan& scan = cycle.believed.scan;
+  const Pose2& T_map_robot = cycle.believed.T_map_robot;
   rawlog_.insert(scan, T_map_robot.inverse() * scan.T_map_sensor,
-                 seenFrom(-origin_, cycle.T_odom_robot), time);
-  if (keepIfMoved(last_insertion_, T_map_robot)) {
+                 seenFrom(-origin_, cycle.T_odom_robot), cycle.believed.time);
+  if (cycle.believed.is_placed && keepIfMoved(last_insertion_, T_map_robot)) {
     grid_.insert(scan);
     believed_way_.push_back(T_map_robot);
   }
   work_us_.push_back(cycle.work_us);
 }
 
-void ExplorationRecord::correct(const PastScans& past) {
+void ExplorationRecord::correct(const PastScans& past, std::size_t remembered) {
   grid_ = ScanGrid();
   believed_way_.clear();
   for (const auto& kept : past.kept()) {
     grid_.insert(kept.scan);
-    believed_way_.push_back(kept.T_map_robot);
+    if (kept.step >= remembered) believed_way_.push_back(kept.T_map_robot);
   }
 }
 
@@ -110,6 +103,16 @@ void ExplorationRecord::writeCoverage() {
   writeFile(folder_ + "/coverage.csv", text);
 }
 
+std::string ExplorationRecord::packedReplay(const Simulation& simulation,
+                                            const std::vector<MapLine>& lines) {
+  std::vector<double> distances;
+  for (const Look& kept : looks_) distances.push_back(kept.distance);
+  replay_.setCoverage(distances, coverage_.curve());
+  replay_.setWorld(simulation.world());
+  replay_.finish(lines);
+  return replay_.packed(origin_);
+}
+
 nlohmann::ordered_json ExplorationRecord::summary(const Simulation& simulation,
                                                   const Belief& belief, const End& end) {
   nlohmann::ordered_json summary;
@@ -122,6 +125,7 @@ nlohmann::ordered_json ExplorationRecord::summary(const Simulation& simulation,
   summary["wall_s"] = rounded(end.wall_s, 1e3);
   const auto seen = coverage_.sofar();
   summary["coverage"] = seen ? nlohmann::json(rounded(*seen, 1e6)) : nullptr;  // nobody waited
+  summary["unreached_m2"] = rounded(end.unreached, 1e2);
   summary["goals"] = goals_;
   summary["collisions"] = simulation.collisions();
   summary["mover_contacts"] = simulation.moverContacts();
@@ -133,6 +137,7 @@ nlohmann::ordered_json ExplorationRecord::summary(const Simulation& simulation,
   summary["pose_error_worst_m"] = rounded(error.max_m, 1e4);
   summary["loops"] = belief.loops();
   summary["corrections"] = belief.corrections();
+  if (belief.remembered() > 0) summary["found_in_memory"] = belief.slam()->isInMemory();
   summary["scans"] = scans();
   summary["scan_us_median"] = rounded(quantile(work_us_, 0.5), 10.0);
   summary["scan_us_p99"] = rounded(quantile(work_us_, 0.99), 10.0);
@@ -149,6 +154,7 @@ MapProducts ExplorationRecord::products(const Simulation& simulation,
   products.title = simulation.world().name;
   products.lines = explorer.lineMap().lines();
   products.poly_lines = explorer.lineMap().polyLines();
+  products.arcs = explorer.lineMap().arcs();
   products.trajectory = believed_way_;
   products.grid = grid_.grid();
   products.origin = origin_;
@@ -164,6 +170,11 @@ void ExplorationRecord::write(const Simulation& simulation, const Explorer& expl
   writePoses(belief);
   writeCoverage();
   MapProducts all = products(simulation, explorer);
+  all.replay = packedReplay(simulation, all.lines);
+  if (const Slam* slam = belief.slam()) {
+    all.graph = slam->keyFrames().graph;
+    all.memory = packedMemory({slam->memory(), origin_});
+  }
   all.summary = summary(simulation, belief, end);
   writeMapFolder(folder_, all);
 }

@@ -9,16 +9,13 @@
 #include "cca_mrpt/io/map_products.hpp"
 #include "cca_mrpt/io/parameters.hpp"
 #include "cca_mrpt/io/rawlog_writer.hpp"
+#include "cca_mrpt/io/replay.hpp"
 #include "cca_mrpt/io/scan_grid.hpp"
 #include "cca_mrpt/navigation/explorer.hpp"
 #include "cca_mrpt/simulation/coverage.hpp"
 #include "cca_mrpt/simulation/simulation.hpp"
 
 namespace cca::apps {
-
-/// Keeps a pose that lies 10 cm or 0.25 rad from the last one that was kept. @return whether it
-/// does.
-bool keepIfMoved(std::optional<Pose2>& last, const Pose2& now);
 
 /// What is kept of a simulated exploration for the files of its folder.
 class ExplorationRecord {
@@ -28,6 +25,9 @@ class ExplorationRecord {
     bool finished = false;
     std::string reason;
     double wall_s = 0.0;
+    /// m^2 in view at the end where the robot could stand, and no way was found to.
+    double unreached = 0.0;
+    bool leaves_much = false;  ///< see Explorer::leavesMuch()
   };
 
   /// @param parameters  as they are told in summary.json.
@@ -47,7 +47,8 @@ class ExplorationRecord {
   void add(const Cycle& cycle);
 
   /// Takes a correction of the past.
-  void correct(const PastScans& past);
+  /// @param remembered  scans of it that are of an earlier drive, the first ones.
+  void correct(const PastScans& past, std::size_t remembered);
 
   /// Writes every file of the folder. @throws std::runtime_error naming the file.
   void write(const Simulation& simulation, const Explorer& explorer, const Belief& belief,
@@ -57,6 +58,7 @@ class ExplorationRecord {
   int goals() const { return goals_; }
   const Eigen::Vector2d& origin() const { return origin_; }
   Coverage& coverage() { return coverage_; }
+  Replay& replay() { return replay_; }
   /// What the map's files are made from, as it stands.
   MapProducts products(const Simulation& simulation, const Explorer& explorer) const;
 
@@ -68,6 +70,7 @@ class ExplorationRecord {
   void writeTrajectory(const Simulation& simulation) const;
   void writePoses(const Belief& belief) const;
   void writeCoverage();
+  std::string packedReplay(const Simulation& simulation, const std::vector<MapLine>& lines);
   nlohmann::ordered_json summary(const Simulation& simulation, const Belief& belief,
                                  const End& end);
 
@@ -77,6 +80,7 @@ class ExplorationRecord {
   RawlogWriter rawlog_;
   ScanGrid grid_;
   Coverage coverage_;
+  Replay replay_;
   std::vector<Look> looks_;
   std::vector<Pose2> believed_way_;
   std::vector<TimedPose> truth_;  ///< of each scan

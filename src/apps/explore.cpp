@@ -16,14 +16,17 @@
 #include "cca_mrpt/io/late_library.hpp"
 #include "cca_mrpt/io/local_frame.hpp"
 #include "cca_mrpt/io/map_products.hpp"
+#include "cca_mrpt/io/memory_file.hpp"
 #include "cca_mrpt/navigation/explorer.hpp"
 #include "cca_mrpt/simulation/simulation.hpp"
 #include "commands.hpp"
 #include "exploration_record.hpp"
 #include "exploration_window.hpp"
 #include "interruption.hpp"
+#include "moved.hpp"
 #include "parameter_options.hpp"
 #include "progress.hpp"
+#include "replay_moment.hpp"
 #include "tour_left.hpp"
 #include "within.hpp"
 #include "world_name.hpp"
@@ -35,10 +38,12 @@ namespace {
 namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 
+/// A robot that has not found its place on so much way [m] is not exploring any more.
+constexpr double kLongestLost = 30.0;
 constexpr double kSmallestView = 60.0, kWidestSpacing = 5.0;  // deg
 
 struct ExploreOptions {
-  std::string world, movers, out;
+  std::string world, movers, out, resume;
   std::vector<double> start;  // x, y in m, heading in degrees; empty: the world's own
   bool gui = false, quiet = false, force = false;
 };
@@ -124,9 +129,10 @@ void showProgress(Progress& progress, const Simulation& simulation, const Explor
   progress.show(driven + left > 0.0 ? driven / (driven + left) : 0.0, detail);
 }
 
-void correctMap(const PastScans& past, Explorer& explorer, ExplorationRecord& record) {
+void correctMap(const PastScans& past, std::size_t remembered, Explorer& explorer,
+                ExplorationRecord& record) {
   explorer.correctMap(past);
-  record.correct(past);
+  record.correct(past, remembered);
 }
 
 // The line map and the files are kept beside the drive, on the second core: neither feeds back.
@@ -135,28 +141,45 @@ ExplorationRecord::End drive(Simulation& simulation, Explorer& explorer, Explora
                              const Interruption& interruption, Progress* progress,
                              ExplorationWindow* window) {
   const auto begin = Clock::now();
+  double placed_at = 0.0;  // m of way
+  std::optional<Pose2> last_moment;
   BackgroundWork beside;
   while (!interruption.requested() && simulation.time() < run.longest_time) {
     Observation observation = simulation.observe();
     const auto start = Clock::now();
     if (belief.replacePose(observation, simulation.T_odom_robot())) {
       explorer.correctNavigation(belief.past());
-      beside.add([&, past = belief.past()] { correctMap(past, explorer, record); });
+      beside.add(
+          [&, past = belief.past()] { correctMap(past, belief.remembered(), explorer, record); });
     }
     const Action action = explorer.navigate(observation);
     ExplorationRecord::Cycle cycle{
         simulation.time(),         simulation.distance(), simulation.T_map_robot(),
         simulation.T_odom_robot(), observation,           action.goal,
         1e6 * secondsSince(start)};
-    beside.add([&, cycle = std::move(cycle)]() mutable {
+    std::optional<ReplayMoment> moment;
+    if (keepIfMoved(last_moment, observation.T_map_robot) ||
+        action.status == ExplorationStatus::kFinished) {
+      moment = momentOf(simulation, explorer, observation, action);
+    }
+    beside.add([&, cycle = std::move(cycle), moment = std::move(moment)]() mutable {
       const auto map_start = Clock::now();
-      explorer.map(cycle.believed.scan);
+      if (cycle.believed.is_placed) explorer.map(cycle.believed.scan);
       cycle.work_us += 1e6 * secondsSince(map_start);
       record.add(cycle);
+      if (moment) record.replay().add(*moment, cycle.believed.scan, explorer.lineMap());
     });
+    if (observation.is_placed) placed_at = simulation.distance();
+    if (simulation.distance() - placed_at > kLongestLost) {
+      beside.wait();
+      return {false,
+              "the robot has not known its place for " +
+                  std::to_string(static_cast<int>(kLongestLost)) + " m",
+              0.0};
+    }
     if (action.status == ExplorationStatus::kFinished) {
       beside.wait();
-      return {true, action.reason, 0.0};
+      return {true, action.reason, 0.0, explorer.planner().plan().unreached, explorer.leavesMuch()};
     }
     simulation.drive(action.velocity, run.control_period);
     if (window && window->isDue()) {
@@ -182,6 +205,21 @@ void awaitCoverage(Coverage& coverage, const Interruption& interruption) {
   }
 }
 
+/// What a run that ended by itself has not done well; empty where there is nothing.
+std::string shortcomings(const Simulation& simulation, const ExplorationRecord::End& end) {
+  std::string text;
+  char part[80];
+  if (simulation.collisions() > 0) {
+    std::snprintf(part, sizeof part, "%d contacts with what stands", simulation.collisions());
+    text = part;
+  }
+  if (end.leaves_much) {
+    std::snprintf(part, sizeof part, "%.1f m^2 in view that no way was found to", end.unreached);
+    text += (text.empty() ? "" : ", ") + std::string(part);
+  }
+  return text;
+}
+
 std::unique_ptr<ExplorationWindow> openWindow(const World& world) {
   auto* const open = reinterpret_cast<OpenExplorationWindow*>(
       lateFunction(kWindowLibrary, kOpenExplorationWindow));
@@ -205,10 +243,25 @@ void requireLaser(const LaserParameters& laser) {
   }
 }
 
+void requireSlam(const ExploreOptions& options, const RunParameters& run) {
+  if (options.resume.empty() || run.pose == "slam") return;
+  throw CLI::ValidationError("--resume",
+                             "needs --pose slam: who is told where it is need not find itself");
+}
+
+void tellOfMemory(const ExploreOptions& options, const Belief& belief) {
+  if (belief.remembered() == 0 || belief.slam()->isInMemory()) return;
+  std::fprintf(stderr, "cca-mrpt: no place of %s was found: this is the map of this run alone\n",
+               options.resume.c_str());
+}
+
 void explore(const ExploreOptions& options, const Parameters& parameters) {
   const auto start = Clock::now();
   requireLaser(parameters.laser);
+  requireSlam(options, parameters.run);
   Scene scene = makeScene(options, parameters);
+  std::optional<SlamMemory> memory;
+  if (!options.resume.empty()) memory = seenFrom(scene.origin, loadMemory(options.resume));
   Simulation& simulation = scene.simulation;
   std::unique_ptr<ExplorationWindow> window;
   if (options.gui) window = openWindow(simulation.world());
@@ -217,13 +270,15 @@ void explore(const ExploreOptions& options, const Parameters& parameters) {
   Explorer explorer(parameters.mapping, parameters.robot, parameters.exploration);
   ExplorationRecord record(simulation, scene.origin, parameters, folder);
   Belief belief(parameters, simulation.T_map_robot());
+  if (memory) belief.remember(*memory);
   std::unique_ptr<Progress> progress;
   if (!options.quiet) progress = std::make_unique<Progress>("exploring");
   const Interruption interruption;
   auto end = drive(simulation, explorer, record, belief, parameters.run, interruption,
                    progress.get(), window.get());
   progress.reset();
-  if (belief.finish()) correctMap(belief.past(), explorer, record);
+  if (belief.finish()) correctMap(belief.past(), belief.remembered(), explorer, record);
+  tellOfMemory(options, belief);
   awaitCoverage(record.coverage(), interruption);
   end.wall_s = secondsSince(start);
   record.write(simulation, explorer, belief, end);
@@ -238,6 +293,8 @@ void explore(const ExploreOptions& options, const Parameters& parameters) {
   if (!end.finished) {
     throw std::runtime_error(end.reason + "; what was mapped so far is in " + folder);
   }
+  const std::string shortcoming = shortcomings(simulation, end);
+  if (!shortcoming.empty()) throw Shortcoming(shortcoming + "; the map is in " + folder);
 }
 
 }  // namespace
@@ -254,6 +311,8 @@ void addExploreCommand(CLI::App& program) {
       ->expected(3)
       ->check(within(-2e7, 2e7));
   command->add_option("--movers", options->movers, "what moves about, a YAML file");
+  command->add_option("--resume", options->resume,
+                      "DIR of an earlier map: go on with it, from anywhere in it");
   command->add_flag("--gui", options->gui, "show the run in MRPT's 3-D window");
   command->add_option("--out", options->out, "folder for the results; else out/WORLD-001, ...");
   command->add_flag("--force", options->force, "overwrite results that are in the folder");

@@ -10,7 +10,7 @@
 
 namespace {
 
-constexpr int kDone = 0, kRunFailed = 1, kUsage = 2;
+constexpr int kDone = 0, kRunFailed = 1, kUsage = 2, kFellShort = 3;
 
 /// MRPT's own errors are pages with a call stack; the cause stands behind "Message:".
 std::string withoutCallStack(const std::string& error) {
@@ -45,17 +45,20 @@ int main(int argc, char** argv) {
   cca::apps::addExtractCommand(program);
   cca::apps::addInfoCommand(program);
   cca::apps::addMapCommand(program);
+  cca::apps::addMergeCommand(program);
   cca::apps::addRenderCommand(program);
   cca::apps::addGenerateWorldCommand(program);
 #ifdef CCA_EVIDENCE
   cca::apps::addCompareExtractorsCommand(program);
+  cca::apps::addCompareSlamCommand(program);
   cca::apps::addCompareStrategiesCommand(program);
   cca::apps::addTuneCommand(program);
   cca::apps::addAblateCommand(program);
   cca::apps::addEvaluateCommand(program);
 #else
   program.footer(
-      "This build has no ablate, evaluate, compare-extractors, compare-strategies and tune\n"
+      "This build has no ablate, evaluate, compare-extractors, compare-slam,\n"
+      "compare-strategies and tune\n"
       "(cmake -D CCA_WITH_EVIDENCE=ON, as launch_scripts/test.sh builds it).");
 #endif
   if (argc > 1 && argv[1][0] != '-' && !isCommand(program, argv[1])) {
@@ -66,6 +69,9 @@ int main(int argc, char** argv) {
     program.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     return withOutput(program.exit(error) == 0 ? kDone : kUsage);
+  } catch (const cca::apps::Shortcoming& shortcoming) {
+    std::fprintf(stderr, "cca-mrpt: %s\n", shortcoming.what());
+    return withOutput(kFellShort);
   } catch (const std::exception& error) {
     std::fprintf(stderr, "cca-mrpt: %s\n", withoutCallStack(error.what()).c_str());
     return kRunFailed;

@@ -8,11 +8,13 @@
 #include <string>
 #include <vector>
 
+#include "cca_mrpt/io/atomic_file.hpp"
 #include "cca_mrpt/io/line_formats.hpp"
 #include "cca_mrpt/io/local_frame.hpp"
 #include "cca_mrpt/io/map_picture.hpp"
 #include "cca_mrpt/io/map_scene.hpp"
 #include "cca_mrpt/io/occupancy_files.hpp"
+#include "cca_mrpt/io/replay.hpp"
 #include "cca_mrpt/io/scan_grid.hpp"
 #include "cca_mrpt/io/video.hpp"
 #include "cca_mrpt/mapping/line_map.hpp"
@@ -27,14 +29,15 @@ namespace cca::apps {
 namespace {
 
 constexpr double kSmallestView = 0.01;  // m
+constexpr const char* kReplay = "replay.html";
 
 struct RenderOptions {
-  std::string map, log, out;
+  std::string map, log, out, beside;
   std::vector<double> view;  ///< x0, y0, x1, y1 [m]
   PictureOptions picture;
   int size = 0;  ///< pixels; 0: by kind
   bool no_background = false, no_trajectory = false, no_caption = false, video = false,
-       solid = false;
+       solid = false, html = false;
   double seconds = 10.0;
 };
 
@@ -147,6 +150,19 @@ void renderVideo(const RenderOptions& options, const Parameters& parameters) {
   video.encode();
 }
 
+/// The run that a folder, or a page, holds.
+std::string runOf(const std::string& path) {
+  const std::string page =
+      std::filesystem::is_directory(path) ? (std::filesystem::path(path) / kReplay).string() : path;
+  return runsOfReplayPage(readFile(page), page).front();
+}
+
+void renderPage(const RenderOptions& options) {
+  std::vector<std::string> runs{runOf(options.map)};
+  if (!options.beside.empty()) runs.push_back(runOf(options.beside));
+  writeFile(options.out, replayPage(runs));
+}
+
 void render(RenderOptions options, const Parameters& parameters) {
   options.picture.longest_side = options.size > 0 ? options.size : options.video ? 800 : 1600;
   if (options.solid && options.picture.longest_side > kLargestSolidPicture) {
@@ -164,10 +180,22 @@ void render(RenderOptions options, const Parameters& parameters) {
         Eigen::AlignedBox2d(Eigen::Vector2d(v[0], v[1]), Eigen::Vector2d(v[2], v[3]));
   }
   if (options.video) {
+    if (options.out.empty()) throw CLI::RequiredError("--out");
     if (options.log.empty()) throw CLI::RequiredError("--log (what --video is made from)");
     renderVideo(options, parameters);
+  } else if (options.html) {
+    if (options.map.empty()) throw CLI::RequiredError("DIR (that map or explore has written)");
+    if (options.out.empty() && std::filesystem::is_directory(options.map) &&
+        options.beside.empty()) {
+      options.out = (std::filesystem::path(options.map) / kReplay).string();
+    }
+    if (std::filesystem::path(options.out).extension() != ".html") {
+      throw CLI::ValidationError("--out", "a page that ends in .html is needed");
+    }
+    renderPage(options);
   } else {
     if (options.map.empty()) throw CLI::RequiredError("MAP.csv");
+    if (options.out.empty()) throw CLI::RequiredError("--out");
     if (std::filesystem::path(options.out).extension() != ".png") {
       throw CLI::ValidationError("--out", options.out + " must end in .png");
     }
@@ -180,11 +208,13 @@ void render(RenderOptions options, const Parameters& parameters) {
 void addRenderCommand(CLI::App& program) {
   auto* command = program.add_subcommand("render", "picture of a line map, or video of its making");
   auto options = std::make_shared<RenderOptions>();
-  auto* map =
-      command->add_option("MAP", options->map, "lines.csv of a map, or any CSV with x1,y1,x2,y2");
+  auto* map = command->add_option(
+      "MAP", options->map,
+      "lines.csv of a map, or any CSV with x1,y1,x2,y2; with --html a map's folder");
   command->add_option("--log", options->log, "scans and poses to draw below the map");
-  command->add_option("--out", options->out, "PNG to write; with --video a .gif or .mp4")
-      ->required();
+  command->add_option("--out", options->out,
+                      "PNG to write; with --video a .gif or .mp4; with --html a page "
+                      "[the folder's replay.html]");
   command->add_option("--size", options->size, "pixels of the longer side [1600; video 800]")
       ->check(CLI::Range(kSmallestPicture, kLargestPicture));
   command->add_option("--view", options->view, "X0,Y0,X1,Y1: what to show, m; default: all")
@@ -199,6 +229,11 @@ void addRenderCommand(CLI::App& program) {
   auto* video = command->add_flag("--video", options->video,
                                   "the map of --log as it is built (needs ffmpeg)");
   video->excludes(map)->excludes(solid);
+  auto* html = command->add_flag("--html", options->html,
+                                 "a page to replay the run in, from its folder's replay.html");
+  html->excludes(video)->excludes(solid);
+  command->add_option("--beside", options->beside, "folder of a second run, to be seen beside it")
+      ->needs(html);
   command->add_option("--seconds", options->seconds, "length of the video")
       ->check(within(0.5, 600.0))
       ->needs(video)

@@ -23,7 +23,7 @@ namespace {
 
 using namespace evidence;
 
-struct Options {
+struct TuningOptions {
   TuningDesign design;
   std::string shard = "1/1", out;
   int threads = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
@@ -44,7 +44,7 @@ Shard parseShard(const std::string& text) {
   return shard;
 }
 
-std::string rowsPath(const Options& options, const Shard& shard) {
+std::string rowsPath(const TuningOptions& options, const Shard& shard) {
   return options.out + "/rows-" + std::to_string(shard.number) + "-of-" +
          std::to_string(shard.count) + ".csv";
 }
@@ -53,7 +53,7 @@ std::string rowsPath(const Options& options, const Shard& shard) {
 /// once and kept while somebody uses it.
 class Workers {
  public:
-  Workers(const Options& options, const Shard& shard, TuningRows& rows)
+  Workers(const TuningOptions& options, const Shard& shard, TuningRows& rows)
       : options_(options), rows_(rows) {
     for (std::size_t job = 0; job < options.design.jobs(); ++job) {
       const std::size_t scene = job / options.design.combinations();
@@ -92,7 +92,7 @@ class Workers {
     return scene_;
   }
 
-  const Options& options_;
+  const TuningOptions& options_;
   TuningRows& rows_;
   std::vector<std::size_t> jobs_;
   std::atomic<std::size_t> next_{0};
@@ -144,7 +144,7 @@ void printRecommendation(const Recommendation& r, bool with_batches) {
               r.shortfall.low <= 0.0 ? "the two cannot be told apart" : "worse");
 }
 
-void analyse(const Options& options) {
+void analyse(const TuningOptions& options) {
   const std::vector<TuningRow> rows = readTuningRows(allRows(options.out), options.design);
   std::printf("%zu of %zu runs, %zu scenes.\n", rows.size(), options.design.jobs(),
               options.design.scenes());
@@ -172,7 +172,7 @@ void requireTwoLevels(const char* option, std::size_t levels) {
   if (levels < 2) throw CLI::ValidationError(option, "needs at least two levels");
 }
 
-void tune(const Options& options) {
+void tune(const TuningOptions& options) {
   requireTwoLevels("--points-per-cluster", options.design.points_per_cluster.size());
   requireTwoLevels("--similarity-cut", options.design.similarity_cut.size());
   requireTwoLevels("--scans-per-batch", options.design.scans_per_batch.size());
@@ -190,7 +190,7 @@ void tune(const Options& options) {
 void addTuneCommand(CLI::App& program) {
   auto* command = program.add_subcommand(
       "tune", "statistics of the three input parameters: a factorial experiment over worlds");
-  auto options = std::make_shared<Options>();
+  auto options = std::make_shared<TuningOptions>();
   TuningDesign& design = options->design;
   command->add_option("WORLD", design.worlds, "worlds (.yaml, true segments beside them)")
       ->required();

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <climits>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
@@ -12,6 +13,8 @@ namespace cca {
 namespace {
 
 constexpr std::size_t kBlock = 1 << 18;
+constexpr int kGzipWindow = 15 + 16;  // [zlib]: the largest window, and gzip's header about it
+constexpr int kMemoryLevel = 8;       // zlib's default
 
 gzFile open(const std::string& path) {
   std::error_code error;
@@ -73,6 +76,26 @@ std::string fileHead(const std::string& path, std::size_t bytes) {
   const int got = gzread(file.get(), head.data(), static_cast<unsigned>(bytes));
   head.resize(got > 0 ? static_cast<std::size_t>(got) : 0);
   return head;
+}
+
+std::string gzipped(std::string_view bytes) {
+  z_stream stream = {};
+  if (deflateInit2(&stream, Z_DEFAULT_COMPRESSION, Z_DEFLATED, kGzipWindow, kMemoryLevel,
+                   Z_DEFAULT_STRATEGY) != Z_OK) {
+    throw std::runtime_error("cannot be compressed: out of memory");
+  }
+  const std::unique_ptr<z_stream, int (*)(z_stream*)> end(&stream, deflateEnd);
+  std::string packed(deflateBound(&stream, bytes.size()), '\0');
+  stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(bytes.data()));  // only read
+  stream.avail_in = static_cast<uInt>(bytes.size());
+  stream.next_out = reinterpret_cast<Bytef*>(packed.data());
+  stream.avail_out = static_cast<uInt>(packed.size());
+  if (bytes.size() > UINT_MAX || packed.size() > UINT_MAX ||
+      deflate(&stream, Z_FINISH) != Z_STREAM_END) {
+    throw std::runtime_error("cannot be compressed: too large");
+  }
+  packed.resize(stream.total_out);
+  return packed;
 }
 
 std::uint32_t lengthInGzipTrailer(const std::string& path) {

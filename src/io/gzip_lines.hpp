@@ -45,6 +45,11 @@ class GzipLines {
 /// @throws std::runtime_error naming the file where it cannot be opened or is no regular file.
 std::string fileHead(const std::string& path, std::size_t bytes);
 
+/// Bytes as a gzip file holds them: the same for the same bytes, whenever. (MRPT's
+/// compress_gz_data_block() goes through a file of /tmp that is named after the second.)
+/// @throws std::runtime_error where memory does not suffice.
+std::string gzipped(std::string_view bytes);
+
 /// What gzip's trailer says of the length before compression, modulo 2^32; 0 for no file.
 std::uint32_t lengthInGzipTrailer(const std::string& path);
 

@@ -2,21 +2,17 @@
 #include "icp_matcher.hpp"
 
 #include <mrpt/maps/CSimplePointsMap.h>
-#include <mrpt/obs/CActionCollection.h>
-#include <mrpt/obs/CActionRobotMovement2D.h>
-#include <mrpt/obs/CSensoryFrame.h>
 #include <mrpt/slam/CMetricMapBuilderICP.h>
 
 #include <cmath>
 #include <optional>
 
-#include "cca_mrpt/io/mrpt_scan.hpp"
+#include "mrpt_steps.hpp"
 
 namespace cca {
 namespace {
 
 constexpr double kRadiansPerDegree = M_PI / 180.0;
-constexpr double kMatchedRange = 1000.0;  // m; the points' own limit: what is no return is unknown
 
 void configure(mrpt::slam::CMetricMapBuilderICP& icp, const IcpParameters& p) {
   icp.setVerbosityLevel(mrpt::system::LVL_ERROR);
@@ -56,18 +52,7 @@ class MrptIcpMatcher : public IcpMatcher {
 
   Pose2 locate(const Scan& scan, const Pose2& T_robot_sensor,
                const std::optional<Pose2>& T_odom_robot) override {
-    const bool is_guided = last_odometry_ && T_odom_robot;
-    const Pose2 moved = is_guided ? last_odometry_->inverse() * *T_odom_robot : Pose2();
-    last_odometry_ = T_odom_robot;
-    mrpt::obs::CActionRobotMovement2D movement;
-    time_ += 0.1;
-    movement.timestamp = mrpt::Clock::fromDouble(time_);
-    movement.computeFromOdometry(mrpt::poses::CPose2D(moved.x, moved.y, moved.theta), {});
-    mrpt::obs::CActionCollection actions;
-    actions.insert(movement);
-    mrpt::obs::CSensoryFrame frame;
-    frame.insert(std::make_shared<mrpt::obs::CObservation2DRangeScan>(
-        toMrpt(scan, T_robot_sensor, kMatchedRange, time_)));
+    auto [actions, frame] = steps_.next(scan, T_robot_sensor, T_odom_robot);
     icp_.processActionObservation(actions, frame);
     const mrpt::poses::CPose2D pose(icp_.getCurrentPoseEstimation()->getMeanVal());
     return {pose.x(), pose.y(), wrapAngle(pose.phi())};
@@ -75,8 +60,7 @@ class MrptIcpMatcher : public IcpMatcher {
 
  private:
   mrpt::slam::CMetricMapBuilderICP icp_;
-  std::optional<Pose2> last_odometry_;
-  double time_ = 0.0;  // s; logs may lack it, and the builder insists that it rises
+  MrptSteps steps_;
 };
 
 }  // namespace

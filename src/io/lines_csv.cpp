@@ -69,6 +69,26 @@ std::string linesCsv(const std::vector<MapLine>& lines) {
   return text;
 }
 
+std::string arcsCsv(const std::vector<MapArc>& arcs) {
+  std::string text = "x,y,radius,start_deg,sweep_deg,sigma_x,sigma_y,sigma_radius,line_ids\n";
+  char row[256];
+  for (const MapArc& found : arcs) {
+    const Arc& arc = found.arc;
+    std::snprintf(row, sizeof row, "%.4f,%.4f,%.4f,%.3f,%.3f,%.6f,%.6f,%.6f,", arc.centre.x(),
+                  arc.centre.y(), arc.radius, kDegreesPerRadian * arc.start_angle,
+                  kDegreesPerRadian * arc.sweep, sigma(arc.covariance(0, 0)),
+                  sigma(arc.covariance(1, 1)), sigma(arc.covariance(2, 2)));
+    text += row;
+    const char* separator = "";
+    for (const std::uint64_t id : found.line_ids) {
+      text += separator + std::to_string(id);
+      separator = " ";
+    }
+    text += "\n";
+  }
+  return text;
+}
+
 std::vector<MapLine> readLinesCsv(const std::string& text, const std::string& name) {
   std::istringstream rows(text);
   std::string row;

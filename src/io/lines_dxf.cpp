@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <cmath>
 #include <cstdio>
 
 #include "cca_mrpt/io/line_formats.hpp"
@@ -28,6 +29,13 @@ class Dxf {
     group(0, "LINE").group(8, layer).point(10, start).point(11, end);
   }
 
+  void arc(const Arc& arc, const std::string& layer) {
+    const double degrees = 180.0 / M_PI, start = arc.start_angle * degrees;
+    const bool whole = arc.sweep >= 2.0 * M_PI;
+    group(0, whole ? "CIRCLE" : "ARC").group(8, layer).point(10, arc.centre).number(40, arc.radius);
+    if (!whole) number(50, start).number(51, start + arc.sweep * degrees);
+  }
+
   void polyLine(const std::vector<Eigen::Vector2d>& vertices, const std::string& layer) {
     group(0, "POLYLINE").group(8, layer).group(66, 1).point(10, Eigen::Vector2d::Zero());
     group(70, 0);
@@ -47,7 +55,7 @@ class Dxf {
   std::string text_;
 };
 
-constexpr int kWhite = 7, kBlue = 5, kYellow = 2;  // AutoCAD's colour numbers
+constexpr int kWhite = 7, kBlue = 5, kYellow = 2, kGreen = 3;  // AutoCAD's colour numbers
 
 void head(Dxf& dxf) {
   dxf.group(999, "Line map; drawing unit 1 m");
@@ -55,9 +63,10 @@ void head(Dxf& dxf) {
   dxf.group(0, "ENDSEC").group(0, "SECTION").group(2, "TABLES");
   dxf.group(0, "TABLE").group(2, "LTYPE").group(70, 1).group(0, "LTYPE").group(2, "CONTINUOUS");
   dxf.group(70, 64).group(3, "Solid line").group(72, 65).group(73, 0).group(40, "0.0");
-  dxf.group(0, "ENDTAB").group(0, "TABLE").group(2, "LAYER").group(70, 3);
+  dxf.group(0, "ENDTAB").group(0, "TABLE").group(2, "LAYER").group(70, 4);
   dxf.layer("POLYLINES", kWhite);
   dxf.layer("LINES", kBlue);
+  dxf.layer("ARCS", kGreen);
   dxf.layer("TRAJECTORY", kYellow);
   dxf.group(0, "ENDTAB").group(0, "ENDSEC").group(0, "SECTION").group(2, "ENTITIES");
 }
@@ -65,13 +74,14 @@ void head(Dxf& dxf) {
 }  // namespace
 
 std::string linesDxf(const std::vector<MapLine>& lines, const std::vector<PolyLine>& poly_lines,
-                     const std::vector<Pose2>& trajectory) {
+                     const std::vector<Pose2>& trajectory, const std::vector<MapArc>& arcs) {
   Dxf dxf;
   head(dxf);
   for (const PolyLine& chain : poly_lines) dxf.polyLine(chain.vertices, "POLYLINES");
   for (const MapLine& line : loneLines(lines, poly_lines)) {
     dxf.line(line.segment.start, line.segment.end, "LINES");
   }
+  for (const MapArc& arc : arcs) dxf.arc(arc.arc, "ARCS");
   if (trajectory.size() > 1) {
     std::vector<Eigen::Vector2d> path;
     for (const Pose2& pose : trajectory) path.push_back(pose.position());

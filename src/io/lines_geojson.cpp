@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
@@ -42,6 +43,23 @@ Json polyLineFeature(const PolyLine& chain) {
                  std::move(coordinates));
 }
 
+Json arcFeature(const MapArc& found) {
+  const Arc& arc = found.arc;
+  constexpr double kStep = 5.0 * M_PI / 180.0;
+  const int steps = std::max(1, static_cast<int>(std::ceil(arc.sweep / kStep)));
+  Json coordinates = Json::array();
+  for (int i = 0; i <= steps; ++i) {
+    coordinates.push_back(position(arc.at(static_cast<double>(i) / steps)));
+  }
+  return feature({{"kind", "arc"},
+                  {"centre", position(arc.centre)},
+                  {"radius", rounded(arc.radius)},
+                  {"start_deg", rounded(arc.start_angle * 180.0 / M_PI)},
+                  {"sweep_deg", rounded(arc.sweep * 180.0 / M_PI)},
+                  {"line_ids", found.line_ids}},
+                 std::move(coordinates));
+}
+
 Json trajectoryFeature(const std::vector<Pose2>& trajectory) {
   Json coordinates = Json::array();
   for (const Pose2& pose : trajectory) coordinates.push_back(position(pose.position()));
@@ -70,7 +88,7 @@ std::vector<Pose2> alongTheWay(const std::vector<Eigen::Vector2d>& positions) {
 }  // namespace
 
 std::string linesGeoJson(const std::vector<MapLine>& lines, const std::vector<PolyLine>& poly_lines,
-                         const std::vector<Pose2>& trajectory) {
+                         const std::vector<Pose2>& trajectory, const std::vector<MapArc>& arcs) {
   // One feature a row: such files are looked at, and compared, line by line.
   std::string text = "{\"type\": \"FeatureCollection\", \"features\": [";
   const char* separator = "\n";
@@ -80,6 +98,7 @@ std::string linesGeoJson(const std::vector<MapLine>& lines, const std::vector<Po
   };
   for (const MapLine& line : lines) append(lineFeature(line));
   for (const PolyLine& chain : poly_lines) append(polyLineFeature(chain));
+  for (const MapArc& arc : arcs) append(arcFeature(arc));
   if (trajectory.size() > 1) append(trajectoryFeature(trajectory));
   return text + "\n]}\n";
 }

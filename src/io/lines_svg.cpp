@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <Eigen/Geometry>
 #include <cinttypes>
+#include <cmath>
 #include <cstdio>
 
 #include "cca_mrpt/io/line_formats.hpp"
@@ -43,10 +44,20 @@ std::string svgHead(const Box& box) {
          "<g fill=\"none\" stroke-linecap=\"round\" stroke-linejoin=\"round\">\n";
 }
 
+std::string svgArc(const Arc& arc) {
+  if (arc.sweep >= 2.0 * M_PI) {
+    return format("<circle cx=\"%.4f\" cy=\"%.4f\" r=\"%.4f\"/>\n", arc.centre.x(), -arc.centre.y(),
+                  arc.radius);
+  }
+  const Eigen::Vector2d a = arc.at(0.0), b = arc.at(1.0);
+  return format("<path d=\"M %.4f %.4f A %.4f %.4f 0 %d 0 %.4f %.4f\"/>\n", a.x(), -a.y(),
+                arc.radius, arc.radius, arc.sweep > M_PI ? 1 : 0, b.x(), -b.y());
+}
+
 }  // namespace
 
 std::string linesSvg(const std::vector<MapLine>& lines, const std::vector<PolyLine>& poly_lines,
-                     const std::vector<Pose2>& trajectory) {
+                     const std::vector<Pose2>& trajectory, const std::vector<MapArc>& arcs) {
   std::string text = svgHead(boundingBox(lines, trajectory));
   if (!trajectory.empty()) {
     text += "<polyline id=\"trajectory\" stroke=\"#d98c3f\" stroke-width=\"0.03\" points=\"";
@@ -68,6 +79,8 @@ std::string linesSvg(const std::vector<MapLine>& lines, const std::vector<PolyLi
         format("<line data-id=\"%" PRIu64 "\" data-support=\"%.1f\" ", line.id, line.support) +
         format("x1=\"%.4f\" y1=\"%.4f\" x2=\"%.4f\" y2=\"%.4f\"/>\n", a.x(), -a.y(), b.x(), -b.y());
   }
+  text += "</g>\n<g id=\"arcs\" stroke=\"#3f9a5f\" stroke-width=\"0.02\">\n";
+  for (const MapArc& arc : arcs) text += svgArc(arc.arc);
   return text + "</g>\n</g>\n</svg>\n";
 }
 

@@ -48,6 +48,11 @@ LocalLog::LocalLog(std::unique_ptr<LogReader> log) : log_(std::move(log)) {
   start_ = begin - origin_;
 }
 
+void LocalLog::moveTo(const Eigen::Vector2d& origin) {
+  start_ += origin_ - origin;
+  origin_ = origin;
+}
+
 std::optional<LogRecord> LocalLog::next() {
   std::optional<LogRecord> record;
   if (ahead_.empty()) {

@@ -12,8 +12,10 @@
 #include "cca_mrpt/io/local_frame.hpp"
 #include "cca_mrpt/io/map_picture.hpp"
 #include "cca_mrpt/io/map_scene.hpp"
+#include "cca_mrpt/io/memory_file.hpp"
 #include "cca_mrpt/io/metric_map.hpp"
 #include "cca_mrpt/io/occupancy_files.hpp"
+#include "cca_mrpt/io/replay.hpp"
 
 namespace cca {
 namespace {
@@ -37,6 +39,7 @@ nlohmann::ordered_json summarize(const MapProducts& products) {
   }
   summary["map_lines"] = products.lines.size();
   summary["map_poly_lines"] = products.poly_lines.size();
+  summary["map_arcs"] = products.arcs.size();
   summary["map_length_m"] = length;
   return summary;
 }
@@ -78,6 +81,7 @@ MapProducts seenFrom(const Eigen::Vector2d& p_frame, MapProducts products) {
   for (PolyLine& chain : products.poly_lines) {
     for (auto& vertex : chain.vertices) vertex -= p_frame;
   }
+  for (MapArc& arc : products.arcs) arc.arc.centre -= p_frame;
   for (Pose2& pose : products.trajectory) pose = seenFrom(p_frame, pose);
   for (int k = 0; k < products.graph.size(); ++k) {
     products.graph.place(k, seenFrom(p_frame, products.graph.pose(k)));
@@ -91,9 +95,11 @@ void writeMapFolder(const std::string& folder, const MapProducts& products) {
   const MapProducts map = seenFrom(-products.origin, products);
   const auto& [lines, poly_lines, trajectory] = std::tie(map.lines, map.poly_lines, map.trajectory);
   writeFile(inFolder(folder, "lines.csv"), linesCsv(lines));
-  writeFile(inFolder(folder, "lines.geojson"), linesGeoJson(lines, poly_lines, trajectory));
-  writeFile(inFolder(folder, "lines.svg"), linesSvg(lines, poly_lines, trajectory));
-  writeFile(inFolder(folder, "lines.dxf"), linesDxf(lines, poly_lines, trajectory));
+  writeFile(inFolder(folder, "arcs.csv"), arcsCsv(map.arcs));
+  writeFile(inFolder(folder, "lines.geojson"),
+            linesGeoJson(lines, poly_lines, trajectory, map.arcs));
+  writeFile(inFolder(folder, "lines.svg"), linesSvg(lines, poly_lines, trajectory, map.arcs));
+  writeFile(inFolder(folder, "lines.dxf"), linesDxf(lines, poly_lines, trajectory, map.arcs));
   writeLineMap(inFolder(folder, "map.linemap.gz"), lines);
   if (products.grid) {
     writeOccupancyMap(inFolder(folder, "map"), *products.grid, products.origin);
@@ -107,6 +113,8 @@ void writeMapFolder(const std::string& folder, const MapProducts& products) {
     writeFile(inFolder(folder, "poses.tum"), posesTum(poses));
   }
   if (map.graph.size() > 0) writeFile(inFolder(folder, "graph.g2o"), graphG2o(map.graph));
+  if (!map.memory.empty()) writeFile(inFolder(folder, kMemoryFile), map.memory);
+  if (!map.replay.empty()) writeFile(inFolder(folder, "replay.html"), replayPage({map.replay}));
   writeFile(inFolder(folder, kSummary), summarize(products).dump(2, ' ', false, kReplace) + "\n");
 }
 

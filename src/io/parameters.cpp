@@ -8,6 +8,7 @@
 #include <initializer_list>
 #include <set>
 #include <stdexcept>
+#include <utility>
 
 #include "ini_file.hpp"
 
@@ -56,6 +57,29 @@ class FieldLister {
         [&value](const std::string& text) {
           if (text != "true" && text != "false") refuse(text, "true or false");
           value = text == "true";
+        });
+  }
+
+  template <class Choice, std::size_t N>
+  void operator()(const char* name, Choice& value, const std::pair<const char*, Choice> (&names)[N],
+                  const char* meaning) {
+    std::string allowed = "one of";
+    for (const auto& [word, choice] : names) allowed += std::string(" ") + word;
+    append(
+        name, allowed, meaning,
+        [&value, &names] {
+          for (const auto& [word, choice] : names) {
+            if (choice == value) return word;
+          }
+          return "";
+        },
+        [&value, &names, allowed](const std::string& text) {
+          for (const auto& [word, choice] : names) {
+            if (text != word) continue;
+            value = choice;
+            return;
+          }
+          refuse(text, allowed);
         });
   }
 

@@ -47,6 +47,12 @@ Pose2 PoseSource::locate(const LogRecord& record) {
   return localizer_->locate(record.scan, record.T_robot_sensor, record.odometry);
 }
 
+Pose2 PoseSource::place(LogRecord& record) {
+  const Pose2 T_map_robot = locate(record);
+  if (kind_ != PoseKind::kLog) record.scan.T_map_sensor = T_map_robot * record.T_robot_sensor;
+  return T_map_robot;
+}
+
 std::string PoseSource::warnings() const {
   if (unguided_ == 0) return "";
   return std::to_string(unguided_) +

@@ -57,4 +57,28 @@ TrajectoryError compareTrajectories(const std::vector<Pose2>& estimate,
   return error;
 }
 
+double loopError(const std::vector<Pose2>& estimate, const std::vector<Pose2>& truth) {
+  assert(estimate.size() == truth.size());
+  constexpr double kNear = 3.0, kApart = 30.0;  // m
+  constexpr std::size_t kVisits = 2000;
+  std::vector<double> way(truth.size(), 0.0);
+  for (std::size_t k = 1; k < truth.size(); ++k) {
+    way[k] = way[k - 1] + (truth[k].position() - truth[k - 1].position()).norm();
+  }
+  const std::size_t step = truth.size() / kVisits + 1;
+  double sum = 0.0;
+  std::size_t pairs = 0;
+  for (std::size_t a = 0; a < truth.size(); a += step) {
+    for (std::size_t b = a + 1; b < truth.size(); b += step) {
+      if (way[b] - way[a] <= kApart) continue;
+      const Pose2 T_true = truth[a].inverse() * truth[b];
+      if (T_true.position().norm() >= kNear) continue;
+      const Pose2 T_estimated = estimate[a].inverse() * estimate[b];
+      sum += (T_true.inverse() * T_estimated).position().norm();
+      ++pairs;
+    }
+  }
+  return pairs > 0 ? sum / static_cast<double>(pairs) : 0.0;
+}
+
 }  // namespace cca

@@ -89,6 +89,7 @@ constexpr double kLongestTime = 1800.0;
 struct Trial {
   LaserParameters laser;
   int movers = 0;
+  RobotParameters robot = {}, told = {};  ///< as it is, and as the planner is told
 };
 
 void explore(int seed, const Trial& trial, Outcome& outcome) {
@@ -101,10 +102,11 @@ void explore(int seed, const Trial& trial, Outcome& outcome) {
   SimulationParameters simulated;
   simulated.seed = static_cast<std::uint64_t>(seed);
   simulated.laser = trial.laser;
+  simulated.robot = trial.robot;
   const Pose2 T_map_start{start->x(), start->y(), random.uniform(-M_PI, M_PI)};
   Simulation simulation(world, T_map_start, simulated,
                         randomWalkers(world, *start, trial.movers, random));
-  Explorer explorer(parameters.mapping, parameters.robot, parameters.exploration);
+  Explorer explorer(parameters.mapping, trial.told, parameters.exploration);
   Coverage coverage(simulation.world(), *start, simulated.robot.radius, simulated.laser.range);
   bool finished = false;
   std::string reason;
@@ -223,6 +225,36 @@ TEST(RandomExplorations, WithANarrowFieldOfViewStandBeforeTheyTurnToLook) {
   Outcome outcome;
   explore(215, ofNarrowView(215), outcome);
   EXPECT_EQ(outcome.runs, 1);
+}
+
+Trial ofLateRobot(int seed, double latency, double told) {
+  Trial trial;
+  trial.laser.range = kRanges[seed % 3];
+  trial.robot.latency = latency;
+  trial.told.latency = told;
+  return trial;
+}
+
+TEST(RandomExplorations, WithLateCommandsEndAndTouchNothing) {
+  for (const double latency : {0.1, 0.2, 0.3}) {
+    exploreAll(2, [&](int seed) { return ofLateRobot(seed, latency, latency); });
+  }
+}
+
+TEST(RandomExplorations, WithCommandsLaterThanToldEndAndTouchNothing) {
+  exploreAll(3, [](int seed) { return ofLateRobot(seed, 0.15, 0.0); });
+}
+
+TEST(RandomExplorations, WithCommandsLessLateThanToldEndAndTouchNothing) {
+  exploreAll(2, [](int seed) { return ofLateRobot(seed, 0.0, 0.15); });
+}
+
+TEST(RandomExplorations, WithBrakesWeakerThanToldEndAndTouchNothing) {
+  exploreAll(2, [](int seed) {
+    Trial trial = ofLateRobot(seed, 0.15, 0.15);
+    trial.robot.max_linear_acceleration *= 0.5;
+    return trial;
+  });
 }
 
 }  // namespace

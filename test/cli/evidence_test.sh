@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# compare-extractors, tune and ablate as a user runs them: evidence_test.sh PROGRAM MAPS
+# compare-extractors, compare-slam, tune and ablate as a user runs them: evidence_test.sh PROGRAM MAPS
 set -eu
 program=$1 maps=$2
 tmp=$(mktemp -d)
@@ -22,6 +22,17 @@ grep -q 'polygons' "$tmp/error" || fail "says what is missing"
 "$program" compare-extractors --polygons 1 --extractors nobody >/dev/null 2>&1 && fail "unknown extractor"
 status=0; "$program" compare-extractors --polygons 1 --extractors nobody >/dev/null 2>&1 || status=$?
 [ $status -eq 2 ] || fail "unknown extractor is a usage error, got $status"
+
+# compare-slam: a row a method, poses and a picture of each; MRPT's particles included.
+"$program" explore "$maps/two_rooms.yaml" --pose truth --out "$tmp/run" --quiet || fail "explore"
+"$program" compare-slam "$tmp/run/run.rawlog" --out "$tmp/slam" >"$tmp/slam.txt" || fail "compare-slam"
+for method in odometry icp-slam rbpf-slam line-slam pl-icp idc weighted; do
+  grep -q "^| $method | [0-9.]* |" "$tmp/slam.txt" || fail "compare-slam: no row of $method"
+  [ -s "$tmp/slam/run-$method.csv" ] && [ -s "$tmp/slam/run-$method.png" ] || fail "compare-slam: no files of $method"
+done
+cmp "$tmp/slam.txt" "$tmp/slam/slam.md" || fail "compare-slam: slam.md is not what was printed"
+awk -F'|' '/line-slam/ { exit !($3 < 0.02) }' "$tmp/slam.txt" || fail "compare-slam: $(cat "$tmp/slam.txt")"
+"$program" compare-slam "$tmp/run/run.rawlog" --methods nobody >/dev/null 2>&1 && fail "unknown method"
 
 # tune: shards merged say what one run says; a killed run goes on; another design is refused.
 tune() {

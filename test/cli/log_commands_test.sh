@@ -53,11 +53,11 @@ cp last.out info.json
 check "its JSON is valid" python3 -c 'import json; i = json.load(open("info.json")); assert i["scans"] == 40 and i["warnings"] == []'
 
 check "map makes a map" "$program" map room.log.gz --out map
-for file in lines.csv lines.geojson lines.svg lines.dxf map.png map.pgm map.yaml map.gridmap.gz \
-            map.linemap.gz scene.3Dscene poses.csv poses.tum graph.g2o summary.json; do
+for file in lines.csv arcs.csv lines.geojson lines.svg lines.dxf map.png map.pgm map.yaml map.gridmap.gz \
+            map.linemap.gz scene.3Dscene poses.csv poses.tum graph.g2o map.slam replay.html summary.json; do
   [ -s "map/$file" ] || { echo "FAILED: no map/$file"; failed=1; }
 done
-[ "$(ls -A map | wc -l)" -eq 14 ] || { echo "FAILED: map holds more than its files"; failed=1; }
+[ "$(ls -A map | wc -l)" -eq 17 ] || { echo "FAILED: map holds more than its files"; failed=1; }
 check "three walls of 12, 12 and 6 m are found" python3 - <<'END'
 import csv, math
 walls = [tuple(float(r[k]) for k in ("x1", "y1", "x2", "y2")) for r in csv.DictReader(open("map/lines.csv"))]
@@ -72,7 +72,7 @@ END
 refuses 1 "there is a map already" "$program" map room.log --out map
 check "--force overwrites" "$program" map room.log --out map --force
 check "the same log gives the same bytes" "$program" map room.log.gz --out again --quiet
-for file in lines.csv lines.geojson lines.svg lines.dxf map.pgm map.png; do
+for file in lines.csv arcs.csv lines.geojson lines.svg lines.dxf map.pgm map.png; do
   cmp -s "map/$file" "again/$file" || [ $file = map.png ] || { echo "FAILED: $file differs"; failed=1; }
 done
 
@@ -96,6 +96,15 @@ grep -q pose_error icp/summary.json || { echo "FAILED: no pose error told"; fail
 refuses 1 "holds no true poses" "$program" map room.log --pose truth --out truth
 [ ! -e truth ] || { echo "FAILED: a folder was left for poses that the log lacks"; failed=1; }
 refuses 2 "pose" "$program" map room.log --pose gps --out gps
+
+# The same place once more: in one go, and with the map of the first time.
+check "a second log, begun anywhere" "$program" map room.log room.log --out two
+grep -q '"scans": 80' two/summary.json || { echo "FAILED: not the scans of both logs"; failed=1; }
+check "a log after an earlier map" "$program" map room.log --resume map --out resumed
+grep -q '"found_in_memory": true' resumed/summary.json || { echo "FAILED: the robot has not found itself"; failed=1; }
+refuses 1 "joined by --pose slam" "$program" map room.log room.log --pose odometry --out none
+refuses 1 "map.slam: is not there" "$program" map room.log --resume odometry --out none
+[ ! -e none ] || { echo "FAILED: a folder was left without a map"; failed=1; }
 
 check "extract writes segments" "$program" extract room.log --out lines.csv
 refuses 1 "is there already" "$program" extract room.log --out lines.csv

@@ -44,6 +44,16 @@ MapProducts corner() {
   return products;
 }
 
+/// A pillar, and a quarter of a circle.
+std::vector<MapArc> pillarAndBend() {
+  MapArc pillar, bend;
+  pillar.arc = {{1.0, 2.0}, 0.5, 0.0, 2.0 * M_PI, 40.0, 1e-4 * Eigen::Matrix3d::Identity()};
+  pillar.line_ids = {3, 4, 5};
+  bend.arc = {{-1.0, 0.0}, 2.0, 0.0, 0.5 * M_PI, 60.0, 4e-4 * Eigen::Matrix3d::Identity()};
+  bend.line_ids = {8, 9};
+  return {pillar, bend};
+}
+
 /// A wall at x = 3 seen by a laser at the origin.
 Scan wallAhead() {
   Scan scan;
@@ -113,6 +123,36 @@ TEST(GeoJson, HoldsLinesAndPolyLinesWithTheirProperties) {
   EXPECT_EQ(chain["geometry"]["coordinates"].size(), 3U);
 }
 
+TEST(Arcs, AreRowsOfCentreRadiusAndExtent) {
+  EXPECT_EQ(arcsCsv(pillarAndBend()),
+            "x,y,radius,start_deg,sweep_deg,sigma_x,sigma_y,sigma_radius,line_ids\n"
+            "1.0000,2.0000,0.5000,0.000,360.000,0.010000,0.010000,0.010000,3 4 5\n"
+            "-1.0000,0.0000,2.0000,0.000,90.000,0.020000,0.020000,0.020000,8 9\n");
+}
+
+TEST(Arcs, AreCirclesAndArcsOfTheirOwnInDxfAndSvg) {
+  const std::string dxf = linesDxf({}, {}, {}, pillarAndBend());
+  EXPECT_THAT(dxf, HasSubstr("CIRCLE\n8\nARCS\n10\n1.0000\n20\n2.0000\n30\n0.0000\n40\n0.5000\n"));
+  EXPECT_THAT(dxf, HasSubstr("40\n2.0000\n50\n0.0000\n51\n90.0000\n"));
+  const std::string svg = linesSvg({}, {}, {}, pillarAndBend());
+  EXPECT_THAT(svg, HasSubstr("<circle cx=\"1.0000\" cy=\"-2.0000\" r=\"0.5000\"/>"));
+  EXPECT_THAT(svg, HasSubstr("M 1.0000 -0.0000 A 2.0000 2.0000 0 0 0 -1.0000 -2.0000"));
+}
+
+TEST(Arcs, AreFeaturesOfTheGeoJsonThatReadersOfLinesPassOver) {
+  const auto products = corner();
+  const std::string text =
+      linesGeoJson(products.lines, products.poly_lines, products.trajectory, pillarAndBend());
+  const auto json = nlohmann::json::parse(text);
+  ASSERT_EQ(json["features"].size(), 7U);
+  const auto& bend = json["features"][5];
+  EXPECT_EQ(bend["properties"]["kind"], "arc");
+  EXPECT_EQ(bend["properties"]["radius"], 2.0);
+  EXPECT_EQ(bend["properties"]["sweep_deg"], 90.0);
+  EXPECT_EQ(bend["geometry"]["coordinates"].size(), 19U);  // 5 degrees apart
+  EXPECT_EQ(readLinesGeoJson(text, "lines.geojson").poly_lines.size(), 1U);
+}
+
 TEST(GeoJson, ReadsBackChainsAndTrajectory) {
   const auto products = corner();
   const auto back = readLinesGeoJson(
@@ -151,10 +191,10 @@ TEST(MapFolder, HoldsEveryFileAndNothingElse) {
     names.push_back(entry.path().filename().string());
     EXPECT_GT(entry.file_size(), 0U) << entry.path();
   }
-  EXPECT_THAT(names,
-              testing::UnorderedElementsAre("lines.csv", "lines.geojson", "lines.svg", "lines.dxf",
-                                            "map.png", "map.pgm", "map.yaml", "map.gridmap.gz",
-                                            "map.linemap.gz", "scene.3Dscene", "summary.json"));
+  EXPECT_THAT(names, testing::UnorderedElementsAre("lines.csv", "arcs.csv", "lines.geojson",
+                                                   "lines.svg", "lines.dxf", "map.png", "map.pgm",
+                                                   "map.yaml", "map.gridmap.gz", "map.linemap.gz",
+                                                   "scene.3Dscene", "summary.json"));
   const auto summary = nlohmann::json::parse(read(folder / "map/summary.json"));
   EXPECT_EQ(summary["finished"], true);
   EXPECT_EQ(summary["map_lines"], 3);

@@ -53,6 +53,7 @@ TEST_F(ParametersFile, NamesFileKeyValueAndRangeOfABadValue) {
   }
   EXPECT_THAT(errorOf("[laser]\nrange = inf\n"), HasSubstr("[laser] range"));
   EXPECT_THAT(errorOf("[exploration]\nstrategy = fastest\n"), HasSubstr("one of"));
+  EXPECT_THAT(errorOf("[exploration]\npath = straight\n"), HasSubstr("one of known_space paper"));
 }
 
 TEST_F(ParametersFile, RefusesUnknownKeysAndSections) {

@@ -141,5 +141,19 @@ TEST(LogInfo, TellsWhatIsThere) {
   EXPECT_EQ(info["poses"]["odometry"], 7);
 }
 
+TEST(TrajectoryError, LoopsAreTwoVisitsOfAPlace) {
+  // Thirty-two metres out, as many back beside the way out; the way back is off by half a metre.
+  std::vector<Pose2> truth, estimate;
+  for (int k = 0; k <= 64; ++k) {
+    const bool is_back = k > 32;
+    truth.push_back({is_back ? 64.0 - k : 1.0 * k, is_back ? 1.0 : 0.0, is_back ? M_PI : 0.0});
+    estimate.push_back(truth.back());
+    if (is_back) estimate.back().y += 0.5;
+  }
+  EXPECT_NEAR(loopError(estimate, truth), 0.5, 1e-9);
+  EXPECT_NEAR(loopError(truth, truth), 0.0, 1e-12);
+  EXPECT_EQ(loopError({}, {}), 0.0);
+}
+
 }  // namespace
 }  // namespace cca

@@ -21,10 +21,12 @@ std::vector<MapLine> readLinesCsv(const std::string& text, const std::string& na
 /// A line map as a GeoJSON FeatureCollection in metres of the map frame (not longitude, latitude).
 /// Each line is a LineString with `kind` "line", `id`, `support`, `length` and `covariance`
 /// (offset-offset, offset-angle, angle-angle; m^2, m rad, rad^2); each poly-line one more with
-/// `kind` "poly_line", `length` and `line_ids`; the trajectory, where there is one, a last with
-/// `kind` "trajectory".
+/// `kind` "poly_line", `length` and `line_ids`; each arc one with `kind` "arc", `centre`, `radius`,
+/// `start_deg`, `sweep_deg` and `line_ids`, its coordinates 5 degrees apart; the trajectory, where
+/// there is one, a last with `kind` "trajectory".
 std::string linesGeoJson(const std::vector<MapLine>& lines, const std::vector<PolyLine>& poly_lines,
-                         const std::vector<Pose2>& trajectory = {});
+                         const std::vector<Pose2>& trajectory = {},
+                         const std::vector<MapArc>& arcs = {});
 
 /// What linesGeoJson() holds besides the lines.
 struct ChainsAndTrajectory {
@@ -39,12 +41,20 @@ ChainsAndTrajectory readLinesGeoJson(const std::string& text, const std::string&
 /// A floor plan to scale (1 : 100, when printed unscaled) as SVG: poly-lines as polylines, what is
 /// part of none as lines; ids and supports as data attributes.
 /// @param trajectory  drawn thin below the lines; may be empty.
+/// @param arcs        drawn thin beside their chords.
 std::string linesSvg(const std::vector<MapLine>& lines, const std::vector<PolyLine>& poly_lines,
-                     const std::vector<Pose2>& trajectory);
+                     const std::vector<Pose2>& trajectory, const std::vector<MapArc>& arcs = {});
 
-/// A floor plan as DXF R12, one drawing unit a metre: layers POLYLINES, LINES and TRAJECTORY.
+/// A floor plan as DXF R12, one drawing unit a metre: layers POLYLINES, LINES, ARCS and
+/// TRAJECTORY. Arcs are ARC or CIRCLE; their chords stay.
 std::string linesDxf(const std::vector<MapLine>& lines, const std::vector<PolyLine>& poly_lines,
-                     const std::vector<Pose2>& trajectory);
+                     const std::vector<Pose2>& trajectory, const std::vector<MapArc>& arcs = {});
+
+/// Arcs as CSV, header `x,y,radius,start_deg,sweep_deg,sigma_x,sigma_y,sigma_radius,line_ids`:
+/// centre and radius [m, map frame] with their standard deviations, where the arc begins about its
+/// centre and how far it goes counter-clockwise (360: a circle), and the lines that are its chords,
+/// by blanks.
+std::string arcsCsv(const std::vector<MapArc>& arcs);
 
 /// The lines that are part of no poly-line.
 std::vector<MapLine> loneLines(const std::vector<MapLine>& lines,

@@ -37,6 +37,10 @@ class LocalLog : public LogReader {
   /// m, local frame: about where the log begins.
   const Eigen::Vector2d& start() const { return start_; }
 
+  /// Lets the local frame lie elsewhere [m, map frame], e.g. where another log has it. To be called
+  /// before next().
+  void moveTo(const Eigen::Vector2d& origin);
+
   /// Whether a SLAM system had corrected the pose of the first scan. To be asked before next().
   bool beginsCorrected() const { return !ahead_.empty() && ahead_.front().corrected; }
 

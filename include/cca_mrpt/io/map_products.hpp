@@ -21,6 +21,7 @@ struct MapProducts {
   std::string title;  ///< for people: the log's or the world's name
   std::vector<MapLine> lines;
   std::vector<PolyLine> poly_lines;
+  std::vector<MapArc> arcs;
   std::vector<Pose2> trajectory;  ///< T_map_robot, in order of time; may be empty
   /// Occupancy of the same place (see ScanGrid); null: no map.pgm, no background in the picture.
   std::shared_ptr<const mrpt::maps::COccupancyGridMap2D> grid;
@@ -28,16 +29,18 @@ struct MapProducts {
   Eigen::Vector2d origin = Eigen::Vector2d::Zero();
   /// s, of each pose of the trajectory, for poses.csv and poses.tum; empty: no such files.
   std::vector<double> times;
-  PoseGraph graph;  ///< for graph.g2o; empty: no such file
+  PoseGraph graph;     ///< for graph.g2o; empty: no such file
+  std::string memory;  ///< packedMemory(), for map.slam; empty: no such file
+  std::string replay;  ///< Replay::packed(), for replay.html; empty: no such file
   /// Goes into summary.json, in this order, followed by the map's own numbers.
   nlohmann::ordered_json summary = nlohmann::ordered_json::object();
 };
 
-/// Writes a map's folder: lines.csv, lines.geojson, lines.svg, lines.dxf, map.png, map.pgm and
-/// map.yaml, map.gridmap.gz, map.linemap.gz, scene.3Dscene, poses.csv, poses.tum, graph.g2o,
-/// summary.json (last: where it is, all is there). MRPT's own grid and scene hold single-precision
-/// numbers and stay in the products' frame; where that is not the map frame, summary.json has its
-/// place as `frame_origin_m`.
+/// Writes a map's folder: lines.csv, arcs.csv, lines.geojson, lines.svg, lines.dxf, map.png,
+/// map.pgm and map.yaml, map.gridmap.gz, map.linemap.gz, scene.3Dscene, poses.csv, poses.tum,
+/// graph.g2o, map.slam, replay.html, summary.json (last: where it is, all is there). MRPT's own
+/// grid and scene hold single-precision numbers and stay in the products' frame; where that is not
+/// the map frame, summary.json has its place as `frame_origin_m`.
 ///
 /// The folder is made where it is missing. Each file appears whole or not at all.
 /// @throws std::runtime_error naming the file and the reason.

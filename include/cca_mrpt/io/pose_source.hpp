@@ -33,6 +33,11 @@ class PoseSource {
   /// @throws std::runtime_error where the log does not hold what is asked for.
   Pose2 locate(const LogRecord& record);
 
+  /// locate(), and puts the scan there. A pose of the log's leaves the scan where the log has it,
+  /// to the bit: so does who maps the same scans as they are played.
+  /// @return  T_map_robot.
+  Pose2 place(LogRecord& record);
+
   /// What had to be done without, for people; empty where all was well.
   std::string warnings() const;
 

@@ -19,4 +19,9 @@ struct TrajectoryError {
 TrajectoryError compareTrajectories(const std::vector<Pose2>& estimate,
                                     const std::vector<Pose2>& truth);
 
+/// How well the visits of one place fit together: the mean error [m] of the relative position of
+/// poses nearer than 3 m to each other that lie more than 30 m of way apart [Kuemmerle et al.
+/// 2009]. At most some thousand pairs, evenly chosen, are asked; 0 where there is none.
+double loopError(const std::vector<Pose2>& estimate, const std::vector<Pose2>& truth);
+
 }  // namespace cca

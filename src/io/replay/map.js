@@ -1,0 +1,206 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A run's map, drawn by Leaflet: metres are its coordinates, (y, x).
+'use strict';
+
+/** name, colour, key; the colours are those of page.css. */
+const kLayers = [
+  ['lines', 'line'], ['true world', 'world'], ['scan', 'scan'], ['frontier', 'frontier'], ['goal and way', 'way'],
+  ['believed path', 'path'], ['true path', 'truth'], ['robot', 'robot'],
+];
+
+function colour(name) { return getComputedStyle(document.documentElement).getPropertyValue('--' + name).trim(); }
+
+const toPlace = ([x, y]) => [y, x];
+
+/** [from, to] m, without what a pose that has gone astray saw. */
+function whereMostAre(values) {
+  const sorted = Float64Array.from(values).sort(), at = (share) => sorted[Math.floor(share * (sorted.length - 1))];
+  const margin = Math.max(100, 0.2 * (at(0.95) - at(0.05)));
+  return [at(0.05) - margin, at(0.95) + margin];
+}
+
+/** The obstacles of a world as a picture. */
+function worldPicture(world) {
+  const canvas = document.createElement('canvas');
+  canvas.width = world.width;
+  canvas.height = world.height;
+  const context = canvas.getContext('2d');
+  context.fillStyle = colour('world');
+  let at = 0, isObstacle = false;
+  for (const run of world.runs) {
+    for (let cell = at; isObstacle && cell < at + run;) {
+      const row = Math.floor(cell / world.width), column = cell % world.width;
+      const length = Math.min(at + run - cell, world.width - column);
+      context.fillRect(column, world.height - 1 - row, length, 1);
+      cell += length;
+    }
+    at += run;
+    isObstacle = !isObstacle;
+  }
+  return canvas.toDataURL();
+}
+
+class RunMap {
+  constructor(run, element) {
+    this.run = run;
+    this.map = L.map(element, { crs: L.CRS.Simple, attributionControl: false, zoomSnap: 0, zoomDelta: 0.5,
+                                minZoom: -4, maxZoom: 12, wheelPxPerZoomLevel: 120, fadeAnimation: false,
+                                keyboardPanDelta: 60 });
+    L.control.scale({ imperial: false }).addTo(this.map);
+    // Lines alone feel the mouse; what moves lies in canvases of its own, so that they are not drawn anew for it.
+    const canvas = (pane, level, feels) => {
+      const style = this.map.createPane(pane).style;
+      style.zIndex = level;
+      if (!feels) style.pointerEvents = 'none';
+      return L.canvas({ pane, tolerance: feels ? 6 : 0 });
+    };
+    const below = { renderer: canvas('below', 300), interactive: false };
+    const above = { renderer: canvas('above', 500), interactive: false };
+    this.map.createPane('world').style.zIndex = 200;
+    this.lineRenderer = canvas('lines', 400, true);
+    this.layers = {};
+    for (const [name] of kLayers) this.layers[name] = L.layerGroup().addTo(this.map);
+    const put = (name, layer) => { this.layers[name].addLayer(layer); return layer; };
+    this.frontier = put('frontier', L.polygon([], { ...below, stroke: false, fillOpacity: 0.6 }));
+    this.scan = put('scan', L.polygon([], { ...below, weight: 1, fillOpacity: 0.12 }));
+    this.path = put('believed path', L.polyline([], { ...below, weight: 2, smoothFactor: 1 }));
+    this.truth = put('true path', L.polyline([], { ...below, weight: 1.5, dashArray: '4 4' }));
+    this.way = put('goal and way', L.polyline([], { ...above, weight: 2, dashArray: '6 5' }));
+    this.goal = put('goal and way', L.circleMarker([0, 0], { ...above, radius: 6, weight: 3, fillOpacity: 0.2 }));
+    this.robot = put('robot', L.polygon([], { ...above, weight: 2, fillOpacity: 0.6 }));
+    this.drawn = new Map();  // id: polyline
+    this.now = new Map();    // id: index of the change that it was last drawn by
+    this.stale = new Set();
+    this.lineChanges = new Changes(run.lines.frame, (i) => {
+      const id = run.lines.id[i];
+      this.now.set(id, i);
+      this.stale.add(id);
+    }, () => {
+      for (const id of this.now.keys()) this.stale.add(id);
+      this.now.clear();
+    });
+    this.blocks = new Map();
+    this.frontierChanges = new Changes(run.frontier.frame, (i) => {
+      const { x, y } = run.frontier, key = x[i] + ',' + y[i];
+      if (!this.blocks.delete(key)) this.blocks.set(key, [x[i] * run.block, y[i] * run.block]);
+    }, () => this.blocks.clear());
+    this.moment = -1;
+    this.wholePath = Array.from(run.pose.x, (x, i) => [run.pose.y[i], x]);
+    this.wholeTruth = run.truth && Array.from(run.truth.x, (x, i) => [run.truth.y[i], x]);
+    this.bounds = this.findBounds();
+    this.paint();
+    this.showAll();
+  }
+
+  findBounds() {
+    const { pose, lines: { x1, y1, x2, y2 } } = this.run;
+    const [left, right] = whereMostAre(pose.x), [low, high] = whereMostAre(pose.y);
+    const bounds = L.latLngBounds([]);
+    const extend = (x, y) => { if (x >= left && x <= right && y >= low && y <= high) bounds.extend([y, x]); };
+    for (let i = 0; i < x1.length; ++i) {
+      extend(x1[i], y1[i]);
+      extend(x2[i], y2[i]);
+    }
+    for (let i = 0; i < pose.x.length; ++i) extend(pose.x[i], pose.y[i]);
+    if (this.run.world) bounds.extend(this.worldBounds());
+    return bounds;
+  }
+
+  worldBounds() {
+    const { x, y, width, height, resolution } = this.run.world;
+    return L.latLngBounds([y, x], [y + height * resolution, x + width * resolution]);
+  }
+
+  showAll() { this.map.fitBounds(this.bounds, { animate: false, padding: [10, 10] }); }
+
+  /** Gives all its colour: at first, and where the page turns dark or light. */
+  paint() {
+    const fill = (name) => ({ color: colour(name), fillColor: colour(name) });
+    this.frontier.setStyle(fill('frontier'));
+    this.scan.setStyle(fill('scan'));
+    this.path.setStyle(fill('path'));
+    this.truth.setStyle(fill('truth'));
+    this.way.setStyle(fill('way'));
+    this.goal.setStyle(fill('goal'));
+    this.robot.setStyle(fill('robot'));
+    for (const line of this.drawn.values()) line.setStyle({ color: colour('line') });
+    if (!this.run.world) return;
+    this.layers['true world'].clearLayers();
+    L.imageOverlay(worldPicture(this.run.world), this.worldBounds(), { pane: 'world', className: 'world', alt: 'true world' })
+      .addTo(this.layers['true world']);
+  }
+
+  setVisible(name, isVisible) {
+    if (isVisible) this.map.addLayer(this.layers[name]); else this.map.removeLayer(this.layers[name]);
+  }
+
+  /** Shows a time [s since the first moment]. @return the decision that stood then. */
+  show(time) {
+    const run = this.run, moment = run.momentAt(time), pose = run.poseAt(time);
+    this.drawRobot(pose);
+    const decision = run.decisionAt(moment);
+    if (moment === this.moment) return decision;
+    this.scan.setLatLngs(run.scanAt(moment).map(toPlace));
+    this.path.setLatLngs(this.wholePath.slice(0, moment + 1));
+    if (this.wholeTruth) this.truth.setLatLngs(this.wholeTruth.slice(0, moment + 1));
+    this.drawDecision(decision);
+    if (this.frontierChanges.goTo(moment)) this.drawFrontier();
+    if (this.lineChanges.goTo(moment)) this.drawLines();
+    this.moment = moment;
+    return decision;
+  }
+
+  drawRobot({ x, y, theta }) {
+    const radius = this.run.robotRadius, outline = [];
+    for (let k = -5; k <= 5; ++k) {  // round at the back, pointed at the front
+      outline.push([y + radius * Math.sin(theta + Math.PI + k * 0.21), x + radius * Math.cos(theta + Math.PI + k * 0.21)]);
+    }
+    outline.push([y + 1.6 * radius * Math.sin(theta), x + 1.6 * radius * Math.cos(theta)]);
+    this.robot.setLatLngs(outline);
+  }
+
+  drawDecision({ goal, way }) {
+    const places = [];
+    for (let i = 0; i + 1 < way.length; i += 2) places.push([1e-3 * way[i + 1], 1e-3 * way[i]]);
+    this.way.setLatLngs(places);
+    this.goal.setStyle({ stroke: !!goal, fill: !!goal });
+    if (goal) this.goal.setLatLng([1e-3 * goal[1], 1e-3 * goal[0]]);
+  }
+
+  drawFrontier() {
+    const b = this.run.block;
+    this.frontier.setLatLngs(Array.from(this.blocks.values(), ([x, y]) => [[[y, x], [y, x + b], [y + b, x + b], [y + b, x]]]));
+  }
+
+  drawLines() {
+    const { support, x1, y1, x2, y2 } = this.run.lines;
+    for (const id of this.stale) {
+      const i = this.now.get(id), isThere = i !== undefined && support[i] > 0, line = this.drawn.get(id);
+      if (!isThere && line) {
+        this.layers.lines.removeLayer(line);
+        this.drawn.delete(id);
+      } else if (isThere && line) {
+        line.setLatLngs([[y1[i], x1[i]], [y2[i], x2[i]]]);
+      } else if (isThere) {
+        const fresh = L.polyline([[y1[i], x1[i]], [y2[i], x2[i]]],
+                                 { renderer: this.lineRenderer, color: colour('line'), weight: 2.5, bubblingMouseEvents: true });
+        fresh.bindTooltip(() => this.describe(id), { sticky: true });
+        fresh.on('mouseover', () => fresh.setStyle({ weight: 5 })).on('mouseout', () => fresh.setStyle({ weight: 2.5 }));
+        this.drawn.set(id, fresh);
+        this.layers.lines.addLayer(fresh);
+      }
+    }
+    this.stale.clear();
+  }
+
+  /** What is told of a line under the mouse. */
+  describe(id) {
+    const l = this.run.lines, i = this.now.get(id), [ox, oy] = this.run.origin;
+    if (i === undefined) return '';
+    const end = (x, y) => (ox + x).toFixed(3) + ', ' + (oy + y).toFixed(3);
+    return [`line ${id}`, `length ${Math.hypot(l.x2[i] - l.x1[i], l.y2[i] - l.y1[i]).toFixed(3)} m`,
+            `support ${l.support[i]} returns`,
+            `sigma ${(1e3 * l.sigmaOffset[i]).toFixed(2)} mm, ${(l.sigmaAngle[i] * 180 / Math.PI).toFixed(3)} deg`,
+            `from ${end(l.x1[i], l.y1[i])}`, `to ${end(l.x2[i], l.y2[i])} m`].join('<br>');
+  }
+}

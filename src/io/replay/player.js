@@ -1,0 +1,219 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The page: its runs side by side, the time they are shown at, and what the user does.
+'use strict';
+
+const byId = (id) => document.getElementById(id);
+
+class Player {
+  constructor() {
+    this.maps = [];
+    this.charts = [];
+    this.time = 0;
+    this.last = null;  // ms, when the last picture was drawn while playing; null: paused
+    this.hidden = new Set();
+    this.measureFrom = null;
+    this.connect();
+  }
+
+  get duration() { return Math.max(...this.maps.map(({ run }) => run.duration)); }
+  get isPlaying() { return this.last !== null; }
+
+  addRun(run) {
+    const section = document.createElement('section');
+    section.className = 'panel';
+    const title = document.createElement('h2'), map = document.createElement('div'), reason = document.createElement('p');
+    title.append(run.title + ' ');
+    title.append(Object.assign(document.createElement('small'), { className: 'numbers' }));
+    map.className = 'map';
+    reason.className = 'reason';
+    section.append(title, map, reason);
+    byId('runs').append(section);
+    const view = new RunMap(run, map);
+    Object.assign(view, { reason, numbers: title.querySelector('.numbers') });
+    this.maps.push(view);
+    new ResizeObserver(() => view.map.invalidateSize({ animate: false })).observe(map);
+    view.map.on('move', () => this.follow(view)).on('click', (event) => this.measure(view, event.latlng))
+      .on('mousemove', (event) => this.drawMeasure(view, event.latlng));
+    for (const name of this.hidden) view.setVisible(name, false);
+    byId('timeline').max = this.duration;
+    this.makeCharts();
+    this.makeLayerBoxes();
+    this.showWhole();
+    this.show(this.time);
+  }
+
+  /** Other maps show what this one does. */
+  follow(view) {
+    if (this.follows) return;
+    this.follows = true;
+    for (const other of this.maps) {
+      if (other !== view) other.map.setView(view.map.getCenter(), view.map.getZoom(), { animate: false });
+    }
+    this.follows = false;
+  }
+
+  showWhole() {
+    for (const view of this.maps) view.map.invalidateSize({ animate: false });
+    this.maps[0].showAll();
+  }
+
+  makeCharts() {
+    byId('charts').replaceChildren();
+    this.charts = curvesOf(this.maps.map(({ run }) => run)).map(([title, curves]) => {
+      const element = byId('charts').appendChild(document.createElement('div'));
+      return new Chart(element, title, curves, (distance) => this.seekDistance(distance));
+    });
+  }
+
+  makeLayerBoxes() {
+    const has = ({ run }) => ({ 'true world': run.world, 'true path': run.truth, frontier: run.frontier.x.length,
+                                'goal and way': run.decisions.some((d) => d.goal || d.way.length) });
+    byId('layers').replaceChildren(...kLayers.filter(([name]) => this.maps.some((view) => has(view)[name] ?? true))
+      .map(([name, colourName], i) => {
+        const label = document.createElement('label'), box = document.createElement('input');
+        const swatch = Object.assign(document.createElement('span'), { className: 'swatch' });
+        swatch.style.background = `var(--${colourName})`;
+        Object.assign(box, { type: 'checkbox', checked: !this.hidden.has(name), name });
+        label.title = `Show or hide (${i + 1})`;
+        box.addEventListener('change', () => {
+          if (box.checked) this.hidden.delete(name); else this.hidden.add(name);
+          for (const view of this.maps) view.setVisible(name, box.checked);
+        });
+        label.append(box, swatch, name);
+        return label;
+      }));
+  }
+
+  /** Shows a time, s since the beginning. */
+  show(time) {
+    this.time = Math.min(Math.max(0, time), this.duration);
+    const distances = [];
+    for (const view of this.maps) {
+      const decision = view.show(this.time), { distance } = view.run.poseAt(this.time);
+      distances.push(distance);
+      view.reason.textContent = decision.reason;
+      view.numbers.textContent = `${distance.toFixed(1)} m, ${view.drawn.size} lines`;
+    }
+    for (const chart of this.charts) chart.show(distances);
+    byId('timeline').value = this.time;
+    const clock = (s) => Math.floor(s / 60) + ':' + String(Math.floor(s % 60)).padStart(2, '0');
+    byId('clock').textContent = clock(this.time) + ' / ' + clock(this.duration);
+    byId('timeline').setAttribute('aria-valuetext', byId('clock').textContent);
+  }
+
+  seekDistance(distance) {
+    const { run } = this.maps[0];
+    this.show(run.time[Math.max(0, lastUpTo(run.distance, distance))] - run.begin);
+  }
+
+  play(on) {
+    if (on === this.isPlaying) return;
+    byId('play').innerHTML = on ? '&#10074;&#10074;' : '&#9654;';
+    byId('play').setAttribute('aria-label', on ? 'Pause' : 'Play');
+    if (!on) {
+      this.last = null;
+      return;
+    }
+    if (this.time >= this.duration) this.time = 0;
+    this.last = performance.now();
+    const draw = (now) => {
+      if (!this.isPlaying) return;
+      const next = this.time + Math.max(0, now - this.last) * 1e-3 * Number(byId('speed').value);
+      this.last = now;
+      this.show(next);
+      if (this.time >= this.duration) this.play(false); else requestAnimationFrame(draw);
+    };
+    requestAnimationFrame(draw);
+  }
+
+  changeSpeed(step) {
+    const speed = byId('speed');
+    speed.selectedIndex = Math.min(Math.max(0, speed.selectedIndex + step), speed.options.length - 1);
+  }
+
+  setMeasuring(on) {
+    byId('measure').setAttribute('aria-pressed', on);
+    document.body.classList.toggle('measuring', on);
+    byId('measured').textContent = on ? 'click where to measure from' : '';
+    if (this.ruler) this.ruler.remove();
+    this.ruler = this.measureFrom = null;
+  }
+
+  get isMeasuring() { return byId('measure').getAttribute('aria-pressed') === 'true'; }
+
+  measure(view, place) {
+    if (!this.isMeasuring) return;
+    if (this.measureFrom) {
+      this.drawMeasure(view, place);
+      this.measureFrom = null;
+      return;
+    }
+    if (this.ruler) this.ruler.remove();
+    this.measureFrom = { view, place };
+    this.ruler = L.polyline([place, place], { renderer: view.robot.options.renderer, interactive: false, color: colour('ink'), weight: 2 })
+      .addTo(view.map);
+  }
+
+  drawMeasure(view, place) {
+    if (!this.measureFrom || this.measureFrom.view !== view) return;
+    const from = this.measureFrom.place, dx = place.lng - from.lng, dy = place.lat - from.lat;
+    this.ruler.setLatLngs([from, place]);
+    byId('measured').textContent = `${Math.hypot(dx, dy).toFixed(3)} m, ${(Math.atan2(dy, dx) * 180 / Math.PI).toFixed(1)} deg`;
+  }
+
+  async compare(file) {
+    const page = new DOMParser().parseFromString(await file.text(), 'text/html');
+    const data = page.querySelector('script.run');
+    if (!data) return alert(file.name + ': holds no run');
+    while (this.maps.length > 1) {
+      const old = this.maps.pop();
+      old.map.getContainer().parentElement.remove();
+      old.map.remove();
+    }
+    this.addRun(await Run.read(data.textContent));
+  }
+
+  connect() {
+    byId('play').addEventListener('click', () => this.play(!this.isPlaying));
+    byId('timeline').addEventListener('input', (event) => this.show(Number(event.target.value)));
+    byId('measure').addEventListener('click', () => this.setMeasuring(!this.isMeasuring));
+    byId('whole').addEventListener('click', () => this.showWhole());
+    byId('compare').addEventListener('change', (event) => event.target.files[0] && this.compare(event.target.files[0]));
+    matchMedia('(prefers-color-scheme: dark)').addEventListener('change', () => {
+      for (const view of this.maps) view.paint();
+      this.makeCharts();
+      this.show(this.time);
+    });
+    document.addEventListener('keydown', (event) => this.press(event));
+  }
+
+  press(event) {
+    const { target, key } = event;
+    if (event.ctrlKey || event.altKey || event.metaKey) return;
+    const isElsewhere = target.closest('.leaflet-container, select, button, input[type=checkbox], .button');
+    const far = event.shiftKey ? 10 : 1;
+    const keys = {
+      ArrowLeft: () => this.show(this.time - far), ArrowRight: () => this.show(this.time + far),
+      Home: () => this.show(0), End: () => this.show(this.duration),
+      ' ': () => this.play(!this.isPlaying),
+    };
+    const anywhere = {
+      '+': () => this.changeSpeed(1), '-': () => this.changeSpeed(-1), 0: () => this.showWhole(),
+      m: () => this.setMeasuring(!this.isMeasuring), Escape: () => this.setMeasuring(false),
+    };
+    const layer = byId('layers').children[Number(key) - 1];
+    const action = (!isElsewhere && keys[key]) || anywhere[key] || (layer && (() => layer.firstChild.click()));
+    if (!action) return;
+    action();
+    event.preventDefault();
+  }
+}
+
+(async () => {
+  const player = new Player();
+  for (const data of document.querySelectorAll('script.run')) player.addRun(await Run.read(data.textContent));
+  const wanted = /^#t=([0-9.]+)$/.exec(location.hash);
+  player.show(wanted ? Number(wanted[1]) : player.duration);
+  document.title = player.maps.map(({ run }) => run.title).join(' and ') + ' - cca-mrpt replay';
+  window.player = player;
+})();

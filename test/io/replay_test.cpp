@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "cca_mrpt/io/replay.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <mrpt/system/string_utils.h>
+#include <zlib.h>
+
+#include <cmath>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <numeric>
+
+namespace cca {
+namespace {
+
+Scan wallAhead(const Pose2& T_map_sensor) {
+  Scan scan;
+  scan.angle_min = -0.5;
+  scan.angle_increment = 0.01;
+  scan.T_map_sensor = T_map_sensor;
+  for (int beam = 0; beam <= 100; ++beam) {
+    scan.ranges.push_back((10.0 - T_map_sensor.x) / std::cos(scan.bearing(beam)));
+  }
+  return scan;
+}
+
+ReplayMoment momentAt(double time, const Pose2& pose) {
+  ReplayMoment moment;
+  moment.time = moment.distance = time;
+  moment.T_map_robot = pose;
+  moment.truth = pose;
+  moment.reason = "test";
+  return moment;
+}
+
+/// A robot that drives at a wall, mm by mm.
+Replay drive(int moments) {
+  LineMap map;
+  Replay replay("wall");
+  for (int k = 0; k < moments; ++k) {
+    const Pose2 pose{1e-3 * k, 0.0, 0.0};
+    const Scan scan = wallAhead(pose);
+    if (k < 20) map.insert(scan);
+    ReplayMoment moment = momentAt(0.1 * k, pose);
+    if (k % 2 == 0) moment.frontier = {{1.0, 1.0}, {1.01, 1.01}};
+    replay.add(moment, scan, map);
+  }
+  map.finishBatch();
+  replay.finish(map.lines());
+  return replay;
+}
+
+nlohmann::json unpacked(const std::string& packed) {
+  std::vector<std::uint8_t> bytes;
+  EXPECT_TRUE(mrpt::system::decodeBase64(packed, bytes));
+  std::string text(100 * bytes.size() + 100000, '\0');
+  uLongf size = text.size();
+  EXPECT_EQ(uncompress(reinterpret_cast<Bytef*>(text.data()), &size, bytes.data(), bytes.size()),
+            Z_OK);
+  return nlohmann::json::parse(text.substr(0, size));
+}
+
+std::int64_t sum(const nlohmann::json& column) {
+  const auto numbers = column.get<std::vector<std::int64_t>>();
+  return std::accumulate(numbers.begin(), numbers.end(), std::int64_t{0});
+}
+
+TEST(Replay, KeepsTheMomentsOfAShortRun) {
+  const auto run = unpacked(drive(100).packed({7.0, 8.0}));
+  EXPECT_EQ(run["frames"]["time"].size(), 100u);
+  EXPECT_EQ(sum(run["frames"]["time"]), 9900);  // ms
+  EXPECT_EQ(sum(run["frames"]["x"]), 99);       // mm
+  EXPECT_EQ(run["frames"]["true_x"].size(), 100u);
+  EXPECT_EQ(run["origin"], nlohmann::json({7.0, 8.0}));
+  EXPECT_EQ(run["lasers"].size(), 1u);
+  EXPECT_EQ(run["frames"]["ranges"].size(), 100u * 101u);
+  EXPECT_EQ(run["frontier"]["frame"].size(), 100u);  // one block, there and gone
+  EXPECT_EQ(run["decisions"].size(), 1u);
+}
+
+TEST(Replay, EndsWithTheLinesAsTheyAre) {
+  LineMap map;
+  for (int k = 0; k < 20; ++k) map.insert(wallAhead({1e-3 * k, 0.0, 0.0}));
+  map.finishBatch();
+  ASSERT_EQ(map.lines().size(), 1u);
+  const auto lines = unpacked(drive(100).packed())["lines"];
+  EXPECT_EQ(sum(lines["x1"]), std::llround(1e3 * map.lines()[0].segment.start.x()));
+  EXPECT_EQ(sum(lines["y2"]), std::llround(1e3 * map.lines()[0].segment.end.y()));
+  EXPECT_EQ(sum(lines["support"]), std::llround(map.lines()[0].support));
+}
+
+TEST(Replay, ThinsALongRun) {
+  const auto run = unpacked(drive(9001).packed());
+  const std::size_t moments = run["frames"]["time"].size();
+  EXPECT_GE(moments, Replay::kMostMoments / 2);
+  EXPECT_LE(moments, Replay::kMostMoments);
+  EXPECT_EQ(sum(run["frames"]["time"]), 900000);
+  EXPECT_LE(sum(run["lines"]["frame"]), static_cast<std::int64_t>(moments));
+}
+
+TEST(Replay, GivesTheSameBytesAgain) { EXPECT_EQ(drive(300).packed(), drive(300).packed()); }
+
+TEST(Replay, LeavesOutWhatIsNotFinite) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  Replay replay;
+  replay.add(momentAt(0.0, {nan, 0.0, 0.0}), wallAhead({}), LineMap());
+  replay.add(momentAt(nan, {}), wallAhead({}), LineMap());
+  EXPECT_TRUE(replay.empty());
+  Scan scan = wallAhead({});
+  scan.ranges = {nan, -1.0, std::numeric_limits<double>::infinity(), 1e300, 2.0};
+  replay.add(momentAt(0.0, {}), scan, LineMap());
+  EXPECT_EQ(unpacked(replay.packed())["frames"]["ranges"],
+            nlohmann::json({0, 0, 0, 1000000, 200 - 1000000}));
+}
+
+TEST(Replay, ShowsNoTruthThatIsNotKnownThroughout) {
+  Replay replay;
+  replay.add(momentAt(0.0, {}), wallAhead({}), LineMap());
+  ReplayMoment unknown = momentAt(1.0, {});
+  unknown.truth.reset();
+  replay.add(unknown, wallAhead({}), LineMap());
+  EXPECT_FALSE(unpacked(replay.packed())["frames"].contains("true_x"));
+}
+
+TEST(Replay, PlaysALogThatTellsNoTimes) {
+  Replay replay;
+  for (int k = 0; k < 5; ++k)
+    replay.add(momentAt(0.0, {0.1 * k, 0.0, 0.0}), wallAhead({}), LineMap());
+  EXPECT_EQ(unpacked(replay.packed())["frames"]["time"], nlohmann::json({0, 100, 100, 100, 100}));
+}
+
+TEST(ReplayPage, HoldsItsRuns) {
+  const std::vector<std::string> runs{drive(10).packed(), drive(20).packed()};
+  const std::string page = replayPage(runs);
+  EXPECT_EQ(runsOfReplayPage(page, "page"), runs);
+  EXPECT_THAT(page, testing::Not(testing::HasSubstr("<script src")));
+  EXPECT_THAT(page, testing::Not(testing::HasSubstr("<link")));
+}
+
+TEST(ReplayPage, OfSomethingElseIsToldApart) {
+  EXPECT_THROW(runsOfReplayPage("<html></html>", "page"), std::runtime_error);
+}
+
+}  // namespace
+}  // namespace cca
