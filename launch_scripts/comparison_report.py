@@ -13,6 +13,7 @@ import csv
 import os
 import re
 import sys
+import textwrap
 
 import matplotlib
 
@@ -91,19 +92,24 @@ def verdict(table, figure, better):
     return heads, level, behind
 
 
+def item(text):
+    """A list's item, in lines of the pages' width."""
+    return textwrap.wrap("- " + text, 116, subsequent_indent="  ", break_long_words=False, break_on_hyphens=False)
+
+
 def verdicts(group, table, scans):
-    lines = []
+    parts = []
     for figure, better, name in (("f1_minus_cca", 1, "F1"), ("lateral_minus_cca", -1, "lateral error")):
         heads, level, behind = verdict(table, figure, better)
         if heads or level or behind:
-            lines.append("| %s | %s | %s | %s | %d |" % (
-                title(group, scans), name, ", ".join(heads) or "-", ", ".join(level) or "-", len(behind)))
-    return lines
+            parts.append("%s: better %s; level %s; worse %d" % (
+                name, ", ".join(heads) or "nobody", ", ".join(level) or "nobody", len(behind)))
+    return [line for part in parts for line in item("**%s**, %s." % (title(group, scans), part))]
 
 
 def losses(group, table, scans):
-    """Where another is better than ours, and whether the intervals part."""
-    lines = []
+    """Where another is better than ours; in bold where the intervals part."""
+    parts = []
     for figure, (heading, _, _, sign) in FIGURES.items():
         if not sign or figure not in table.get(OURS, {}):
             continue
@@ -112,10 +118,10 @@ def losses(group, table, scans):
             continue
         ours, other = table[OURS][figure], table[best][figure]
         apart = other[1] > ours[2] if sign > 0 else other[2] < ours[1]
-        lines.append("| %s | %s | %s | %s (%s): %s | %s |" % (
-            title(group, scans), heading, cell(table[OURS], figure), best[0], best[1],
-            cell(table[best], figure), "yes" if apart else "no"))
-    return lines
+        mark = "**" if apart else ""
+        parts.append("%s%s%s %s against %s (%s, %s)" % (
+            mark, heading, mark, cell(table[OURS], figure), cell(table[best], figure), best[0], best[1]))
+    return item("%s: %s." % (title(group, scans), "; ".join(parts))) if parts else []
 
 
 def forest(results, scans, path):
@@ -152,7 +158,7 @@ def sweep(results, path):
             points = [(n, v) for n, v in points if v]
             x = [1e3 * n for n, _ in points]
             style = dict(color="C3", lw=2.5, zorder=5) if who == OURS else dict(
-                color=plt.cm.tab20(k * 2 % 20 / 20), lw=1)
+                color=plt.cm.tab20(k % 20), lw=1)
             axis.plot(x, [scale * v[0] for _, v in points], marker="o", ms=3, label=who[0], **style)
             axis.fill_between(x, [scale * v[1] for _, v in points],
                               [scale * v[2] for _, v in points], color=style["color"], alpha=0.12)
@@ -192,11 +198,9 @@ def main():
         tables += ["", "### " + title(group, scans[group]), ""] + markdown(table)
     replace(all_tables, "tables", tables)
     paired = [line for g, table in results.items() for line in verdicts(g, table, scans[g])]
-    replace(document, "verdicts", ["", "| scans | figure | better than CCA | level | worse |",
-                                   "|---|---|---|---|---|"] + paired)
+    replace(document, "verdicts", [""] + paired + [""])
     lost = [line for group, table in results.items() for line in losses(group, table, scans[group])]
-    replace(document, "losses", ["", "| scans | figure | CCA | best | intervals apart |",
-                                 "|---|---|---|---|---|"] + lost)
+    replace(document, "losses", [""] + lost + [""])
 
 
 main()

@@ -33,7 +33,8 @@ def run(*command):
 def explore(program, world, folder, *options):
     """One exploration and what its map is worth; None where no map came of it."""
     path = os.path.join("maps", world + ".yaml")
-    status, _, error = run(program, "explore", path, "--out", folder, "--quiet", *options)
+    status, _, error = run(program, "explore", path, "--pose", "truth", "--out", folder, "--quiet",
+                           *options)
     summary = os.path.join(folder, "summary.json")
     if not os.path.exists(summary):
         print("%s %s: %s" % (world, " ".join(options), error.strip()), file=sys.stderr)
@@ -51,7 +52,7 @@ def number(value, decimals=3):
 
 
 HEAD = ["| run | finished | seen % | driven m | collisions | lines | map F1 | precision | recall | "
-        "lateral rms mm | µs / scan, median |", "|" + "---|" * 11]
+        "lateral mm | µs/scan |", "|" + "---|" * 11]
 
 
 def row(name, r):

@@ -4,16 +4,18 @@
 # nodes. --tests: all that, an off-screen display and the tools of the tests.
 set -eu
 
-packages="build-essential ca-certificates cmake libboost-dev libcairo2-dev libceres-dev libcli11-dev libeigen3-dev
-  libmrpt-dev libnanoflann-dev mrpt-common nlohmann-json3-dev pkg-config zlib1g-dev"
-ros="catkin libdiagnostic-updater-dev libgeometry-msgs-dev libnav-msgs-dev librosbag-dev libroscpp-dev
-  libroslib-dev libsensor-msgs-dev libstd-msgs-dev libstd-srvs-dev libtf2-dev libtf2-msgs-dev
+packages="build-essential ca-certificates cmake libboost-dev libcairo2-dev libcli11-dev libeigen3-dev libmrpt-dev
+  libnanoflann-dev mrpt-common nlohmann-json3-dev pkg-config zlib1g-dev"
+ros="catkin libactionlib-dev libdiagnostic-updater-dev libdynamic-reconfigure-config-init-mutex-dev libgeometry-msgs-dev
+  libmove-base-msgs-dev libnav-msgs-dev
+  librosbag-dev libroscpp-dev libroslib-dev libsensor-msgs-dev libstd-msgs-dev libstd-srvs-dev libtf2-dev libtf2-msgs-dev
   libvisualization-msgs-dev python3-diagnostic-msgs python3-nav-msgs python3-pil python3-rosbag
   python3-roslaunch python3-rospy python3-sensor-msgs python3-std-srvs python3-tf2-ros
   python3-visualization-msgs python3-yaml ros-core-dev rosbash rosout rviz"
-tests="catkin-lint clang clang-format ffmpeg gdal-bin git imagemagick libbenchmark-dev libclang-rt-14-dev
-  libgl1-mesa-dri libgmock-dev libgtest-dev librostest-dev mrpt-apps python3-dev python3-matplotlib python3-numpy
-  python3-rostest python3-venv x11-utils xauth xvfb"
+tests="catkin-lint chromium clang clang-format ffmpeg gdal-bin git imagemagick libbenchmark-dev libclang-rt-14-dev
+  libgl1-mesa-dri libgmock-dev libgtest-dev librostest-dev mrpt-apps python3-actionlib python3-dev
+  python3-dynamic-reconfigure
+  python3-matplotlib python3-move-base-msgs python3-numpy python3-rostest python3-venv x11-utils xauth xvfb"
 case "${1:-}" in
   --ros) packages="$packages $ros" ;;
   --tests) packages="$packages $ros $tests" ;;

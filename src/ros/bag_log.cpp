@@ -92,7 +92,7 @@ class BagLog : public LogReader {
       auto record = makeRecord(*message);
       left_out_ += !record;
       if (!record || !place(*record)) continue;
-      missing_returns_.judge(record->scan);
+      missing_returns_[frameName(message->header.frame_id)].judge(record->scan);
       ++at_;
       ++read_;
       return record;
@@ -159,19 +159,10 @@ class BagLog : public LogReader {
   /// bag knows `map`, a scan is not put into another frame instead.
   /// @return  whether that place is known.
   bool place(LogRecord& record) {
-    if (record.corrected) {
-      if (record.odometry) T_map_odom_ = *record.corrected * record.odometry->inverse();
-      has_map_ = true;
-      return true;
-    }
-    if (T_map_odom_ && record.odometry) {
-      record.corrected = *T_map_odom_ * *record.odometry;
-    } else if (has_map_) {
-      ++unplaced_;
-      return false;
-    }
-    const Pose2 robot = record.corrected ? *record.corrected : record.odometry.value_or(Pose2());
-    record.scan.T_map_sensor = robot * record.T_robot_sensor;
+    if (record.corrected) return has_map_ = true;
+    unplaced_ += has_map_;
+    if (has_map_) return false;
+    record.scan.T_map_sensor = record.odometry.value_or(Pose2()) * record.T_robot_sensor;
     return true;
   }
 
@@ -182,8 +173,8 @@ class BagLog : public LogReader {
   std::size_t messages_ = 1;
   std::string base_;
   bool has_map_ = false;  ///< tf knows the base in `map`, at some time
-  std::optional<Pose2> wheels_, T_map_odom_;
-  MissingReturns missing_returns_;
+  std::optional<Pose2> wheels_;
+  std::map<std::string, MissingReturns> missing_returns_;  ///< of each laser, by its frame
   std::string fault_;
   std::size_t read_ = 0, left_out_ = 0, unplaced_ = 0;
 };

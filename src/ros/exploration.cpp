@@ -2,6 +2,7 @@
 #include "exploration.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace cca {
 namespace {
@@ -11,20 +12,6 @@ namespace {
 constexpr double kLongestStep = 0.5;           // s
 constexpr double kLongestContradiction = 5.0;  // s
 
-const char* wordFor(ExplorationStatus status) {
-  switch (status) {
-    case ExplorationStatus::kExploring:
-      return "exploring";
-    case ExplorationStatus::kReturning:
-      return "returning";
-    case ExplorationStatus::kPaused:
-      return "paused";
-    case ExplorationStatus::kFinished:
-      return "finished";
-  }
-  return "";
-}
-
 }  // namespace
 
 Exploration::Exploration(ros::NodeHandle& node, ros::NodeHandle& private_node, Settings settings,
@@ -32,8 +19,8 @@ Exploration::Exploration(ros::NodeHandle& node, ros::NodeHandle& private_node, S
     : settings_(std::move(settings)),
       explorer_(program.mapping, program.robot, program.exploration),
       publisher_(node, settings_.map_frame),
-      saver_(private_node, settings_.out, [this] { return products(); }),
-      mode_(settings_.autostart ? Mode::kRunning : Mode::kStopped) {
+      mode_(settings_.autostart ? Mode::kRunning : Mode::kStopped),
+      saver_(private_node, settings_.out, [this] { return products(); }) {
   services_ = {private_node.advertiseService("start", &Exploration::onStart, this),
                private_node.advertiseService("stop", &Exploration::onStop, this),
                private_node.advertiseService("pause", &Exploration::onPause, this),
@@ -45,18 +32,53 @@ Velocity Exploration::step(Observation observation, const ros::Time& stamp) {
   const double passed = std::clamp(observation.time - last_time_, 0.0, kLongestStep);
   own_time_ += passed;
   last_time_ = observation.time;
+  T_map_goal_.reset();
   if (mode_ == Mode::kStopped || finished_) return {};
   observation.time = own_time_;
   const std::lock_guard<std::mutex> lock(saver_.mutex());
   const Action action = explorer_.step(observation);
   record_.add(observation.scan, observation.T_map_robot);
-  publisher_.show(explorer_, *record_.grid.grid(), observation.T_map_robot, action.goal, stamp);
+  if (action.goal) T_map_goal_ = Pose2{action.goal->x(), action.goal->y(), action.goal_heading};
+  publisher_.show(explorer_, *record_.grid.grid(), observation.T_map_robot, T_map_goal_, stamp);
+  if (has_last_pass_ && action.status == ExplorationStatus::kFinished) {
+    end_ = action;
+    return {};
+  }
   // The whole first: who hears "finished" finds the last map and way.
   if (action.status == ExplorationStatus::kFinished) finish(stamp);
   failed_ = isContradicted(passed);
   if (failed_ && !finished_) finish(stamp);
   tell(action);
   return finished_ ? Velocity{} : action.velocity;
+}
+
+void Exploration::conclude(const ros::Time& stamp) {
+  const Action action = *std::exchange(end_, std::nullopt);
+  const std::lock_guard<std::mutex> lock(saver_.mutex());
+  finish(stamp);
+  failed_ = isContradicted(0.0);
+  tell(action);
+}
+
+void Exploration::addBeside(const Scan& scan, const Pose2& T_map_robot) {
+  if (mode_ == Mode::kStopped || finished_) return;
+  const std::lock_guard<std::mutex> lock(saver_.mutex());
+  explorer_.addBeside(scan, T_map_robot);
+  record_.addBeside(scan);
+}
+
+void Exploration::correct(const PastScans& past, const std::vector<StampedPose>& way,
+                          std::size_t remembered) {
+  const std::lock_guard<std::mutex> lock(saver_.mutex());
+  explorer_.correctMap(past);
+  explorer_.correctNavigation(past);
+  record_.correct(past, remembered);
+  publisher_.correctWay(way);
+}
+
+void Exploration::note(const std::string& key, const nlohmann::json& value) {
+  const std::lock_guard<std::mutex> lock(saver_.mutex());
+  notes_[key] = value;
 }
 
 bool Exploration::isContradicted(double seconds) {
@@ -73,7 +95,7 @@ void Exploration::tell(const Action& action) {
                       100.0 * agreement().recent());
   }
   state_ = failed_ ? "failed: scans contradict the map; the pose is lost, or the scans are wrong"
-                   : std::string(wordFor(action.status)) + ": " + action.reason +
+                   : std::string(nameOf(action.status)) + ": " + action.reason +
                          (at_odds ? "; scans contradict the map" : "");
   publisher_.showStatus(state_);
 }
@@ -81,6 +103,10 @@ void Exploration::tell(const Action& action) {
 void Exploration::finish(const ros::Time& stamp) {
   finished_ = true;
   publisher_.showAll(explorer_, *record_.grid.grid(), stamp);
+  if (explorer_.leavesMuch()) {
+    ROS_WARN("%.1f m^2 in view were not reached: no way was found to them",
+             explorer_.planner().plan().unreached);
+  }
   if (settings_.save_at_end) saver_.saveSoon();
 }
 
@@ -89,6 +115,8 @@ MapProducts Exploration::products() const {
   products.summary["finished"] = finished_ && !failed_;
   products.summary["agreement"] = agreement().overall();
   products.summary["reason"] = state_;
+  products.summary["unreached_m2"] = explorer_.planner().plan().unreached;
+  products.summary.update(notes_);
   return products;
 }
 

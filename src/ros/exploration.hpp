@@ -4,6 +4,7 @@
 #include <std_srvs/SetBool.h>
 #include <std_srvs/Trigger.h>
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -34,11 +35,42 @@ class Exploration {
   /// observation.time may do what it likes: the explorer's own clock stands while it waits.
   Velocity step(Observation observation, const ros::Time& stamp);
 
+  /// See Explorer::leaveDriving(), noteOutcome().
+  void leaveDriving() { explorer_.leaveDriving(); }
+  void noteOutcome(DriveOutcome outcome) { explorer_.noteOutcome(outcome); }
+  /// Where the last step wants the robot, and where to it shall look there: only while it drives.
+  const std::optional<Pose2>& goal() const { return T_map_goal_; }
+  void changeMotion(const RobotParameters& robot) { explorer_.changeMotion(robot); }
+  /// As `~pause` with true does.
+  void pause() { setMode(Mode::kPaused); }
+
+  /// Once nothing is left, the exploration waits for conclude(): there is to be a last pass over
+  /// the poses, for which the robot has to stand. To be called before the first step.
+  void expectLastPass() { has_last_pass_ = true; }
+  bool isAtEnd() const { return end_.has_value(); }
+  /// What the last pass says of the past has been told by correct().
+  void conclude(const ros::Time& stamp);
+
+  /// A scan of another laser than that of the steps, see Explorer::addBeside().
+  void addBeside(const Scan& scan, const Pose2& T_map_robot);
+
+  /// The past has been corrected, and the next observation knows of it.
+  /// @param way         of the robot so far.
+  /// @param remembered  scans of the past that are of an earlier drive, the first ones.
+  void correct(const PastScans& past, const std::vector<StampedPose>& way,
+               std::size_t remembered = 0);
+  /// See MapSaver::saveMemory().
+  void saveMemory(std::function<std::string()> memory) { saver_.saveMemory(std::move(memory)); }
+
+  /// A line of summary.json.
+  void note(const std::string& key, const nlohmann::json& value);
+
   /// Neither paused, stopped nor finished.
   bool drives() const { return mode_ == Mode::kRunning && !finished_; }
   /// Also where it failed.
   bool finished() const { return finished_; }
   const ScanAgreement& agreement() const { return explorer_.agreement(); }
+  const ShownMotion& shownMotion() const { return explorer_.shownMotion(); }
   /// Told as the status while the robot has to stand: why.
   void wait(const std::string& reason) { publisher_.showStatus("waiting: " + reason); }
   const std::string& state() const { return state_; }
@@ -63,13 +95,17 @@ class Exploration {
   Explorer explorer_;
   MapRecord record_;
   ExplorationPublisher publisher_;
-  MapSaver saver_;
   Mode mode_;
   bool finished_ = false, failed_ = false;
+  bool has_last_pass_ = false;
+  std::optional<Action> end_;                ///< that waits for conclude()
   double own_time_ = 0.0, last_time_ = 0.0;  // s
   double contradicted_for_ = 0.0;            // s, that scans and map have been at odds
   std::string state_;
+  std::optional<Pose2> T_map_goal_;
+  nlohmann::ordered_json notes_ = nlohmann::ordered_json::object();
   std::vector<ros::ServiceServer> services_;
+  MapSaver saver_;  // last: it may still be saving, by products(), when all this ends
 };
 
 }  // namespace cca

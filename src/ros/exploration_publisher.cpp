@@ -6,8 +6,6 @@
 #include <nav_msgs/OccupancyGrid.h>
 #include <std_msgs/String.h>
 
-#include <cmath>
-
 #include "cca_mrpt/ros/grid_message.hpp"
 #include "cca_mrpt/ros/line_messages.hpp"
 #include "cca_mrpt/ros/pose_message.hpp"
@@ -16,18 +14,17 @@ namespace cca {
 namespace {
 
 const ros::WallDuration kLinePeriod(0.04), kMapPeriod(1.0);
-constexpr double kWayStep = 0.05, kWayTurn = 0.2;  // m, rad between recorded poses
 
 }  // namespace
 
 ExplorationPublisher::ExplorationPublisher(ros::NodeHandle& node, std::string map_frame)
     : map_frame_(std::move(map_frame)),
       lines_(node, map_frame_),
+      way_(node, map_frame_),
       map_(node.advertise<nav_msgs::OccupancyGrid>("map", 1, true)),
       map_metadata_(node.advertise<nav_msgs::MapMetaData>("map_metadata", 1, true)),
       frontiers_(node.advertise<visualization_msgs::MarkerArray>("frontier_markers", 1, true)),
       goal_(node.advertise<geometry_msgs::PoseStamped>("goal", 5)),
-      trajectory_(node.advertise<nav_msgs::Path>("trajectory", 1, true)),
       status_(node.advertise<std_msgs::String>("status", 5, true)) {}
 
 std_msgs::Header ExplorationPublisher::header(const ros::Time& stamp) const {
@@ -37,38 +34,25 @@ std_msgs::Header ExplorationPublisher::header(const ros::Time& stamp) const {
   return h;
 }
 
-void ExplorationPublisher::recordWay(const Pose2& T_map_robot, const ros::Time& stamp) {
-  const auto& poses = way_.poses;
-  if (!poses.empty()) {
-    const auto& last = poses.back().pose;
-    const double way = std::hypot(T_map_robot.x - last.position.x, T_map_robot.y - last.position.y);
-    const double theta = 2.0 * std::atan2(last.orientation.z, last.orientation.w);
-    if (way < kWayStep && std::abs(wrapAngle(T_map_robot.theta - theta)) < kWayTurn) return;
-  }
-  geometry_msgs::PoseStamped pose;
-  pose.header = header(stamp);
-  pose.pose = poseMessage(T_map_robot);
-  way_.poses.push_back(pose);
-}
-
-void ExplorationPublisher::showGoal(const std::optional<Eigen::Vector2d>& goal,
+void ExplorationPublisher::showGoal(const std::optional<Pose2>& T_map_goal,
                                     const ros::Time& stamp) {
-  if (goal && (!shown_goal_ || *goal != *shown_goal_)) {
+  const auto is_shown = [&](const Pose2& T) { return shown_goal_ && *shown_goal_ == T.position(); };
+  if (T_map_goal && !is_shown(*T_map_goal)) {
     geometry_msgs::PoseStamped message;
     message.header = header(stamp);
-    message.pose = poseMessage({goal->x(), goal->y(), 0.0});
+    message.pose = poseMessage(*T_map_goal);
     goal_.publish(message);
   }
-  shown_goal_ = goal;
+  shown_goal_.reset();
+  if (T_map_goal) shown_goal_ = T_map_goal->position();
 }
 
 void ExplorationPublisher::show(const Explorer& explorer,
                                 const mrpt::maps::COccupancyGridMap2D& grid,
-                                const Pose2& T_map_robot,
-                                const std::optional<Eigen::Vector2d>& goal,
+                                const Pose2& T_map_robot, const std::optional<Pose2>& T_map_goal,
                                 const ros::Time& stamp) {
-  recordWay(T_map_robot, stamp);
-  showGoal(goal, stamp);
+  way_.add(T_map_robot, stamp);
+  showGoal(T_map_goal, stamp);
   const ros::WallTime now = ros::WallTime::now();
   if (now - map_shown_ >= kMapPeriod) {
     showAll(explorer, grid, stamp);
@@ -91,8 +75,7 @@ void ExplorationPublisher::showAll(const Explorer& explorer,
     frontier.push_back(exploration_grid.centreOf(cell));
   }
   frontiers_.publish(frontierMarkers(frontier, exploration_grid.resolution(), header(stamp)));
-  way_.header = header(stamp);
-  trajectory_.publish(way_);
+  way_.publish(stamp);
   lines_shown_ = map_shown_ = ros::WallTime::now();
 }
 

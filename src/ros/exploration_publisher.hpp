@@ -2,13 +2,13 @@
 #pragma once
 
 #include <mrpt/maps/COccupancyGridMap2D.h>
-#include <nav_msgs/Path.h>
 #include <ros/ros.h>
 
 #include <string>
 
 #include "cca_mrpt/navigation/explorer.hpp"
 #include "line_publisher.hpp"
+#include "way_publisher.hpp"
 
 namespace cca {
 
@@ -21,24 +21,25 @@ class ExplorationPublisher {
   /// After each step. Lines go out at most 25 times, grid, frontiers and way once a second of the
   /// wall; a changed goal at once.
   void show(const Explorer& explorer, const mrpt::maps::COccupancyGridMap2D& grid,
-            const Pose2& T_map_robot, const std::optional<Eigen::Vector2d>& goal,
+            const Pose2& T_map_robot, const std::optional<Pose2>& T_map_goal,
             const ros::Time& stamp);
   /// All of it now, as it stands.
   void showAll(const Explorer& explorer, const mrpt::maps::COccupancyGridMap2D& grid,
                const ros::Time& stamp);
+  /// This is the way so far: the past has been corrected.
+  void correctWay(const std::vector<StampedPose>& way) { way_.replace(way); }
   /// Where it differs from what stands. The first word is the state.
   void showStatus(const std::string& status);
 
  private:
-  void showGoal(const std::optional<Eigen::Vector2d>& goal, const ros::Time& stamp);
-  void recordWay(const Pose2& T_map_robot, const ros::Time& stamp);
+  void showGoal(const std::optional<Pose2>& T_map_goal, const ros::Time& stamp);
   std_msgs::Header header(const ros::Time& stamp) const;
 
   std::string map_frame_;
   LinePublisher lines_;
-  ros::Publisher map_, map_metadata_, frontiers_, goal_, trajectory_, status_;
+  WayPublisher way_;
+  ros::Publisher map_, map_metadata_, frontiers_, goal_, status_;
   ros::WallTime lines_shown_, map_shown_;
-  nav_msgs::Path way_;
   std::optional<Eigen::Vector2d> shown_goal_;
   std::string shown_status_;
 };

@@ -22,7 +22,6 @@ struct Settings {
   SimulatorParameters simulator;
   RobotDriver::Settings driver;
   Exploration::Settings exploration;
-  std::string pose = "tf";
   bool exit_at_end = false;
   Parameters program;
 };
@@ -34,15 +33,26 @@ Settings readSettings() {
   parameters.text("world", s.simulator.world);
   std::vector<std::string> sections{"mapping", "exploration", "robot"};
   if (s.simulator.world == kNoWorld) {
-    parameters.number("scan_timeout", s.driver.scan_timeout, 0.05, 5.0, "s");
-    parameters.choice("pose", s.pose, {"tf", "odometry"});
+    s.program.robot.latency = RobotParameters::kLatencyOutThere;
+    const auto [shortest, longest] = RobotDriver::kScanTimeouts;
+    parameters.number("scan_timeout", s.driver.scan_timeout, shortest, longest, "s");
+    parameters.text("resume", s.driver.resume);
+    parameters.flag("corrections", s.driver.corrections);
+    parameters.names("scans", s.driver.scans);
+    parameters.text("hazard_points", s.driver.hazard_points);
+    parameters.text("hazard_range", s.driver.hazard_range);
+    parameters.choice("driver", s.driver.driver, {"cmd_vel", "move_base"});
+    parameters.choice("pose", s.driver.pose, {"tf", "slam", "auto", "odometry"});
     for (const char* simulated : {"start_pose", "speed", "scan_rate", "seed", "record"}) {
       parameters.withoutEffect(simulated);
     }
   } else {
     readParameters(parameters, s.simulator);
     sections.insert(sections.end(), {"laser", "odometry"});
-    for (const char* robots : {"scan_timeout", "pose"}) parameters.withoutEffect(robots);
+    for (const char* robots : {"scan_timeout", "pose", "resume", "corrections", "scans",
+                               "hazard_points", "hazard_range", "driver"}) {
+      parameters.withoutEffect(robots);
+    }
   }
   parameters.text("map_frame", s.driver.frames.map);
   parameters.text("odom_frame", s.driver.frames.odom);
@@ -54,8 +64,8 @@ Settings readSettings() {
   parameters.flag("exit_at_end", s.exit_at_end);
   parameters.program(s.program, sections);
   parameters.refuseUnknown();
+  s.driver.robot = s.program.robot;
   s.exploration.map_frame = s.driver.frames.map;
-  s.driver.publish_map_to_odom = s.pose == "odometry";
   if (s.simulator.world != kNoWorld) {
     s.exploration.title = std::filesystem::path(s.simulator.world).stem().string();
   }
@@ -64,9 +74,9 @@ Settings readSettings() {
 
 void exploreSimulated(const Settings& settings, ros::NodeHandle& node,
                       ros::NodeHandle& private_node) {
-  SimulatedRobot robot(node, makeSimulation(settings.simulator, settings.program),
-                       settings.driver.frames, settings.simulator.scan_rate,
-                       settings.simulator.record);
+  SimulatedRobot robot(
+      node, makeSimulation(settings.simulator, settings.program),
+      {settings.driver.frames, settings.simulator.scan_rate, settings.simulator.record, true});
   Exploration exploration(node, private_node, settings.exploration, settings.program);
   const std::map<std::string, long> none_dropped;
   NodeDiagnostics diagnostics(
@@ -87,11 +97,24 @@ void exploreSimulated(const Settings& settings, ros::NodeHandle& node,
   exploration.end();
 }
 
+/// What `auto` comes to, see choosePose().
+std::string chosenPose(const RobotDriver::Settings& settings, ros::NodeHandle& node,
+                       Exploration& exploration) {
+  if (settings.pose != "auto") return settings.pose;
+  const std::string pose =
+      choosePose(node, settings.frames, [&](const std::string& what) { exploration.wait(what); });
+  if (pose == "tf") ROS_INFO("tf tells where the robot is: _pose:=tf");
+  if (pose == "slam") ROS_INFO("nobody tells where the robot is: _pose:=slam");
+  return pose;
+}
+
 void exploreWithRobot(const Settings& settings, ros::NodeHandle& node,
                       ros::NodeHandle& private_node) {
   Exploration exploration(node, private_node, settings.exploration, settings.program);
-  {
-    RobotDriver driver(node, private_node, settings.driver, exploration);
+  RobotDriver::Settings driver_settings = settings.driver;
+  driver_settings.pose = chosenPose(settings.driver, node, exploration);
+  if (!driver_settings.pose.empty()) {
+    RobotDriver driver(node, private_node, driver_settings, settings.program.mapping, exploration);
     while (keepRunning(0.1)) {
       if (exploration.finished() && settings.exit_at_end) break;
     }
@@ -120,7 +143,17 @@ const NodeDescription kNode{
     "  save_at_end [true], exit_at_end [false]\n"
     "  map_frame [map], odom_frame [odom], base_frame [base_link], laser_frame [laser]\n"
     "with a robot\n"
-    "  pose [tf] tf: a localisation gives map -> odom; odometry: this node does, and trusts it\n"
+    "  pose [tf] tf: somebody gives map -> odom; slam: this node does, by line SLAM; odometry:\n"
+    "    this node does, and trusts the wheels; auto: slam where nobody gives it for 5 s, else tf\n"
+    "  driver [cmd_vel] who drives; move_base: its action is sent the explorer's goals\n"
+    "  robot/latency [0.15] s, from a command to where the base acts on it; 0 in a simulated "
+    "world\n"
+    "  resume [] folder of an earlier map with map.slam: slam goes on with it\n"
+    "  corrections [true] the past is placed anew where tf's map -> odom leaps, or by "
+    "corrected_path\n"
+    "  scans [[scan]] topics of its lasers; it drives by the first, and not into what any sees\n"
+    "  hazard_points [] topic, PointCloud2: what bumpers and the like have met\n"
+    "  hazard_range [] topic, Range: the same of distance sensors\n"
     "  scan_timeout [0.3] s without a usable scan until the robot is stopped\n"
     "in a simulated world\n"
     "  start_pose [the world's] X,Y,DEG\n"

@@ -84,4 +84,13 @@ visualization_msgs::MarkerArray frontierMarkers(const std::vector<Eigen::Vector2
   return asArray(std::move(marker));
 }
 
+visualization_msgs::MarkerArray loopMarkers(const std::vector<Eigen::Vector2d>& ends_map,
+                                            const std_msgs::Header& header) {
+  auto marker = emptyMarker(header, "loops", visualization_msgs::Marker::LINE_LIST);
+  marker.scale.x = 0.5 * kLineWidth;
+  marker.color = color(0.85f, 0.15f, 0.55f, 1.0f);
+  for (const auto& end : ends_map) marker.points.push_back(pointMessage(end, kLineHeight));
+  return asArray(std::move(marker));
+}
+
 }  // namespace cca

@@ -19,13 +19,21 @@ MapSaver::MapSaver(const ros::NodeHandle& private_node, std::string folder, Snap
 
 void MapSaver::save() {
   const std::lock_guard<std::mutex> one_at_a_time(writing_);
-  const MapProducts products = [this] {
+  std::function<std::string()> memory;
+  MapProducts products = [&] {
     const std::lock_guard<std::mutex> lock(mutex_);
+    memory = memory_;
     return snapshot_();
   }();
+  if (memory) products.memory = memory();
   const FolderLock lock = prepareMapFolder(folder_, true);
   writeMapFolder(folder_, products);
   ROS_INFO("map saved to %s", folder_.c_str());
+}
+
+void MapSaver::saveMemory(std::function<std::string()> memory) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  memory_ = std::move(memory);
 }
 
 void MapSaver::tellIfNothingCanBeWritten() const try {

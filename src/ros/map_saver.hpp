@@ -24,6 +24,10 @@ class MapSaver {
   /// Tells on the console, before the work, where the folder cannot be written.
   MapSaver(const ros::NodeHandle& private_node, std::string folder, Snapshot snapshot);
 
+  /// What goes with the map as map.slam: made in the thread that saves, not under the mutex, for it
+  /// is packed.
+  void saveMemory(std::function<std::string()> memory);
+
   /// To be held wherever what the snapshot reads is changed.
   std::mutex& mutex() { return mutex_; }
   /// In the caller's thread. @throws std::runtime_error naming the file and the reason.
@@ -39,6 +43,7 @@ class MapSaver {
 
   std::string folder_;
   Snapshot snapshot_;
+  std::function<std::string()> memory_;
   std::mutex mutex_, writing_;
   ros::NodeHandle node_;
   ros::CallbackQueue queue_;

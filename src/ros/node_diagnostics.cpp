@@ -51,6 +51,7 @@ void NodeDiagnostics::report(diagnostic_updater::DiagnosticStatusWrapper& status
   status.add("time per scan, longest [ms]", 1e3 * longest_);
   status.add("agreement of scans and map", agreement_.recent());
   status.add("agreement since the start", agreement_.overall());
+  for (const auto& [name, value] : notes_) status.add(name, value);
   if (!state_.empty()) status.add("state", state_);
   last_report_ = now;
   scans_reported_ = scans_, dropped_reported_ = dropped;

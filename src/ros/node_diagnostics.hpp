@@ -22,6 +22,8 @@ class NodeDiagnostics {
 
   /// @param agreement  of scans and map, with this scan.
   void scanUsed(double seconds_spent, const ScanAgreement& agreement);
+  /// A figure to be told beside these.
+  void note(const std::string& name, double value) { notes_[name] = value; }
   void setState(const std::string& state) { state_ = state; }
 
  private:
@@ -34,6 +36,7 @@ class NodeDiagnostics {
   long scans_ = 0, scans_reported_ = 0, dropped_reported_ = 0;
   double mean_ = 0.0, longest_ = 0.0;  // s a scan, since the last report
   ScanAgreement agreement_;
+  std::map<std::string, double> notes_;
   std::string state_;
 };
 

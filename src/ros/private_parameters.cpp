@@ -29,6 +29,25 @@ std::string textOf(XmlRpc::XmlRpcValue value) {
   }
 }
 
+/// Of `[a, b]` or `a`.
+std::vector<std::string> namesIn(std::string text) {
+  text.erase(std::remove_if(text.begin(), text.end(),
+                            [](char c) { return c == ' ' || c == '\'' || c == '"'; }),
+             text.end());
+  if (text.size() >= 2 && text.front() == '[' && text.back() == ']') {
+    text = text.substr(1, text.size() - 2);
+  }
+  std::vector<std::string> names(1);
+  for (const char c : text) {
+    if (c == ',') {
+      names.emplace_back();
+    } else {
+      names.back() += c;
+    }
+  }
+  return names;
+}
+
 bool contains(const std::vector<std::string>& words, const std::string& word) {
   return std::find(words.begin(), words.end(), word) != words.end();
 }
@@ -93,6 +112,28 @@ void PrivateParameters::choice(const std::string& name, std::string& value,
   text(name, chosen);
   for (const auto& word : allowed) list += " " + word;
   if (!contains(allowed, chosen)) refuse(name, chosen, list);
+  value = chosen;
+}
+
+void PrivateParameters::names(const std::string& name, std::vector<std::string>& value) {
+  XmlRpc::XmlRpcValue parameter;
+  if (!given(name, parameter)) return;
+  std::vector<std::string> chosen;
+  if (parameter.getType() == XmlRpc::XmlRpcValue::TypeArray) {
+    for (int k = 0; k < parameter.size(); ++k) chosen.push_back(textOf(parameter[k]));
+  } else {
+    chosen = namesIn(textOf(parameter));
+  }
+  auto sorted = chosen;
+  std::sort(sorted.begin(), sorted.end());
+  const bool is_sound = !chosen.empty() &&
+                        std::all_of(chosen.begin(), chosen.end(),
+                                    [](const std::string& word) {
+                                      std::string why;
+                                      return !word.empty() && ros::names::validate(word, why);
+                                    }) &&
+                        std::adjacent_find(sorted.begin(), sorted.end()) == sorted.end();
+  if (!is_sound) refuse(name, textOf(parameter), "a list of different topics, [a, b]");
   value = chosen;
 }
 

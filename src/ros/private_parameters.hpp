@@ -26,6 +26,8 @@ class PrivateParameters {
   void number(const std::string& name, int& value, int lowest, int highest,
               const std::string& unit);
   void choice(const std::string& name, std::string& value, const std::vector<std::string>& allowed);
+  /// One or more names: a list, or the same as text, `[a, b]`, as rosrun's command line gives it.
+  void names(const std::string& name, std::vector<std::string>& value);
   /// Warns where a parameter is given that is the node's own, but is not used this time.
   void withoutEffect(const std::string& name);
   /// The program's parameters of these sections; those of the .ini file that `~config` names come

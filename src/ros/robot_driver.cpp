@@ -15,32 +15,101 @@ namespace {
 constexpr double kWatchPeriod = 0.05;    // s
 constexpr double kOldestScan = 0.5;      // s; the world has moved on since
 constexpr double kOldestOdometry = 0.3;  // s
-const ros::WallDuration kInsist(1.0);    // zero is said for so long, then others may drive
+constexpr double kWorthTelling = 0.05;   // s, that commands act later than told
+// m, around the robot, of what other lasers see: it stands long before, from any speed.
+constexpr double kHeededBeside = 4.0;
+constexpr double kThinned = 0.02;      // m, between neighbours
+const ros::WallDuration kInsist(1.0);  // zero is said for so long, then others may drive
+
+/// The fixed frame of scans.
+const std::string& fixedFrame(const RobotDriver::Settings& settings) {
+  return settings.pose == "slam" ? settings.frames.odom : settings.frames.map;
+}
+
+std::vector<Eigen::Vector2d> returnsAround(const Scan& scan, const Eigen::Vector2d& robot) {
+  std::vector<Eigen::Vector2d> points;
+  const Pose2& T = scan.T_map_sensor;
+  for (std::size_t i = 0; i < scan.size(); ++i) {
+    if (!isReturn(scan.ranges[i])) continue;
+    const double bearing = T.theta + scan.bearing(i);
+    const Eigen::Vector2d p =
+        T.position() + scan.ranges[i] * Eigen::Vector2d(std::cos(bearing), std::sin(bearing));
+    if ((p - robot).norm() > kHeededBeside) continue;
+    if (points.empty() || (p - points.back()).norm() > kThinned) points.push_back(p);
+  }
+  return points;
+}
 
 }  // namespace
 
 RobotDriver::RobotDriver(ros::NodeHandle& node, ros::NodeHandle& private_node,
-                         const Settings& settings, Exploration& exploration)
+                         const Settings& settings, const CcaParameters& mapping,
+                         Exploration& exploration)
     : settings_(settings),
       exploration_(exploration),
-      commands_(node.advertise<geometry_msgs::Twist>("cmd_vel", 1)),
+      last_used_(settings.scans.size()),
+      beside_(settings.scans.size()),
       last_moving_(ros::WallTime::now()),
-      scans_(node, {settings.frames.map, settings.frames.base}, kOldestScan,
+      hazards_(node, {settings.hazard_points, settings.hazard_range, fixedFrame(settings)}),
+      scans_(node,
+             {settings.scans, fixedFrame(settings), settings.frames.base, kOldestScan,
+              settings.frames.odom},
              [this](const PlacedScan& placed) { use(placed); }),
       diagnostics_(
-          node, private_node, [this]() -> const auto& { return scans_.dropped(); }) {
-  if (settings_.publish_map_to_odom) publishMapToOdom(node);
+          node, private_node, [this]() -> const auto& { return scans_.dropped(); }),
+      reconfigure_(private_node, changeable(),
+                   [this] { exploration_.changeMotion(settings_.robot); }) {
+  if (settings_.pose == "odometry") publishMapToOdom(node);
+  if (settings_.pose == "slam") {
+    slam_ = std::make_shared<SlamLocalisation>(node, settings_.frames, settings_.resume);
+    exploration_.saveMemory([slam = slam_] { return slam->packedMemory(); });
+    exploration_.expectLastPass();
+  } else if (!settings_.resume.empty()) {
+    ROS_WARN("_resume:=%s has no effect: the robot is told where it is", settings_.resume.c_str());
+  }
+  if (settings_.pose == "tf" && settings_.corrections) outer_.emplace(node, mapping);
+  exploration_.note("pose", settings_.pose);
+  if (settings_.driver == "move_base") {
+    leaveDriving();
+  } else {
+    commands_ = node.advertise<geometry_msgs::Twist>("cmd_vel", 1);
+  }
   odometry_ = node.subscribe<nav_msgs::Odometry>(
-      "odom", 10, [this](const nav_msgs::Odometry::ConstPtr& m) { last_odometry_ = *m; },
-      ros::VoidConstPtr(), ros::TransportHints().tcpNoDelay());
+      "odom", 10, [this](const nav_msgs::Odometry::ConstPtr& m) { take(*m); }, ros::VoidConstPtr(),
+      ros::TransportHints().tcpNoDelay());
   watchdog_ =
       node.createTimer(ros::Duration(kWatchPeriod), [this](const ros::TimerEvent&) { watch(); });
 }
 
 RobotDriver::~RobotDriver() {
   watchdog_.stop();
-  command({});
+  stand();
   ros::WallDuration(0.1).sleep();  // for the message to leave before the connection does
+  if (slam_ && !exploration_.finished()) makeLastPass();
+}
+
+// Radius and margin are in all that is known of ways, and stay.
+std::vector<ReconfigureServer::Number> RobotDriver::changeable() {
+  std::vector<ReconfigureServer::Number> numbers;
+  describe(settings_.robot, [&](const std::string& name, double& value, double lowest,
+                                double highest, const std::string& unit, const std::string& what) {
+    if (name == "radius" || name == "safety_margin") return;
+    numbers.push_back({name, "robot/" + name, what + " [" + unit + "]", lowest, highest, &value});
+  });
+  numbers.push_back({"scan_timeout", "scan_timeout",
+                     "without a usable scan for longer, the robot is stopped [s]",
+                     kScanTimeouts.first, kScanTimeouts.second, &settings_.scan_timeout});
+  return numbers;
+}
+
+void RobotDriver::leaveDriving() {
+  exploration_.leaveDriving();
+  move_base_.emplace(
+      settings_.frames.map, [this](DriveOutcome outcome) { exploration_.noteOutcome(outcome); },
+      [this] {
+        if (exploration_.drives()) exploration_.pause();
+        ROS_WARN("somebody else has sent move_base elsewhere: call ~pause with false to go on");
+      });
 }
 
 void RobotDriver::publishMapToOdom(ros::NodeHandle& node) {
@@ -54,37 +123,164 @@ void RobotDriver::publishMapToOdom(ros::NodeHandle& node) {
   fixed_transforms_.publish(message);
 }
 
-Velocity RobotDriver::measuredVelocity() const {
-  const auto& twist = last_odometry_.twist.twist;
-  const double age = (ros::Time::now() - last_odometry_.header.stamp).toSec();
-  const bool usable = std::abs(age) < kOldestOdometry && std::isfinite(twist.linear.x) &&
-                      std::isfinite(twist.angular.z);
-  return usable ? Velocity{twist.linear.x, twist.angular.z} : command_;
+void RobotDriver::take(const nav_msgs::Odometry& odometry) {
+  const auto isTooOld = [&](const nav_msgs::Odometry& other) {
+    const double age = (odometry.header.stamp - other.header.stamp).toSec();
+    return age < 0.0 || age > kOldestScan;  // the clock was set back, or so it is
+  };
+  while (!lately_.empty() && isTooOld(lately_.front())) lately_.pop_front();
+  lately_.push_back(odometry);
 }
 
-void RobotDriver::use(const PlacedScan& placed) {
-  if (commands_.getNumSubscribers() == 0) {
-    if (exploration_.drives()) exploration_.wait("nobody listens to cmd_vel");
+// When the scan was taken: what the base has done since is the commands' affair.
+Velocity RobotDriver::measuredVelocity(const ros::Time& stamp) const {
+  double least = kOldestOdometry;
+  Velocity velocity = command_;
+  for (const auto& odometry : lately_) {
+    const auto& twist = odometry.twist.twist;
+    const double off = std::abs((odometry.header.stamp - stamp).toSec());
+    if (off >= least || !std::isfinite(twist.linear.x) || !std::isfinite(twist.angular.z)) continue;
+    least = off;
+    velocity = {twist.linear.x, twist.angular.z};
+  }
+  return velocity;
+}
+
+void RobotDriver::checkLatency() {
+  const ShownMotion& shown = exploration_.shownMotion();
+  const bool is_later = shown.earliest() > settings_.robot.latency + kWorthTelling;
+  if (has_told_latency_ || !shown.knowsLatency() || !is_later) return;
+  has_told_latency_ = true;
+  ROS_WARN(
+      "odom shows that commands act %.2f s late; robot/latency says %.2f s: the larger is used",
+      shown.latency(), settings_.robot.latency);
+}
+
+void RobotDriver::use(PlacedScan placed) {
+  if (placed.topic != 0) return useBeside(std::move(placed));
+  const ros::WallTime begin = ros::WallTime::now();
+  const Pose2 T_fixed_robot = placed.T_fixed_robot;
+  if (slam_) {
+    if (exploration_.isAtEnd()) {
+      makeLastPass();
+      return exploration_.conclude(placed.stamp);
+    }
+    if (slam_->place(placed)) {
+      exploration_.correct(slam_->past(), slam_->way(), slam_->remembered());
+    }
+    exploration_.note("loops", slam_->loops());
+    if (slam_->remembered() > 0) exploration_.note("found_in_memory", slam_->isInMemory());
+    slam_->tell(diagnostics_);
+  }
+  if (outer_) correctByOthers(placed);
+  if (const char* why = deaf()) {
+    if (exploration_.drives()) exploration_.wait(why);
+    if (move_base_) move_base_->forget();
     return;
   }
-  const ros::WallTime begin = ros::WallTime::now();
-  const Observation observation{placed.scan, placed.T_map_robot, measuredVelocity(),
-                                placed.stamp.toSec()};
-  command(exploration_.step(observation, placed.stamp));
-  // The clock of the laser's computer may be ahead of ours: that is no clock set back.
-  last_step_ = std::min(placed.stamp, ros::Time::now());
+  if (const auto silent = silentLaser(1)) {
+    if (exploration_.drives()) waitForLaser(*silent);
+    return stand();
+  }
+  explore(placed, placed.T_fixed_robot * T_fixed_robot.inverse());
   diagnostics_.scanUsed((ros::WallTime::now() - begin).toSec(), exploration_.agreement());
 }
 
-void RobotDriver::watch() {
-  const double age = (ros::Time::now() - last_step_).toSec();
-  if (age < 0.0) last_step_ = ros::Time();  // the clock was set back
-  const bool blind = age < 0.0 || age > settings_.scan_timeout;
-  if (blind && exploration_.drives() && commands_.getNumSubscribers() > 0) {
-    exploration_.wait("no usable scan" + scans_.lastTrouble());
+void RobotDriver::makeLastPass() {
+  slam_->finish();
+  if (slam_->past().size() == 0) return;
+  exploration_.note("loops", slam_->loops());
+  exploration_.correct(slam_->past(), slam_->way(), slam_->remembered());
+}
+
+void RobotDriver::correctByOthers(const PlacedScan& placed) {
+  if (!outer_->take(placed)) return;
+  exploration_.correct(outer_->past(), outer_->way());
+  hazards_.move(outer_->past().correctionHere());
+  for (Beside& beside : beside_) beside.points.clear();  // the next are a tenth of a second away
+}
+
+void RobotDriver::explore(const PlacedScan& placed, const Pose2& T_map_fixed) {
+  Observation observation{placed.scan, placed.T_fixed_robot, measuredVelocity(placed.stamp),
+                          placed.stamp.toSec(), !slam_ || !slam_->isLost()};
+  observation.seen_elsewhere = seenElsewhere(placed.stamp, T_map_fixed);
+  const Eigen::Vector2d robot_fixed = T_map_fixed.inverse() * placed.T_fixed_robot.position();
+  observation.hazards = hazards_.around(robot_fixed, placed.stamp, scans_.transforms());
+  for (Eigen::Vector2d& p : observation.hazards) p = T_map_fixed * p;
+  const Velocity velocity = exploration_.step(std::move(observation), placed.stamp);
+  if (!move_base_) {
+    command(velocity);
+    checkLatency();
+  } else if (exploration_.goal() && exploration_.drives()) {
+    move_base_->driveTo(*exploration_.goal());
+  } else {
+    stand();
   }
-  command(blind || !exploration_.drives() ? Velocity{} : command_);
+  // The clock of the laser's computer may be ahead of ours: that is no clock set back.
+  last_used_[0] = std::min(placed.stamp, ros::Time::now());
+}
+
+void RobotDriver::useBeside(PlacedScan placed) {
+  last_used_[placed.topic] = std::min(placed.stamp, ros::Time::now());
+  beside_[placed.topic] = {returnsAround(placed.scan, placed.T_fixed_robot.position()),
+                           placed.stamp};
+  if (outer_) outer_->take(placed);
+  if (!slam_ || slam_->placeBeside(placed)) {
+    exploration_.addBeside(placed.scan, placed.T_fixed_robot);
+  }
+}
+
+std::vector<Eigen::Vector2d> RobotDriver::seenElsewhere(const ros::Time& stamp,
+                                                        const Pose2& T_map_fixed) const {
+  std::vector<Eigen::Vector2d> points_map;
+  for (const Beside& beside : beside_) {
+    if (std::abs((stamp - beside.stamp).toSec()) > settings_.scan_timeout) continue;
+    for (const Eigen::Vector2d& p : beside.points) points_map.push_back(T_map_fixed * p);
+  }
+  return points_map;
+}
+
+std::optional<std::size_t> RobotDriver::silentLaser(std::size_t first) const {
+  const ros::Time now = ros::Time::now();
+  for (std::size_t topic = first; topic < last_used_.size(); ++topic) {
+    const double age = (now - last_used_[topic]).toSec();
+    if (age < 0.0 || age > settings_.scan_timeout) return topic;
+  }
+  return std::nullopt;
+}
+
+void RobotDriver::waitForLaser(std::size_t topic) {
+  const std::string which =
+      settings_.scans.size() > 1 ? " of '" + settings_.scans[topic] + "'" : "";
+  exploration_.wait("no usable scan" + which + scans_.lastTrouble());
+}
+
+void RobotDriver::watch() {
+  const ros::Time now = ros::Time::now();
+  const auto silent = silentLaser(0);
+  for (ros::Time& used : last_used_) {
+    if (now < used) used = ros::Time();  // the clock was set back
+  }
+  if (silent && exploration_.drives() && !deaf()) waitForLaser(*silent);
+  if (silent || !exploration_.drives()) {
+    stand();
+  } else if (!move_base_) {
+    command(command_);
+  }
   diagnostics_.setState(exploration_.state());
+}
+
+const char* RobotDriver::deaf() const {
+  if (move_base_) return move_base_->isThere() ? nullptr : "no move_base is there";
+  return commands_.getNumSubscribers() > 0 ? nullptr : "nobody listens to cmd_vel";
+}
+
+void RobotDriver::stand() {
+  if (move_base_) {
+    move_base_->stop();
+  } else {
+    command({});
+  }
 }
 
 void RobotDriver::command(const Velocity& velocity) {

@@ -4,48 +4,99 @@
 #include <nav_msgs/Odometry.h>
 #include <ros/ros.h>
 
+#include <deque>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
 #include "exploration.hpp"
+#include "hazard_feed.hpp"
+#include "move_base_driver.hpp"
 #include "node_diagnostics.hpp"
+#include "outer_localisation.hpp"
+#include "reconfigure_server.hpp"
 #include "scan_feed.hpp"
-#include "simulated_robot.hpp"
+#include "slam_localisation.hpp"
 
 namespace cca {
 
 /// Explores with a robot that is out there: `scan`, tf and, where there is one, `odom` in,
 /// `cmd_vel` out. It never drives blind: where no usable scan has come for `scan_timeout`, or
 /// nobody listens to cmd_vel, the command is zero, and the exploration goes on when they are back.
+/// Where move_base drives, its goal is cancelled instead, and cmd_vel is not touched.
+///
+/// Where there are several lasers, it drives by the first one: each of its scans is a step. Those
+/// of the others are mapped as they come, and what the last of each shows is no way to drive.
 class RobotDriver {
  public:
   struct Settings {
     FrameNames frames;
-    double scan_timeout = 0.3;  ///< s
-    bool publish_map_to_odom = false;
+    std::vector<std::string> scans{"scan"};   ///< topics, a laser each
+    std::string hazard_points, hazard_range;  ///< topics, see HazardFeed
+    double scan_timeout = 0.3;                ///< s
+    std::string pose = "tf";  ///< of the robot in the map, from tf, odometry or slam
+    std::string resume;       ///< folder of an earlier map, see SlamLocalisation
+    bool corrections = true;  ///< of the past where tf's map -> odom leaps
+    RobotParameters robot;
+    std::string driver = "cmd_vel";  ///< or move_base
   };
 
+  static constexpr std::pair<double, double> kScanTimeouts{0.05, 5.0};  ///< s, allowed
+
   RobotDriver(ros::NodeHandle& node, ros::NodeHandle& private_node, const Settings& settings,
-              Exploration& exploration);
+              const CcaParameters& mapping, Exploration& exploration);
   /// Leaves the robot standing.
   ~RobotDriver();
   RobotDriver(const RobotDriver&) = delete;
   RobotDriver& operator=(const RobotDriver&) = delete;
 
  private:
-  void use(const PlacedScan& placed);
+  void take(const nav_msgs::Odometry& odometry);
+  void use(PlacedScan placed);
+  void makeLastPass();
+  void correctByOthers(const PlacedScan& placed);
+  void useBeside(PlacedScan placed);
+  void explore(const PlacedScan& placed, const Pose2& T_map_fixed);
+  std::vector<Eigen::Vector2d> seenElsewhere(const ros::Time& stamp,
+                                             const Pose2& T_map_fixed) const;
+  /// The laser that has not been heard of for too long, if any; of those from `first` on.
+  std::optional<std::size_t> silentLaser(std::size_t first) const;
+  void waitForLaser(std::size_t topic);
   void watch();
+  /// Why the robot cannot be driven; nullptr where it can.
+  const char* deaf() const;
+  void stand();
   void command(const Velocity& velocity);
-  Velocity measuredVelocity() const;
+  Velocity measuredVelocity(const ros::Time& stamp) const;
+  void checkLatency();
+  void leaveDriving();
+  std::vector<ReconfigureServer::Number> changeable();
   void publishMapToOdom(ros::NodeHandle& node);
 
   Settings settings_;
   Exploration& exploration_;
   ros::Publisher commands_, fixed_transforms_;
   ros::Subscriber odometry_;
-  nav_msgs::Odometry last_odometry_;
+  std::deque<nav_msgs::Odometry> lately_;  ///< odometry
   Velocity command_;
-  ros::Time last_step_;
+  bool has_told_latency_ = false;
+  std::vector<ros::Time> last_used_;  ///< scan of each laser
+  /// What the last scan of a laser but the first shows around the robot; m, fixed frame.
+  struct Beside {
+    std::vector<Eigen::Vector2d> points;
+    ros::Time stamp;
+  };
+  std::vector<Beside> beside_;
   ros::WallTime last_moving_;
+  std::shared_ptr<SlamLocalisation> slam_;  ///< shared with who saves the map
+  std::optional<OuterLocalisation> outer_;
+  std::optional<MoveBaseDriver> move_base_;
+  HazardFeed hazards_;
   ScanFeed scans_;
   NodeDiagnostics diagnostics_;
+  ReconfigureServer reconfigure_;
   ros::Timer watchdog_;
 };
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <stdexcept>
+#include <utility>
 
 #include "cca_mrpt/ros/scan_message.hpp"
 
@@ -11,19 +12,24 @@ namespace {
 
 constexpr double kSmallestSeeingFraction = 0.1;  // below it a laser is covered or broken
 constexpr double kFurthestFuture = 1.0;          // s; clocks of two computers differ by less
-constexpr std::size_t kLongestQueue = 50;        // scans that wait for tf
 constexpr double kLongWait = 1.0;                // s; no localisation takes as long
+// Scans that have come, and that wait for tf: a mapper may be seconds behind a bag played 40 times
+// as fast. Who drives has no use for scans of seconds ago.
+constexpr std::uint32_t kQueue = 5000;
+constexpr std::size_t kMostWaiting = 5000, kMostWaitingToDrive = 50;
 
 }  // namespace
 
-ScanFeed::ScanFeed(ros::NodeHandle& node, Frames frames, double oldest, Sink sink)
-    : frames_(std::move(frames)),
-      oldest_(oldest),
+ScanFeed::ScanFeed(ros::NodeHandle& node, Settings settings, Sink sink)
+    : settings_(std::move(settings)),
       sink_(std::move(sink)),
       transforms_(node, [this] { serve(); }) {
-  scans_ = node.subscribe<sensor_msgs::LaserScan>(
-      "scan", 100, [this](const sensor_msgs::LaserScan::ConstPtr& m) { receive(*m); },
-      ros::VoidConstPtr(), ros::TransportHints().tcpNoDelay());
+  for (std::size_t topic = 0; topic < settings_.topics.size(); ++topic) {
+    scans_.push_back(node.subscribe<sensor_msgs::LaserScan>(
+        settings_.topics[topic], kQueue,
+        [this, topic](const sensor_msgs::LaserScan::ConstPtr& m) { receive(*m, topic); },
+        ros::VoidConstPtr(), ros::TransportHints().tcpNoDelay()));
+  }
 }
 
 void ScanFeed::drop(const std::string& reason, const std::string& detail) {
@@ -39,28 +45,30 @@ void ScanFeed::startAnewIfClockWasSetBack() {
     ROS_WARN("the clock was set back: waiting for new transforms and scans");
     transforms_.clear();
     waiting_.clear();
-    last_stamp_ = ros::Time();
+    last_stamps_.clear();
     gate_ = PoseGate();
   }
   last_now_ = now;
 }
 
-/// A bag's first scan may come before its first clock message; only who drives has to wait.
-bool ScanFeed::isFromTheFuture(const ros::Time& stamp) const {
-  const ros::Time now = ros::Time::now();
-  if (now.isZero() && oldest_ == 0.0) return false;
-  return (stamp - now).toSec() > kFurthestFuture;
+std::string ScanFeed::whyUnfit(const Waiting& w) const {
+  if (seeingFraction(w.scan) < kSmallestSeeingFraction) return "blind";
+  const auto last = last_stamps_.find(w.frame);
+  if (last != last_stamps_.end() && w.stamp <= last->second) return "not newer than the last";
+  if ((w.stamp - ros::Time::now()).toSec() > kFurthestFuture) return "from the future";
+  return "";
 }
 
-void ScanFeed::receive(const sensor_msgs::LaserScan& message) {
+void ScanFeed::receive(const sensor_msgs::LaserScan& message, std::size_t topic) {
   startAnewIfClockWasSetBack();
   try {
     Waiting waiting{scanFromMessage(message), message.header.stamp, sweepMiddle(message),
-                    message.header.frame_id};
-    if (seeingFraction(waiting.scan) < kSmallestSeeingFraction) return drop("blind");
-    if (waiting.stamp <= last_stamp_) return drop("not newer than the last");
-    if (isFromTheFuture(waiting.stamp)) return drop("from the future");
-    last_stamp_ = waiting.stamp;
+                    frameName(message.header.frame_id), topic};
+    if (drives()) {
+      const std::string why = whyUnfit(waiting);
+      if (!why.empty()) return drop(why);
+      last_stamps_[waiting.frame] = waiting.stamp;
+    }
     waiting_.push_back(std::move(waiting));
   } catch (const std::runtime_error& error) {
     return drop("malformed", error.what());
@@ -68,30 +76,49 @@ void ScanFeed::receive(const sensor_msgs::LaserScan& message) {
   serve();
 }
 
-bool ScanFeed::hasPose(const Waiting& w) const {
+std::optional<ros::Time> ScanFeed::latestPose(const std::string& laser_frame) const {
   const Transforms& tf = transforms_.transforms();
-  return tf.has(frames_.map, w.frame, w.middle) &&
-         (frames_.robot.empty() || tf.has(frames_.map, frames_.robot, w.middle));
+  const auto laser = tf.latest(settings_.fixed_frame, laser_frame);
+  if (settings_.robot_frame.empty() || !laser) return laser;
+  const auto robot = tf.latest(settings_.fixed_frame, settings_.robot_frame);
+  return robot ? std::min(laser, robot) : robot;
+}
+
+/// tf comes in the order of time: a time that it has passed, and knows no pose for, it never will.
+ScanFeed::Pose ScanFeed::pose(const Waiting& w, const std::optional<ros::Time>& latest) const {
+  if (!latest || (!latest->isZero() && w.middle > *latest)) return Pose::kExpected;
+  const Transforms& tf = transforms_.transforms();
+  const std::string& robot = settings_.robot_frame;
+  const bool is_known = tf.has(settings_.fixed_frame, w.frame, w.middle) &&
+                        (robot.empty() || tf.has(settings_.fixed_frame, robot, w.middle));
+  if (is_known) return Pose::kKnown;
+  return w.middle <= *latest ? Pose::kNever : Pose::kExpected;
 }
 
 std::string ScanFeed::whyNoPose(const Waiting& w) const {
   const Transforms& tf = transforms_.transforms();
-  const bool lacks_laser = !tf.has(frames_.map, w.frame, w.middle);
-  return tf.whyNot(frames_.map, lacks_laser ? w.frame : frames_.robot);
+  const bool lacks_laser = !tf.has(settings_.fixed_frame, w.frame, w.middle);
+  return tf.whyNot(settings_.fixed_frame, lacks_laser ? w.frame : settings_.robot_frame);
 }
 
 void ScanFeed::serve() {
-  const auto has_pose = [this](const Waiting& w) { return hasPose(w); };
-  for (;;) {
-    const auto next = std::find_if(waiting_.begin(), waiting_.end(), has_pose);
-    if (next == waiting_.end()) break;
-    // tf comes in the order of time: what stands before a scan with a pose will never have one.
-    for (auto n = next - waiting_.begin(); n > 0; --n) dropFirst();
-    const Waiting scan = std::move(waiting_.front());
-    waiting_.pop_front();
-    use(scan);
+  if (waiting_.empty()) return;
+  const std::size_t most = drives() ? kMostWaitingToDrive : kMostWaiting;
+  std::map<std::string, std::optional<ros::Time>> latest;
+  std::deque<Waiting> waiting;
+  std::swap(waiting, waiting_);
+  for (Waiting& w : waiting) {
+    const auto [at, is_new] = latest.try_emplace(w.frame);
+    if (is_new) at->second = latestPose(w.frame);
+    const Pose known = pose(w, at->second);
+    if (known == Pose::kKnown) use(w);
+    if (known == Pose::kNever) drop("no transform", whyNoPose(w));
+    if (known == Pose::kExpected) waiting_.push_back(std::move(w));
   }
-  while (waiting_.size() > kLongestQueue) dropFirst();
+  while (waiting_.size() > most) {
+    drop("no transform", whyNoPose(waiting_.front()));
+    waiting_.pop_front();
+  }
   if (waiting_.empty()) return;
   const std::string why = whyNoPose(waiting_.front());
   last_trouble_ = ": " + why;
@@ -100,30 +127,33 @@ void ScanFeed::serve() {
   }
 }
 
-void ScanFeed::dropFirst() {
-  const std::string why = whyNoPose(waiting_.front());
-  waiting_.pop_front();
-  drop("no transform", why);
-}
-
 void ScanFeed::use(const Waiting& waiting) {
-  if (oldest_ > 0.0 && (ros::Time::now() - waiting.stamp).toSec() > oldest_) return drop("too old");
-  PlacedScan placed{waiting.scan, {}, waiting.stamp, waiting.frame};
+  if (drives() && (ros::Time::now() - waiting.stamp).toSec() > settings_.oldest) {
+    return drop("too old");
+  }
+  PlacedScan placed{waiting.scan, {}, waiting.stamp, waiting.frame, waiting.topic};
+  const Transforms& tf = transforms_.transforms();
+  const std::string& robot = settings_.robot_frame;
   try {
-    placeScan(placed.scan,
-              transforms_.transforms().lookup(frames_.map, waiting.frame, waiting.middle));
-    placed.T_map_robot =
-        frames_.robot.empty()
-            ? placed.scan.T_map_sensor
-            : transforms_.transforms().lookup(frames_.map, frames_.robot, waiting.middle).pose;
+    placeScan(placed.scan, tf.lookup(settings_.fixed_frame, waiting.frame, waiting.middle));
+    placed.T_fixed_robot = robot.empty()
+                               ? placed.scan.T_map_sensor
+                               : tf.lookup(settings_.fixed_frame, robot, waiting.middle).pose;
+    const std::string& odom = settings_.odom_frame;
+    const std::string& source = robot.empty() ? waiting.frame : robot;
+    if (!odom.empty() && tf.has(odom, source, waiting.middle)) {
+      placed.T_odom_robot = tf.lookup(odom, source, waiting.middle).pose;
+    }
   } catch (const std::runtime_error& error) {
     return drop("no usable transform", error.what());
   }
-  const auto verdict = gate_.check(placed.T_map_robot, waiting.stamp.toSec());
-  if (verdict == PoseGate::Verdict::kHeld) return drop("the pose leapt");
-  if (verdict == PoseGate::Verdict::kMoved) ROS_WARN("the pose leapt, and stays: going on there");
+  if (drives()) {
+    const auto verdict = gate_.check(placed.T_fixed_robot, waiting.stamp.toSec());
+    if (verdict == PoseGate::Verdict::kHeld) return drop("the pose leapt");
+    if (verdict == PoseGate::Verdict::kMoved) ROS_WARN("the pose leapt, and stays: going on there");
+  }
   last_trouble_.clear();
-  missing_returns_.judge(placed.scan);
+  missing_returns_[waiting.frame].judge(placed.scan);
   sink_(placed);
 }
 

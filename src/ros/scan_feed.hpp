@@ -7,7 +7,9 @@
 #include <deque>
 #include <functional>
 #include <map>
+#include <optional>
 #include <string>
+#include <vector>
 
 #include "cca_mrpt/mapping/missing_returns.hpp"
 #include "cca_mrpt/mapping/scan.hpp"
@@ -16,30 +18,39 @@
 
 namespace cca {
 
-/// A scan that may be used: sound, in order, and at a pose that tf vouches for.
+/// A scan that may be used: sound, and at a pose that tf vouches for.
 struct PlacedScan {
-  Scan scan;
-  Pose2 T_map_robot;
-  ros::Time stamp;    ///< of the message, its first beam
-  std::string frame;  ///< of the message
+  Scan scan;  ///< T_map_sensor is in the fixed frame
+  Pose2 T_fixed_robot;
+  ros::Time stamp;                      ///< of the message, its first beam
+  std::string frame;                    ///< of the message: which laser
+  std::size_t topic;                    ///< which of the topics it came by
+  std::optional<Pose2> T_odom_robot{};  ///< where that is asked for and known
 };
 
-/// Turns `scan` and tf into placed scans. What cannot be used is dropped, counted by reason, and
-/// told at most once in five seconds: a message that no laser can have meant, a blind one (hardly a
-/// valid beam, or none that returned), one not newer than the last, one too old to drive by, one
-/// that tf knows no pose for, one after which the pose leapt. Lives in the thread that spins.
+/// Turns scans and tf into placed scans. A scan waits until tf has come to its stamp. What cannot
+/// be used is dropped, counted by reason, and told at most once in five seconds.
+///
+/// For mapping, that is a message that no laser can have meant, and a scan that tf knows no pose
+/// for: the same as in `cca-mrpt map BAG`. Who drives can use no blind scan either (hardly a valid
+/// beam, or none that returned), none that is not newer than the last of its laser, is too old to
+/// drive by or from the future, and none after which the pose leapt. Lives in the thread that
+/// spins.
 class ScanFeed {
  public:
-  struct Frames {
-    std::string map = "map";
-    std::string robot;  ///< empty: the robot's own frame is not asked for, and stays the sensor's
+  struct Settings {
+    std::vector<std::string> topics{"scan"};
+    std::string fixed_frame = "map";
+    std::string robot_frame =
+        {};                       ///< empty: not asked for; T_fixed_robot is the sensor's pose then
+    double oldest = 0.0;          ///< s, of a scan that may be driven by; 0: for mapping only
+    std::string odom_frame = {};  ///< empty: not asked for
   };
   using Sink = std::function<void(const PlacedScan&)>;
 
-  /// @param oldest  s; a scan older than this when it could be used is dropped. 0: any age, for
-  ///                mapping without driving.
-  ScanFeed(ros::NodeHandle& node, Frames frames, double oldest, Sink sink);
+  ScanFeed(ros::NodeHandle& node, Settings settings, Sink sink);
 
+  const Transforms& transforms() const { return transforms_.transforms(); }
   const std::map<std::string, long>& dropped() const { return dropped_; }
   /// Why the last scan was dropped or still waits, as ": reason"; empty where it was used.
   const std::string& lastTrouble() const { return last_trouble_; }
@@ -49,29 +60,33 @@ class ScanFeed {
     Scan scan;
     ros::Time stamp, middle;
     std::string frame;
+    std::size_t topic;
   };
+  enum class Pose { kKnown, kExpected, kNever };
 
-  void receive(const sensor_msgs::LaserScan& message);
+  void receive(const sensor_msgs::LaserScan& message, std::size_t topic);
   void serve();
   void use(const Waiting& waiting);
-  void dropFirst();
-  bool hasPose(const Waiting& waiting) const;
+  bool drives() const { return settings_.oldest > 0.0; }
+  /// Why a scan that has just come must not be driven by; empty where it may.
+  std::string whyUnfit(const Waiting& waiting) const;
+  std::optional<ros::Time> latestPose(const std::string& laser_frame) const;
+  Pose pose(const Waiting& waiting, const std::optional<ros::Time>& latest) const;
   std::string whyNoPose(const Waiting& waiting) const;
   void drop(const std::string& reason, const std::string& detail = "");
   void startAnewIfClockWasSetBack();
-  bool isFromTheFuture(const ros::Time& stamp) const;
 
-  Frames frames_;
-  double oldest_;
+  Settings settings_;
   Sink sink_;
   std::deque<Waiting> waiting_;
   PoseGate gate_;
-  MissingReturns missing_returns_;
-  ros::Time last_stamp_, last_now_;
+  std::map<std::string, MissingReturns> missing_returns_;  ///< of each laser, by its frame
+  std::map<std::string, ros::Time> last_stamps_;           ///< the same
+  ros::Time last_now_;
   std::string last_trouble_;
   std::map<std::string, long> dropped_;
   TransformFeed transforms_;  // these two last: they call what stands above
-  ros::Subscriber scans_;
+  std::vector<ros::Subscriber> scans_;
 };
 
 }  // namespace cca

@@ -45,14 +45,15 @@ void setCovariances(const OdometryParameters& errors, double way, double turned,
 
 }  // namespace
 
-SimulatedRobot::SimulatedRobot(ros::NodeHandle& node, Simulation simulation, FrameNames frames,
-                               double scan_rate, const std::string& bag)
+SimulatedRobot::SimulatedRobot(ros::NodeHandle& node, Simulation simulation,
+                               const Settings& settings)
     : simulation_(std::move(simulation)),
-      frames_(std::move(frames)),
+      frames_(settings.frames),
+      has_localisation_(settings.has_localisation),
       keeps_clock_(ros::Time::isSimTime()),
-      scan_period_(1.0 / scan_rate),
-      ticks_per_scan_(static_cast<int>(std::ceil(kPoseRate / scan_rate))),
-      bag_(bag),
+      scan_period_(1.0 / settings.scan_rate),
+      ticks_per_scan_(static_cast<int>(std::ceil(kPoseRate / settings.scan_rate))),
+      bag_(settings.record),
       transforms_(node.advertise<tf2_msgs::TFMessage>("/tf", 100)),
       fixed_transforms_(node.advertise<tf2_msgs::TFMessage>("/tf_static", 10, true)),
       odometry_(node.advertise<nav_msgs::Odometry>("odom", 50)),
@@ -88,9 +89,11 @@ void SimulatedRobot::publishPose() {
     clock_.publish(clock);
   }
   const Pose2 T_odom_robot = simulation_.T_odom_robot();
-  const Pose2 T_map_odom = simulation_.T_map_robot() * T_odom_robot.inverse();
   tf2_msgs::TFMessage message;
-  message.transforms.push_back(stamped(T_map_odom, frames_.map, frames_.odom, stamp));
+  if (has_localisation_) {
+    const Pose2 T_map_odom = simulation_.T_map_robot() * T_odom_robot.inverse();
+    message.transforms.push_back(stamped(T_map_odom, frames_.map, frames_.odom, stamp));
+  }
   message.transforms.push_back(stamped(T_odom_robot, frames_.odom, frames_.base, stamp));
   transforms_.publish(message);
   bag_.write("/tf", stamp, message);

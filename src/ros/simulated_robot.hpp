@@ -7,23 +7,22 @@
 
 #include "bag_recorder.hpp"
 #include "cca_mrpt/simulation/simulation.hpp"
+#include "frame_names.hpp"
 
 namespace cca {
 
-/// The frames that a robot speaks of [REP-105].
-struct FrameNames {
-  std::string map = "map", odom = "odom", base = "base_link", laser = "laser";
-};
-
-/// A Simulation as a robot of ROS: `scan`, `odom`, tf map->odom (of a perfect localisation),
-/// odom->base_link and base_link->laser, and `/clock` where the nodes use simulated time. No other
-/// node may publish these transforms.
+/// A Simulation as a robot of ROS: `scan`, `odom`, tf map->odom (of a perfect localisation, where
+/// there is one), odom->base_link and base_link->laser, and `/clock` where the nodes use simulated
+/// time. No other node may publish these transforms.
 class SimulatedRobot {
  public:
-  /// @param scan_rate  Hz, positive. Poses are told at least 50 times a second.
-  /// @param bag        file that scan, odom and tf are recorded in; empty: none.
-  SimulatedRobot(ros::NodeHandle& node, Simulation simulation, FrameNames frames, double scan_rate,
-                 const std::string& bag);
+  struct Settings {
+    FrameNames frames;
+    double scan_rate = 10.0;       ///< Hz, positive. Poses are told at least 50 times a second.
+    std::string record;            ///< bag for scan, odom and tf; empty: none
+    bool has_localisation = true;  ///< false: nobody here tells map->odom
+  };
+  SimulatedRobot(ros::NodeHandle& node, Simulation simulation, const Settings& settings);
 
   /// Drives for one tick towards the command, then tells the time and where the robot is.
   void tick(const Velocity& command);
@@ -41,7 +40,6 @@ class SimulatedRobot {
     if (!keeps_clock_) start_ += ros::Duration(seconds);
   }
   const Simulation& simulation() const { return simulation_; }
-  const FrameNames& frames() const { return frames_; }
 
  private:
   void publishPose();
@@ -49,6 +47,7 @@ class SimulatedRobot {
 
   Simulation simulation_;
   FrameNames frames_;
+  bool has_localisation_;
   ros::Time start_;
   bool keeps_clock_;
   double scan_period_, tick_;

@@ -20,6 +20,7 @@ constexpr double kCommandHolds = 0.5;  // s; a base that hears nothing for longe
 struct Settings {
   SimulatorParameters simulator;
   FrameNames frames;
+  bool localisation = true;
   Parameters program;
 };
 
@@ -28,6 +29,7 @@ Settings readSettings() {
   PrivateParameters parameters{ros::NodeHandle("~")};
   parameters.text("world", s.simulator.world);
   readParameters(parameters, s.simulator);
+  parameters.flag("localisation", s.localisation);
   parameters.text("map_frame", s.frames.map);
   parameters.text("odom_frame", s.frames.odom);
   parameters.text("base_frame", s.frames.base);
@@ -40,8 +42,9 @@ Settings readSettings() {
 void simulate() {
   const Settings settings = readSettings();
   ros::NodeHandle node;
-  SimulatedRobot robot(node, makeSimulation(settings.simulator, settings.program), settings.frames,
-                       settings.simulator.scan_rate, settings.simulator.record);
+  SimulatedRobot robot(node, makeSimulation(settings.simulator, settings.program),
+                       {settings.frames, settings.simulator.scan_rate, settings.simulator.record,
+                        settings.localisation});
   Velocity command;
   double commanded_at = -kCommandHolds;
   const auto take = [&](const geometry_msgs::Twist::ConstPtr& twist) {
@@ -80,6 +83,7 @@ const NodeDescription kNode{
     "  scan_rate [10] Hz\n"
     "  seed [1] of all that is random\n"
     "  record [] bag to write\n"
+    "  localisation [true] tells map -> odom, which is the truth; false: nobody here does\n"
     "  map_frame [map], odom_frame [odom], base_frame [base_link], laser_frame [laser]",
     {"robot", "laser", "odometry"}};
 

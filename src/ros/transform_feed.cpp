@@ -2,16 +2,22 @@
 #include "transform_feed.hpp"
 
 namespace cca {
+namespace {
+
+constexpr int kTransformQueue =
+    20000;  // messages; those of a busy robot within three seconds at 40 x speed
+
+}  // namespace
 
 TransformFeed::TransformFeed(ros::NodeHandle& node, std::function<void()> on_change)
     : on_change_(std::move(on_change)) {
   const auto no_delay = ros::TransportHints().tcpNoDelay();
   using Message = tf2_msgs::TFMessage;
   moving_ = node.subscribe<Message>(
-      "/tf", 200, [this](const Message::ConstPtr& m) { take(*m, false); }, ros::VoidConstPtr(),
-      no_delay);
+      "/tf", kTransformQueue, [this](const Message::ConstPtr& m) { take(*m, false); },
+      ros::VoidConstPtr(), no_delay);
   fixed_ = node.subscribe<Message>(
-      "/tf_static", 200, [this](const Message::ConstPtr& m) { take(*m, true); },
+      "/tf_static", kTransformQueue, [this](const Message::ConstPtr& m) { take(*m, true); },
       ros::VoidConstPtr(), no_delay);
 }
 

@@ -10,6 +10,8 @@
 namespace cca {
 namespace {
 
+const ros::Duration kKept(120.0);
+
 /// By how much the stamps of moving transforms differ, and a second for rounding. tf2 adds it to a
 /// stamp, which must not leave the range of ros::Time; nor may it leave that of ros::Duration.
 ros::Duration span(const std::vector<Transforms::Message>& messages) {
@@ -33,6 +35,8 @@ std::string frameName(const std::string& frame) {
   return !frame.empty() && frame.front() == '/' ? frame.substr(1) : frame;
 }
 
+Transforms::Transforms() : buffer_(kKept) {}
+
 Transforms::Transforms(const std::vector<Message>& messages) : buffer_(span(messages)) {
   for (const auto& message : messages) add(message.transforms, message.is_static);
 }
@@ -51,11 +55,29 @@ bool Transforms::has(const std::string& target, const std::string& source,
   return buffer_.canTransform(frameName(target), frameName(source), time);
 }
 
+std::optional<ros::Time> Transforms::latest(const std::string& target,
+                                            const std::string& source) const {
+  if (!has(target, source, {})) return std::nullopt;
+  return buffer_.lookupTransform(frameName(target), frameName(source), {}).header.stamp;
+}
+
 PlanarPose Transforms::lookup(const std::string& target, const std::string& source,
                               const ros::Time& time) const {
   try {
     return planarPose(
         buffer_.lookupTransform(frameName(target), frameName(source), time).transform);
+  } catch (const tf2::TransformException& error) {
+    throw std::runtime_error(error.what());
+  }
+}
+
+Eigen::Isometry3d Transforms::lookupInSpace(const std::string& target, const std::string& source,
+                                            const ros::Time& time) const {
+  try {
+    const auto m = buffer_.lookupTransform(frameName(target), frameName(source), time).transform;
+    const auto& q = m.rotation;
+    return Eigen::Translation3d(m.translation.x, m.translation.y, m.translation.z) *
+           Eigen::Quaterniond(q.w, q.x, q.y, q.z).normalized();
   } catch (const tf2::TransformException& error) {
     throw std::runtime_error(error.what());
   }

@@ -106,13 +106,11 @@ TEST_F(BagLog, ScansAreNotPutIntoTwoFrames) {
   transform("odom", "base_link", {1.0, 0.0, 0.0}, 1.0);
   scan(0.8);  // `map` is not known any more
   const auto log = open();
-  for (const double x : {50.3, 50.8}) {
-    const auto record = log->next();
-    ASSERT_TRUE(record.has_value());
-    EXPECT_NEAR(record->scan.T_map_sensor.x, x, 1e-6);
-  }
+  const auto record = log->next();
+  ASSERT_TRUE(record.has_value());
+  EXPECT_NEAR(record->scan.T_map_sensor.x, 50.3, 1e-6);
   EXPECT_FALSE(log->next().has_value());
-  EXPECT_THAT(log->warnings(), testing::HasSubstr("1 scan(s) that tf has no pose in 'map' for"));
+  EXPECT_THAT(log->warnings(), testing::HasSubstr("2 scan(s) that tf has no pose in 'map' for"));
 }
 
 TEST_F(BagLog, StampsMayRunFasterThanTheRecording) {

@@ -14,7 +14,8 @@ from std_msgs.msg import String
 from tf2_msgs.msg import TFMessage
 
 from cca_mrpt.msg import LineMap
-from ros_watch import Watch, distance_to_walls, walls
+from ros_watch import Watch
+from segments import distance_to, read_segments
 
 
 class ExploreRobot(unittest.TestCase):
@@ -47,15 +48,15 @@ class ExploreRobot(unittest.TestCase):
         self.assertEqual(self.tf.senders | self.tf_static.senders, {"/simulator"})
 
     def test_5_lines_are_the_true_walls(self):
-        truth = walls(rospy.get_param("~truth"))
+        truth = read_segments(rospy.get_param("~truth"))
         lines = self.lines.messages[-1].lines
         mapped = numpy.array([[l.start.x, l.start.y, l.end.x, l.end.y] for l in lines])
         middles = 0.5 * (mapped[:, :2] + mapped[:, 2:])
-        self.assertLess(distance_to_walls(truth, middles).max(), 0.1)
+        self.assertLess(distance_to(truth, middles).max(), 0.1)
         long_walls = truth[numpy.hypot(*(truth[:, 2:] - truth[:, :2]).T) > 1.0]
         points = numpy.vstack([a + t * (b - a) for t in numpy.linspace(0.02, 0.98, 25)
                                for a, b in ((w[:2], w[2:]) for w in long_walls)])
-        self.assertGreater((distance_to_walls(mapped, points) < 0.05).mean(), 0.9)
+        self.assertGreater((distance_to(mapped, points) < 0.05).mean(), 0.9)
 
     def test_6_the_map_was_saved_at_the_end(self):
         summary = os.path.join(rospy.get_param("~out"), "summary.json")

@@ -19,14 +19,15 @@ from tf2_msgs.msg import TFMessage
 from visualization_msgs.msg import Marker, MarkerArray
 
 from cca_mrpt.msg import LineMap
-from ros_watch import Watch, cast, distance_to_walls, walls, yaw
+from ros_watch import Watch, yaw
+from segments import cast, distance_to, read_segments
 
 
 class ExploreSimulated(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
         rospy.init_node("explore_simulated")
-        cls.walls = walls(rospy.get_param("~truth"))
+        cls.walls = read_segments(rospy.get_param("~truth"))
         cls.scan = Watch("scan", LaserScan)
         cls.odom = Watch("odom", Odometry)
         cls.tf = Watch("/tf", TFMessage)
@@ -175,7 +176,7 @@ class ExploreSimulated(unittest.TestCase):
         self.assertEqual(len({line.id for line in lines}), len(lines))
         ends = numpy.array([[p.x, p.y] for line in lines for p in (line.start, line.end)])
         mids = 0.5 * (ends[::2] + ends[1::2])
-        self.assertLess(distance_to_walls(self.walls, numpy.vstack([ends, mids])).max(), 0.1)
+        self.assertLess(distance_to(self.walls, numpy.vstack([ends, mids])).max(), 0.1)
         for line in lines:
             a, b, c, d = line.covariance
             self.assertTrue(a >= 0 and d >= 0 and a * d >= b * c, "a covariance")
@@ -185,7 +186,7 @@ class ExploreSimulated(unittest.TestCase):
         long_walls = self.walls[numpy.hypot(*(self.walls[:, 2:] - self.walls[:, :2]).T) > 1.0]
         seen = numpy.vstack([self.points_seen(w[:2], w[2:]) for w in long_walls])
         self.assertGreater(len(seen), 100)
-        self.assertGreater((distance_to_walls(mapped, seen) < 0.05).mean(), 0.9)
+        self.assertGreater((distance_to(mapped, seen) < 0.05).mean(), 0.9)
 
     def points_seen(self, start, end):
         """Of 25 points along a wall, those that were in view within 6 m and not at a grazing angle."""

@@ -10,7 +10,7 @@ from geometry_msgs.msg import TransformStamped, Twist
 from sensor_msgs.msg import LaserScan
 from tf2_msgs.msg import TFMessage
 
-from ros_watch import cast
+from segments import cast
 
 PERIOD, BEAMS, RANGE = 0.1, 181, 8.0
 NAP = 0.005  # s

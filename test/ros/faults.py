@@ -13,7 +13,8 @@ from std_msgs.msg import String
 from std_srvs.srv import Trigger
 
 from fake_robot import FakeRobot
-from ros_watch import Watch, walls
+from ros_watch import Watch
+from segments import read_segments
 
 
 class Faults(unittest.TestCase):
@@ -22,7 +23,7 @@ class Faults(unittest.TestCase):
         rospy.init_node("faults")
         cls.status = Watch("status", String)
         cls.diagnostics = Watch("/diagnostics", DiagnosticArray)
-        cls.robot = FakeRobot(walls(rospy.get_param("~truth")), 12.0, 9.5)
+        cls.robot = FakeRobot(read_segments(rospy.get_param("~truth")), 12.0, 9.5)
         cls.robot.sends_transforms = False
 
     def tearDown(self):

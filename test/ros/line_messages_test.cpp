@@ -70,5 +70,14 @@ TEST(FrontierMarkers, AreSquaresOfTheCellsSize) {
   EXPECT_EQ(array.markers[0].points[1].y, 4.0);
 }
 
+TEST(LoopMarkers, LeadFromEachVisitToTheEarlierOne) {
+  const auto markers = loopMarkers({{1.0, 2.0}, {3.0, 4.0}}, header());
+  ASSERT_EQ(markers.markers.size(), 1U);
+  ASSERT_EQ(markers.markers[0].points.size(), 2U);
+  EXPECT_EQ(markers.markers[0].type, visualization_msgs::Marker::LINE_LIST);
+  EXPECT_EQ(markers.markers[0].points[1].x, 3.0);
+  EXPECT_EQ(loopMarkers({}, header()).markers[0].action, visualization_msgs::Marker::DELETE);
+}
+
 }  // namespace
 }  // namespace cca

@@ -1,11 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What the rostest suites share: waiting for messages, and the true walls of a world."""
-import csv
+"""What the rostest suites share: waiting for messages."""
 import math
 import threading
 import time
 
-import numpy
 import rospy
 
 
@@ -48,36 +46,3 @@ class Watch:
 
 def yaw(rotation):
     return 2.0 * math.atan2(rotation.z, rotation.w)
-
-
-def walls(truth_csv):
-    """n x 4: x1, y1, x2, y2 of the true walls."""
-    with open(truth_csv) as file:
-        rows = csv.DictReader(file)
-        return numpy.array([[float(row[k]) for k in ("x1", "y1", "x2", "y2")] for row in rows])
-
-
-def cast(segments, x, y, bearings):
-    """Ranges from a place to the nearest segment along each bearing (map frame); inf for a miss."""
-    a = segments[:, :2] - (x, y)
-    d = segments[:, 2:] - segments[:, :2]
-    ranges = []
-    for bearing in bearings:
-        c, s = math.cos(bearing), math.sin(bearing)
-        across = c * d[:, 1] - s * d[:, 0]
-        with numpy.errstate(divide="ignore", invalid="ignore"):
-            along = (a[:, 0] * d[:, 1] - a[:, 1] * d[:, 0]) / across
-            where = (a[:, 0] * s - a[:, 1] * c) / across
-        hit = (along > 0) & (where >= 0) & (where <= 1)
-        ranges.append(along[hit].min() if hit.any() else math.inf)
-    return numpy.array(ranges)
-
-
-def distance_to_walls(segments, points):
-    """m, from each of n points to the nearest wall."""
-    best = numpy.full(len(points), math.inf)
-    for x1, y1, x2, y2 in segments:
-        start, d = numpy.array([x1, y1]), numpy.array([x2 - x1, y2 - y1])
-        t = numpy.clip(((points - start) @ d) / (d @ d), 0.0, 1.0)
-        best = numpy.minimum(best, numpy.linalg.norm(points - start - t[:, None] * d, axis=1))
-    return best

@@ -9,8 +9,8 @@ namespace cca {
 /// `map` to the robot's base as corrected, `odom` to the base as odometry; where tf does not know
 /// them, odometry comes from the nav_msgs/Odometry message before the scan. The base is base_link,
 /// else base_footprint, else the laser itself. A pose is that of the middle of the sweep. Where tf
-/// lacks `map` for a while, the last correction of the odometry stands; scans from before the first
-/// one, and those that no laser can have meant, are left out, and said.
+/// knows `map`, scans that it has no pose for are left out, as are those that no laser can have
+/// meant, and that is said: the same as in line_mapper, to the bit.
 void addBagLogs();
 
 }  // namespace cca

@@ -24,4 +24,9 @@ visualization_msgs::MarkerArray lineMarkers(const std::vector<MapLine>& lines,
 visualization_msgs::MarkerArray frontierMarkers(const std::vector<Eigen::Vector2d>& cells_map,
                                                 double cell_size, const std_msgs::Header& header);
 
+/// Loops that a SLAM has closed, from each later visit to the earlier one (one LINE_LIST).
+/// @param ends_map  m, two a loop.
+visualization_msgs::MarkerArray loopMarkers(const std::vector<Eigen::Vector2d>& ends_map,
+                                            const std_msgs::Header& header);
+
 }  // namespace cca

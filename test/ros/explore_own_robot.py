@@ -1,0 +1,174 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: BSD-3-Clause
+"""explore_own_robot.py DEVEL_SPACE: a robot of somebody else's, see own_robot.py, explores by
+explore_robot.launch as a user would start it."""
+import json
+import math
+import os
+import unittest
+
+import numpy
+
+from own_master import OwnMaster, main, until
+from own_robot import World
+from segments import read_segments, samples
+
+HERE = os.path.dirname(os.path.abspath(__file__))
+MAPS = os.path.join(HERE, "..", "..", "maps")
+SHARED = os.environ.get("CCA_SHARED_DATA", os.path.join(HERE, "..", "..", "..", "shared", "data"))
+FURNISHED, FURNISHED_START = os.path.join(SHARED, "worlds", "furnished_flat_1.yaml"), "2.52,1.505,0"
+SPEED = 20  # of the wall's time, where the machine can
+NEAR = 0.05  # m
+LEAST = 0.3  # m, of a true face to be asked for: the legs of tables are no walls
+
+
+def placed(points, pose):
+    x, y, theta = pose
+    rotation = numpy.array([[math.cos(theta), math.sin(theta)], [-math.sin(theta), math.cos(theta)]])
+    return points @ rotation + (x, y)
+
+
+def faces(world):
+    """n x 2: points 1 cm apart on every edge between occupied and free cells."""
+    points = []
+    along = (numpy.arange(5) + 0.5) / 5.0 * world.resolution
+    zero = numpy.zeros_like(along)
+    for axis, edge in ((0, numpy.stack([along, zero], 1)), (1, numpy.stack([zero, along], 1))):
+        changes = numpy.argwhere(numpy.diff(world.occupied.astype(int), axis=axis) != 0)
+        changes[:, axis] += 1
+        corners = world.origin + changes[:, ::-1] * world.resolution
+        points.append((corners[:, None, :] + edge).reshape(-1, 2))
+    return numpy.vstack(points)
+
+
+def share_near(points, others):
+    """Of the points, the share with one of the others within NEAR."""
+    cells = {}
+    for k, cell in enumerate(map(tuple, numpy.floor(others / NEAR).astype(int))):
+        cells.setdefault(cell, []).append(k)
+    near = 0
+    for p, (i, j) in zip(points, numpy.floor(points / NEAR).astype(int)):
+        around = [k for a in (-1, 0, 1) for b in (-1, 0, 1) for k in cells.get((i + a, j + b), ())]
+        near += bool(around) and numpy.linalg.norm(others[around] - p, axis=1).min() < NEAR
+    return near / len(points)
+
+
+class ExploreOwnRobot(OwnMaster):
+    def explore(self, world, start, *robot, launch=(), seconds=500):
+        """@return what the robot reports, summary.json, and the mapped lines."""
+        report = os.path.join(self.home.name, "report.json")
+        self.ask("rosparam", "set", "/use_sim_time", "true")
+        own_robot = self.start("python3", os.path.join(HERE, "own_robot.py"), world, start, report,
+                   "--speed", str(SPEED), "--latency", "0.15", *robot)
+        roslaunch = self.start("roslaunch", "cca_mrpt", "explore_robot.launch", "rviz:=false",
+                               "out:=" + self.out, *launch)
+        summary = os.path.join(self.out, "summary.json")
+        until(lambda: os.path.exists(summary) or own_robot.poll() or roslaunch.poll(), seconds)
+        roslaunch.terminate()
+        self.told, _ = roslaunch.communicate(timeout=60)
+        own_robot.terminate()
+        robots_words, _ = own_robot.communicate(timeout=60)
+        self.assertTrue(os.path.exists(summary), self.told[-2000:] + robots_words[-2000:])
+        with open(report) as file, open(summary) as end:
+            return json.load(file), json.load(end), read_segments(os.path.join(self.out, "lines.csv"))
+
+    def check(self, world, report, summary, lines):
+        """lines: in the frame of the world."""
+        truth = os.path.splitext(world)[0] + ".truth.csv"
+        mapped, surfaces = samples(lines), faces(World(world))
+        precision = share_near(mapped, surfaces)
+        recall = None
+        if os.path.exists(truth):
+            walls = read_segments(truth)
+            walls = walls[numpy.linalg.norm(walls[:, 2:] - walls[:, :2], axis=1) >= LEAST]
+            recall = share_near(samples(walls), mapped)
+        print("\n%s: %s, precision %.3f, recall %s, agreement %.4f, loops %s" % (
+            os.path.basename(world), report, precision, recall, summary["agreement"],
+            summary.get("loops")), flush=True)
+        self.assertTrue(summary["finished"], summary["reason"])
+        self.assertEqual(report["contacts"], 0)
+        self.assertGreaterEqual(report["seen"], 0.99)
+        self.assertGreaterEqual(precision, 0.97)
+        if recall is not None:
+            self.assertGreaterEqual(recall, 0.93)
+
+    def with_true_poses(self, world, start, *robot, launch=()):
+        report, summary, lines = self.explore(world, start, "--localised", *robot, launch=launch)
+        self.assertIn("_pose:=tf", self.told)
+        self.check(world, report, summary, lines)
+
+    def with_nobody_who_tells_where_it_is(self, world, start, *robot, launch=()):
+        report, summary, lines = self.explore(world, start, *robot, launch=launch)
+        self.assertIn("_pose:=slam", self.told)
+        x, y, degrees = map(float, start.split(","))  # the map begins where the robot stood
+        lines = placed(lines.reshape(-1, 2), (x, y, math.radians(degrees))).reshape(-1, 4)
+        self.check(world, report, summary, lines)
+
+    def test_two_rooms_with_nobody_who_tells_where_it_is(self):
+        self.with_nobody_who_tells_where_it_is(os.path.join(MAPS, "two_rooms.yaml"), "2,3,0",
+                                               launch=["latency:=0"])
+        self.assertIn("robot/latency says 0.00 s", self.told)
+
+    def test_two_rooms_with_a_localisation_that_finds_itself_late(self):
+        """Its map -> odom leaps by a metre, for good: every wall is there once, or precision tells."""
+        self.with_true_poses(os.path.join(MAPS, "two_rooms.yaml"), "2,3,0", "--wrong-until", "8")
+        self.assertIn("the past is placed anew", self.told)
+
+    def test_two_rooms_with_a_localisation_that_tells_its_corrected_path(self):
+        self.with_true_poses(os.path.join(MAPS, "two_rooms.yaml"), "2,3,0", "--wrong-until", "8", "--path")
+        self.assertIn("placed anew by corrected_path", self.told)
+
+    def test_apartment_goes_on_with_an_earlier_map(self):
+        """The second drive begins elsewhere, and its map is that of both, in the frame of the first."""
+        world, first = os.path.join(MAPS, "apartment.yaml"), self.out
+        self.explore(world, "12,9.5,0")
+        self.out = first + "_2"
+        report, summary, lines = self.explore(world, "10,9.5,90", launch=["resume:=" + first])
+        self.assertTrue(summary["found_in_memory"], summary)
+        self.assertEqual(report["contacts"], 0)
+        walls = read_segments(os.path.join(MAPS, "apartment.truth.csv"))
+        walls = walls[numpy.linalg.norm(walls[:, 2:] - walls[:, :2], axis=1) >= LEAST]
+        lines = placed(lines.reshape(-1, 2), (12.0, 9.5, 0.0)).reshape(-1, 4)
+        self.assertGreaterEqual(share_near(samples(walls), samples(lines)), 0.93)
+        self.assertGreaterEqual(share_near(samples(lines), faces(World(world))), 0.97)
+        self.assertTrue(os.path.exists(os.path.join(self.out, "map.slam")))
+
+    def with_a_bar_below_the_laser(self, sensor):
+        """Across the way from the start to the door. It is no line of the map, or precision tells."""
+        self.with_true_poses(os.path.join(MAPS, "two_rooms.yaml"), "2,3,0", "--bar", "3.4,2.2,3.4,3.8",
+                             "--bar-seen-by", sensor, launch=["hazard_%s:=hazard_%s" % (sensor, sensor)])
+
+    def test_two_rooms_with_a_bar_that_a_cloud_of_points_tells_of(self):
+        self.with_a_bar_below_the_laser("points")
+
+    def test_two_rooms_with_a_bar_that_distance_sensors_tell_of(self):
+        self.with_a_bar_below_the_laser("range")
+
+    def test_two_rooms_with_two_lasers_and_true_poses(self):
+        self.with_true_poses(os.path.join(MAPS, "two_rooms.yaml"), "2,3,0", "--two-lasers",
+                             launch=["scans:=[scan_front, scan_rear]"])
+
+    def test_two_rooms_with_two_lasers_and_nobody_who_tells_where_it_is(self):
+        self.with_nobody_who_tells_where_it_is(os.path.join(MAPS, "two_rooms.yaml"), "2,3,0", "--two-lasers",
+                                               launch=["scans:=[scan_front, scan_rear]"])
+
+    def test_apartment_on_wheels_that_are_trusted(self):
+        _, summary, _ = self.explore(os.path.join(MAPS, "apartment.yaml"), "12,9.5,0",
+                                     launch=["pose:=odometry"])
+        self.assertFalse(summary["finished"])
+        self.assertIn("scans contradict the map", summary["reason"])
+
+    def test_apartment_with_nobody_who_tells_where_it_is(self):
+        self.with_nobody_who_tells_where_it_is(os.path.join(MAPS, "apartment.yaml"), "12,9.5,0")
+
+    @unittest.skipUnless(os.path.exists(FURNISHED), "no shared data: " + FURNISHED)
+    def test_furnished_flat_with_true_poses(self):
+        self.with_true_poses(FURNISHED, FURNISHED_START)
+
+    @unittest.skipUnless(os.path.exists(FURNISHED), "no shared data: " + FURNISHED)
+    def test_furnished_flat_with_nobody_who_tells_where_it_is(self):
+        self.with_nobody_who_tells_where_it_is(FURNISHED, FURNISHED_START)
+
+
+if __name__ == "__main__":
+    main()
