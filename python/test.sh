@@ -8,7 +8,7 @@ where=build-python/$("$python" -c 'import sys; print("%d.%d" % sys.version_info[
 pip="$where/venv/bin/pip --disable-pip-version-check -q"
 
 [ -x "$where/venv/bin/pip" ] || "$python" -m venv --system-site-packages "$where/venv"
-if ! $pip install --timeout 10 --retries 1 'scikit-build-core>=0.10' 'nanobind>=2.4' 'pytest>=7' numpy 2>"$where/pip.log"; then
+if ! $pip install --timeout 10 --retries 1 'scikit-build-core>=0.10' 'nanobind>=2.4' 'pytest>=7' 'distributed>=2021.9' 'gymnasium>=0.29' numpy 2>"$where/pip.log"; then
   cat "$where/pip.log"
   echo "python: SKIPPED (pip cannot fetch what builds the package)"
   exit 0
@@ -20,4 +20,5 @@ CMAKE_BUILD_PARALLEL_LEVEL=$(nproc) $pip install --no-build-isolation --no-deps 
   --config-settings=cmake.define.CMAKE_CXX_FLAGS=-O1 \
   --config-settings=cmake.define.CMAKE_CXX_COMPILER_LAUNCHER="$(command -v ccache || true)" \
   --config-settings=cmake.define.CCA_WARNINGS_AS_ERRORS="${CI:+ON}" .
-"$where/venv/bin/python" -m pytest -q -p no:cacheprovider python/tests
+# What runs the program itself needs one that was built before.
+PATH="$PWD/build/devel/lib/cca_mrpt:$PWD/build/src/apps:$PATH" "$where/venv/bin/python" -m pytest -q -p no:cacheprovider python/tests

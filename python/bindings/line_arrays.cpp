@@ -5,6 +5,9 @@
 
 #include <cstring>
 #include <memory>
+#include <utility>
+
+#include "owned_array.hpp"
 
 namespace cca::python {
 namespace {
@@ -77,9 +80,7 @@ nb::object pointArray(const std::vector<Eigen::Vector2d>& points) {
     numbers[2 * k] = points[k].x();
     numbers[2 * k + 1] = points[k].y();
   }
-  double* raw = numbers.release();
-  const nb::capsule owner(raw, [](void* p) noexcept { delete[] static_cast<double*>(p); });
-  return nb::cast(nb::ndarray<nb::numpy, double, nb::shape<-1, 2>>(raw, {points.size(), 2}, owner));
+  return ownedArray(std::move(numbers), points.size(), 2);
 }
 
 }  // namespace cca::python

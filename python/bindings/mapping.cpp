@@ -41,10 +41,13 @@ void insert(SharedLineMap& map, nb::handle ranges, double angle_min, double angl
 struct LinesAndChains {
   std::vector<MapLine> lines;
   std::vector<PolyLine> poly_lines;
+  std::vector<MapArc> arcs;
 };
 
 LinesAndChains everything(SharedLineMap& map) {
-  return map.with([](LineMap& own) { return LinesAndChains{own.lines(), own.polyLines()}; });
+  return map.with([](LineMap& own) {
+    return LinesAndChains{own.lines(), own.polyLines(), own.arcs()};
+  });
 }
 
 std::vector<Pose2> readTrajectory(nb::handle from) {
@@ -59,7 +62,7 @@ auto writer(Write write) {
   return [write](SharedLineMap& map, nb::handle trajectory) {
     const std::vector<Pose2> poses = readTrajectory(trajectory);
     const LinesAndChains all = everything(map);
-    return write(all.lines, all.poly_lines, poses);
+    return write(all.lines, all.poly_lines, poses, all.arcs);
   };
 }
 

@@ -10,4 +10,5 @@ NB_MODULE(_core, module) {
   cca::python::addBaselines(module);
   cca::python::addNavigation(module);
   cca::python::addLogs(module);
+  cca::python::addSlam(module);
 }

@@ -10,5 +10,6 @@ void addMapping(nanobind::module_& module);
 void addBaselines(nanobind::module_& module);
 void addNavigation(nanobind::module_& module);
 void addLogs(nanobind::module_& module);
+void addSlam(nanobind::module_& module);
 
 }  // namespace cca::python

@@ -11,6 +11,7 @@
 #include "cca_mrpt/navigation/explorer.hpp"
 #include "mapping.hpp"
 #include "module.hpp"
+#include "owned_array.hpp"
 #include "parameters.hpp"
 
 namespace cca::python {
@@ -58,11 +59,31 @@ nb::object statesArray(SharedGrid& grid) {
                            std::to_string(states.rows) + " cells are too many for one array")
                               .c_str());
   }
-  std::uint8_t* raw = states.cells.release();
-  const nb::capsule owner(raw ? raw : new std::uint8_t[1],
-                          [](void* p) noexcept { delete[] static_cast<std::uint8_t*>(p); });
-  return nb::cast(nb::ndarray<nb::numpy, std::uint8_t, nb::ndim<2>>(
-      owner.data(), {states.rows, states.columns}, owner));
+  if (!states.cells) states.cells = std::make_unique<std::uint8_t[]>(1);
+  return ownedArray(std::move(states.cells), states.rows, states.columns);
+}
+
+nb::object statesAround(SharedGrid& grid, nb::handle place, int cells) {
+  double at[2];
+  readNumbers(place, "place", "(x, y)", 2, at);
+  if (cells < 1 || cells > 10000) throw nb::value_error("cells: must be in [1, 10000]");
+  auto states = std::make_unique<std::uint8_t[]>(static_cast<std::size_t>(cells) * cells);
+  const bool fits = grid.with([&](ExplorationGrid& own) {
+    if (!own.covers({at[0], at[1]})) return false;
+    const Cell centre = own.cellOf({at[0], at[1]});
+    ExplorationGrid::Reader reader(own);
+    std::uint8_t* to = states.get();
+    const int low = -(cells / 2), high = low + cells;
+    for (int y = low; y < high; ++y) {
+      for (int x = low; x < high; ++x) {
+        *to++ = static_cast<std::uint8_t>(reader.at({centre.x + x, centre.y + y}));
+      }
+    }
+    return true;
+  });
+  if (!fits) throw nb::value_error("place: further from the origin than the grid can hold");
+  return ownedArray(std::move(states), static_cast<std::size_t>(cells),
+                    static_cast<std::size_t>(cells));
 }
 
 std::size_t revealed(SharedGrid& grid) {
@@ -118,23 +139,14 @@ void addGrid(nb::module_& module) {
       .def("states", &statesArray, nb::sig("def states(self) -> numpy.ndarray"),
            "(rows, columns) uint8 of `CellState`, from the lowest known x and y on: [0, 0] is the "
            "cell whose\nlower left corner is `origin`.")
+      .def(
+          "states_around", &statesAround, nb::arg("place"), nb::arg("cells"),
+          nb::sig("def states_around(self, place: collections.abc.Sequence[float], cells: int) "
+                  "-> numpy.ndarray"),
+          "(cells, cells) uint8 of `CellState` about (x, y): its cell is [cells // 2, cells // 2].")
       .def_prop_ro("origin", &origin, "(x, y) m, map frame, of the lower left corner of [0, 0].")
       .def_prop_ro("resolution", &resolution, "m, side of a cell.")
       .def_prop_ro("revealed", &revealed, "Number of cells that have ever been seen.");
-}
-
-const char* statusName(ExplorationStatus status) {
-  switch (status) {
-    case ExplorationStatus::kExploring:
-      return "exploring";
-    case ExplorationStatus::kReturning:
-      return "returning";
-    case ExplorationStatus::kPaused:
-      return "paused";
-    case ExplorationStatus::kFinished:
-      return "finished";
-  }
-  return "";
 }
 
 void addAction(nb::module_& module) {
@@ -152,7 +164,7 @@ void addAction(nb::module_& module) {
           },
           "(x, y) m, map frame, or None.")
       .def_prop_ro(
-          "status", [](const Action& a) { return statusName(a.status); },
+          "status", [](const Action& a) { return nameOf(a.status); },
           "'exploring', 'returning', 'paused' or 'finished'.")
       .def_ro("reason", &Action::reason, "Why it drives there, or why it has finished.");
 }

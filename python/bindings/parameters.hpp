@@ -4,8 +4,9 @@
 #include <nanobind/nanobind.h>
 #include <nanobind/stl/string.h>
 
-#include <initializer_list>
+#include <cstddef>
 #include <string>
+#include <utility>
 
 namespace cca::python {
 
@@ -29,14 +30,15 @@ class KeywordReader {
     value = given;
   }
   void operator()(const char* name, bool& value, const char*) { take(name, value, "a bool"); }
-  void operator()(const char* name, std::string& value, std::initializer_list<const char*> choices,
+  template <class Choice, std::size_t N>
+  void operator()(const char* name, Choice& value, const std::pair<const char*, Choice> (&names)[N],
                   const char*) {
     std::string given;
     if (!take(name, given, "a string")) return;
     std::string known;
-    for (const char* choice : choices) {
-      if (given == choice) return void(value = given);
-      known += std::string(" ") + choice;
+    for (const auto& [word, choice] : names) {
+      if (given == word) return void(value = choice);
+      known += std::string(" ") + word;
     }
     throw nb::value_error((std::string(name) + ": '" + given + "' is none of" + known).c_str());
   }
@@ -83,11 +85,15 @@ class ParameterList {
   void operator()(const char* name, bool& value, const char* meaning) {
     add(name, meaning, value ? "True" : "False");
   }
-  void operator()(const char* name, std::string& value, std::initializer_list<const char*> choices,
+  template <class Choice, std::size_t N>
+  void operator()(const char* name, Choice& value, const std::pair<const char*, Choice> (&names)[N],
                   const char* meaning) {
-    std::string known;
-    for (const char* choice : choices) known += std::string(known.empty() ? "" : ", ") + choice;
-    add(name, meaning, "'" + value + "', one of " + known);
+    std::string preset, known;
+    for (const auto& [word, choice] : names) {
+      if (choice == value) preset = word;
+      known += std::string(known.empty() ? "" : ", ") + word;
+    }
+    add(name, meaning, "'" + preset + "', one of " + known);
   }
   const std::string& text() const { return text_; }
 

@@ -19,10 +19,17 @@ from ._core import (
     Log,
     LogRecord,
     PolyLine,
+    Slam,
+    SlamPose,
     baselines,
     extract_lines,
 )
 from .plotting import plot
+
+try:
+    from ._simulation import Simulation
+except ImportError as error:  # built, or installed, where MRPT is not
+    _no_simulation = str(error)
 
 __version__ = version("cca-mrpt")
 __all__ = [
@@ -37,11 +44,24 @@ __all__ = [
     "Log",
     "LogRecord",
     "PolyLine",
+    "Simulation",
+    "Slam",
+    "SlamPose",
     "baselines",
     "extract_lines",
     "plot",
     "read_log",
 ]
+
+
+if "Simulation" not in globals():
+    __all__.remove("Simulation")
+
+
+def __getattr__(name: str) -> object:
+    if name == "Simulation":
+        raise AttributeError(f"cca_mrpt.Simulation needs MRPT, here and where it was built ({_no_simulation})")
+    raise AttributeError(f"module 'cca_mrpt' has no attribute {name!r}")
 
 
 def read_log(path: "str | os.PathLike[str]") -> Log:

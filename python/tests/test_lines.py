@@ -66,8 +66,8 @@ def test_parameters_reach_the_algorithm():
     assert not np.array_equal(few, many)
 
 
-def test_there_are_ten_baselines_and_each_finds_walls(ranges):
-    assert len(cca_mrpt.baselines) == 10
+def test_there_are_fifteen_baselines_and_each_finds_walls(ranges):
+    assert len(cca_mrpt.baselines) == 15
     for name, baseline in cca_mrpt.baselines.items():
         assert baseline.name == name and baseline.paper
         for tuned in (False, True):
