@@ -8,8 +8,8 @@
 #include <ctime>
 #include <limits>
 
-#include "cca_mrpt/navigation/beam.hpp"
-#include "cca_mrpt/navigation/global_planner.hpp"
+#include "cca_mrpt/navigation/goals/global_planner.hpp"
+#include "cca_mrpt/navigation/place/beam.hpp"
 
 namespace {
 
