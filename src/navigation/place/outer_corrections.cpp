@@ -116,7 +116,7 @@ std::optional<OuterCorrections::Odometries> OuterCorrections::afterLeap(const St
   std::optional<Odometries> best;
   for (Odometries& candidate : candidates) {
     const double sum = confirmed(candidate, scan);
-    if (sum < most + kClearlyBetter * std::abs(most)) continue;
+    if (sum <= most + kClearlyBetter * std::abs(most)) continue;
     most = sum;
     best = std::move(candidate);
   }
