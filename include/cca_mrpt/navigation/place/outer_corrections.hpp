@@ -16,7 +16,7 @@ namespace cca {
 ///
 /// Where the other one tells its corrected poses, these are taken. Where a leap is all there is,
 /// it is spread over the way since the last one, or over all of the way, or moves all of it, or
-/// moves nothing, where the wheels slipped: whatever makes the scans confirm each other most.
+/// moves nothing, where the wheels slipped: whatever the scans contradict least.
 class OuterCorrections {
  public:
   explicit OuterCorrections(const CcaParameters& mapping) : mapping_(mapping) {}
@@ -59,7 +59,7 @@ class OuterCorrections {
   Odometries spread(const Step& now, std::size_t since, bool moves_all) const;
   std::optional<Odometries> afterLeap(const Step& now, const Scan& scan) const;
   std::optional<Odometries> afterPath(const Step& now) const;
-  double confirmed(const Odometries& T_map_odom, const Scan& scan) const;
+  int agreement(const Odometries& T_map_odom, const Scan& scan) const;
   void place(const Odometries& T_map_odom);
 
   CcaParameters mapping_;
