@@ -72,7 +72,7 @@ class ExploreOwnRobot(OwnMaster):
         with open(report) as file, open(summary) as end:
             return json.load(file), json.load(end), read_segments(os.path.join(self.out, "lines.csv"))
 
-    def check(self, world, report, summary, lines):
+    def check(self, world, report, summary, lines, least_seen=0.99):
         """lines: in the frame of the world."""
         truth = os.path.splitext(world)[0] + ".truth.csv"
         mapped, surfaces = samples(lines), faces(World(world))
@@ -87,7 +87,7 @@ class ExploreOwnRobot(OwnMaster):
             summary.get("loops")), flush=True)
         self.assertTrue(summary["finished"], summary["reason"])
         self.assertEqual(report["contacts"], 0)
-        self.assertGreaterEqual(report["seen"], 0.99)
+        self.assertGreaterEqual(report["seen"], least_seen)
         self.assertGreaterEqual(precision, 0.97)
         if recall is not None:
             self.assertGreaterEqual(recall, 0.93)
@@ -118,19 +118,15 @@ class ExploreOwnRobot(OwnMaster):
         self.with_true_poses(os.path.join(MAPS, "two_rooms.yaml"), "2,3,0", "--wrong-until", "8", "--path")
         self.assertIn("placed anew by corrected_path", self.told)
 
-    def test_apartment_goes_on_with_an_earlier_map(self):
+    def test_apartment_with_nobody_who_tells_where_it_is_and_again_with_its_map(self):
         """The second drive begins elsewhere, and its map is that of both, in the frame of the first."""
         world, first = os.path.join(MAPS, "apartment.yaml"), self.out
-        self.explore(world, "12,9.5,0")
+        self.with_nobody_who_tells_where_it_is(world, "12,9.5,0")
         self.out = first + "_2"
         report, summary, lines = self.explore(world, "10,9.5,90", launch=["resume:=" + first])
         self.assertTrue(summary["found_in_memory"], summary)
-        self.assertEqual(report["contacts"], 0)
-        walls = read_segments(os.path.join(MAPS, "apartment.truth.csv"))
-        walls = walls[numpy.linalg.norm(walls[:, 2:] - walls[:, :2], axis=1) >= LEAST]
         lines = placed(lines.reshape(-1, 2), (12.0, 9.5, 0.0)).reshape(-1, 4)
-        self.assertGreaterEqual(share_near(samples(walls), samples(lines)), 0.93)
-        self.assertGreaterEqual(share_near(samples(lines), faces(World(world))), 0.97)
+        self.check(world, report, summary, lines, least_seen=0.0)  # the first drive has seen it
         self.assertTrue(os.path.exists(os.path.join(self.out, "map.slam")))
 
     def with_a_bar_below_the_laser(self, sensor):
@@ -157,9 +153,6 @@ class ExploreOwnRobot(OwnMaster):
                                      launch=["pose:=odometry"])
         self.assertFalse(summary["finished"])
         self.assertIn("scans contradict the map", summary["reason"])
-
-    def test_apartment_with_nobody_who_tells_where_it_is(self):
-        self.with_nobody_who_tells_where_it_is(os.path.join(MAPS, "apartment.yaml"), "12,9.5,0")
 
     @unittest.skipUnless(os.path.exists(FURNISHED), "no shared data: " + FURNISHED)
     def test_furnished_flat_with_true_poses(self):
