@@ -16,12 +16,12 @@ import matplotlib
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt  # noqa: E402
 
-NAMES = ("points_per_cluster", "similarity_cut", "scans_per_batch")
+NAMES = ("similarity_cut", "vertex_price", "straightness")
 TITLES = {"scan": "F1 of single scans", "map": "F1 of the map's length", "both": "mean of the two"}
 
 
 def read(path):
-    """{objective: {(points, cut, batch): (value, low, high)}}"""
+    """{objective: {(cut, price, straightness): (value, low, high)}}"""
     surface = {}
     with open(path, newline="") as file:
         for row in csv.DictReader(file):
@@ -41,21 +41,21 @@ def levels(table, k):
 
 
 def surfaces(surface, path):
-    """Mean response over points_per_cluster x similarity_cut, an image an objective."""
+    """Mean response over vertex_price x straightness, an image an objective."""
     figure, axes = plt.subplots(1, 3, figsize=(13, 3.8))
     for axis, objective in zip(axes, ("scan", "map", "both")):
         table = surface[objective]
-        points, cuts = levels(table, 0), levels(table, 1)
-        grid = [[mean(v[0] for s, v in table.items() if s[0] == p and s[1] == c) for c in cuts]
-                for p in points]
+        prices, straight = levels(table, 1), levels(table, 2)
+        grid = [[mean(v[0] for s, v in table.items() if s[1:] == (p, w)) for w in straight]
+                for p in prices]
         image = axis.imshow(grid, origin="lower", aspect="auto", cmap="viridis")
         for i, row in enumerate(grid):
             for j, value in enumerate(row):
                 axis.text(j, i, "%.3f" % value, ha="center", va="center", color="w", fontsize=7)
-        axis.set_xticks(range(len(cuts)), ["%g" % c for c in cuts])
-        axis.set_yticks(range(len(points)), ["%g" % p for p in points])
-        axis.set_xlabel("similarity_cut")
-        axis.set_ylabel("points_per_cluster")
+        axis.set_xticks(range(len(straight)), ["%g" % w for w in straight])
+        axis.set_yticks(range(len(prices)), ["%g" % p for p in prices])
+        axis.set_xlabel("straightness, m")
+        axis.set_ylabel("vertex_price, nats")
         axis.set_title(TITLES[objective], fontsize=10)
         figure.colorbar(image, ax=axis)
     figure.tight_layout()
@@ -68,8 +68,6 @@ def main_effects(surface, path):
     figure, axes = plt.subplots(1, 3, figsize=(13, 3.4))
     for k, axis in enumerate(axes):
         for objective, colour in (("scan", "C0"), ("map", "C1")):
-            if objective == "scan" and k == 2:
-                continue
             table = surface[objective]
             overall = mean(v[0] for v in table.values())
             axis.plot(levels(table, k),
@@ -77,6 +75,9 @@ def main_effects(surface, path):
                        for level in levels(table, k)], marker="o", color=colour,
                       label="%s, about its mean of %.3f" % (TITLES[objective], overall))
         axis.set_xlabel(NAMES[k])
+        axis.set_xscale("log" if k > 0 else "linear")
+        axis.set_xticks(levels(table, k), ["%g" % level for level in levels(table, k)])
+        axis.minorticks_off()
         axis.set_ylabel("main effect on F1")
         axis.grid(alpha=0.3)
         axis.legend(fontsize=6)

@@ -23,7 +23,6 @@ int main(int argc, char** argv) try {
     grid.insert(record->scan);
     products.trajectory.push_back(record->scan.T_map_sensor * record->T_robot_sensor.inverse());
   }
-  map.finishBatch();
 
   products.title = argv[1];
   products.lines = map.lines();

@@ -97,10 +97,6 @@ Args:
 Raises:
     ValueError: naming the argument.)")
       .def(
-          "finish_batch",
-          [](SharedLineMap& map) { map.with([](LineMap& own) { own.finishBatch(); }); },
-          "Merge scans that still wait for their batch to fill (scans_per_batch > 1).")
-      .def(
           "lines",
           [](SharedLineMap& map) {
             return lineArray(map.with([](LineMap& own) { return own.lines(); }));

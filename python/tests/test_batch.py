@@ -116,7 +116,7 @@ def test_strategies_and_tuning_give_the_bytes_of_the_program_alone(tmp_path):
                     "--out", tmp_path / "one"], check=True, capture_output=True)
     for name in "runs.csv", "curves.csv":
         assert (tmp_path / "two" / name).read_bytes() == (tmp_path / "one" / name).read_bytes()
-    few = ["--points-per-cluster", "5,8", "--similarity-cut", "0.4,0.5", "--scans-per-batch", "1,2", "--seeds", "1",
+    few = ["--similarity-cut", "0.4,0.5", "--vertex-price", "8,12", "--straightness", "0.02,0.035", "--seeds", "1",
            "--scans", "2", "--poses", "5"]
     said = batch.tune([world], tmp_path / "shards", shards=2, options=few, workers=2)
     alone = subprocess.run(["cca-mrpt", "tune", world, "--out", tmp_path / "whole", *few], check=True,

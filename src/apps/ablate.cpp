@@ -96,7 +96,6 @@ constexpr int kMostPoints = 60000;
 double scoreOfMap(const std::vector<Scan>& scans, const CcaParameters& parameters) {
   LineMap map(parameters);
   for (const Scan& scan : scans) map.insert(scan);
-  map.finishBatch();
   std::vector<Segment2> segments;
   for (const MapLine& line : map.lines()) {
     segments.push_back({line.segment.start, line.segment.end});
@@ -180,9 +179,9 @@ void addAblateCommand(CLI::App& program) {
   auto options = std::make_shared<AblationOptions>();
   TuningDesign& design = options->design;
   const CcaParameters shipped;
-  design.points_per_cluster = {shipped.points_per_cluster};
   design.similarity_cut = {shipped.similarity_cut};
-  design.scans_per_batch = {shipped.scans_per_batch};
+  design.vertex_price = {shipped.vertex_price};
+  design.straightness = {shipped.straightness};
   design.noises = {0.01, 0.03, 0.1};
   command->add_option("WORLD", design.worlds, "worlds (.yaml, true segments beside them)");
   command->add_option("--log", options->logs, "logs with corrected poses");

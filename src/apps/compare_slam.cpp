@@ -121,7 +121,6 @@ void draw(const std::string& path, const std::string& title, const Log& log,
     map.insert(scan);
     grid.insert(scan);
   }
-  map.finishBatch();
   products.lines = map.lines();
   products.poly_lines = map.polyLines();
   products.grid = grid.grid();

@@ -106,7 +106,6 @@ void MappedLogs::finish() {
     }
     warn(tellOfSlam({is_placed.begin() + slam_->remembered(), is_placed.end()}));
   }
-  map_.finishBatch();
   warn(straysTold());
 }
 

@@ -54,7 +54,6 @@ MapProducts productsOf(const Slam& slam, const Eigen::Vector2d& origin, const Me
     map.insert(scan);
     grid.insert(scan);
   }
-  map.finishBatch();
   products.title = std::filesystem::path(options.out).filename().string();
   products.lines = map.lines();
   products.poly_lines = map.polyLines();

@@ -126,15 +126,12 @@ void printVariance(const AnalysisOfVariance& a) {
               a.residual_sum_of_squares, a.residual_sum_of_squares / a.residual_degrees);
 }
 
-void printRecommendation(const Recommendation& r, bool with_batches) {
-  std::printf("\nBest: points_per_cluster %d [%g, %g], similarity_cut %g [%g, %g]",
-              r.best.points_per_cluster, r.points_per_cluster.low, r.points_per_cluster.high,
-              r.best.similarity_cut, r.similarity_cut.low, r.similarity_cut.high);
-  if (with_batches) {
-    std::printf(", scans_per_batch %d [%g, %g]", r.best.scans_per_batch, r.scans_per_batch.low,
-                r.scans_per_batch.high);
-  }
-  std::printf(": %.4f.\n", r.best_value);
+void printRecommendation(const Recommendation& r) {
+  std::printf("\nBest: similarity_cut %g [%g, %g], vertex_price %g [%g, %g], ",
+              r.best.similarity_cut, r.similarity_cut.low, r.similarity_cut.high,
+              r.best.vertex_price, r.vertex_price.low, r.vertex_price.high);
+  std::printf("straightness %g [%g, %g]: %.4f.\n", r.best.straightness, r.straightness.low,
+              r.straightness.high, r.best_value);
   if (!r.shipped_in_design) {
     std::printf("The shipped combination is not one of the design's.\n");
     return;
@@ -149,7 +146,7 @@ void analyse(const TuningOptions& options) {
   std::printf("%zu of %zu runs, %zu scenes.\n", rows.size(), options.design.jobs(),
               options.design.scenes());
   std::ostringstream csv;
-  csv << "objective,points_per_cluster,similarity_cut,scans_per_batch,value,low,high\n";
+  csv << "objective,similarity_cut,vertex_price,straightness,value,low,high\n";
   const std::pair<Objective, const char*> objectives[] = {
       {Objective::kScan, "scan"}, {Objective::kMap, "map"}, {Objective::kBoth, "both"}};
   const char* titles[] = {"F1 of single scans", "F1 of the map's length", "Mean of the two"};
@@ -157,11 +154,11 @@ void analyse(const TuningOptions& options) {
     const auto [objective, name] = objectives[k];
     std::printf("\n### %s\n\n", titles[k]);
     printVariance(analyseTuning(options.design, rows, objective));
-    printRecommendation(recommend(options.design, rows, objective), objective != Objective::kScan);
+    printRecommendation(recommend(options.design, rows, objective));
     for (const Combination& c : combinationMeans(options.design, rows, objective)) {
-      csv << name << ',' << c.parameters.points_per_cluster << ',' << c.parameters.similarity_cut
-          << ',' << c.parameters.scans_per_batch << ',' << c.value.value << ',' << c.value.low
-          << ',' << c.value.high << '\n';
+      csv << name << ',' << c.parameters.similarity_cut << ',' << c.parameters.vertex_price << ','
+          << c.parameters.straightness << ',' << c.value.value << ',' << c.value.low << ','
+          << c.value.high << '\n';
     }
   }
   writeFile(options.out + "/surface.csv", csv.str());
@@ -173,9 +170,9 @@ void requireTwoLevels(const char* option, std::size_t levels) {
 }
 
 void tune(const TuningOptions& options) {
-  requireTwoLevels("--points-per-cluster", options.design.points_per_cluster.size());
   requireTwoLevels("--similarity-cut", options.design.similarity_cut.size());
-  requireTwoLevels("--scans-per-batch", options.design.scans_per_batch.size());
+  requireTwoLevels("--vertex-price", options.design.vertex_price.size());
+  requireTwoLevels("--straightness", options.design.straightness.size());
   const Shard shard = parseShard(options.shard);
   makeFolder(options.out);
   if (!options.merge) {
@@ -204,9 +201,9 @@ void addTuneCommand(CLI::App& program) {
         ->capture_default_str();
   };
   const char* two = "at least two levels, separated by commas";
-  levels("--points-per-cluster", design.points_per_cluster, "mapping.points_per_cluster", two);
   levels("--similarity-cut", design.similarity_cut, "mapping.similarity_cut", two);
-  levels("--scans-per-batch", design.scans_per_batch, "mapping.scans_per_batch", two);
+  levels("--vertex-price", design.vertex_price, "mapping.vertex_price", two);
+  levels("--straightness", design.straightness, "mapping.straightness", two);
   levels("--noise", design.noises, "laser.range_noise", "range noises [m], separated by commas");
   const auto count = [command](const char* name, int& value, const char* meaning) {
     command->add_option(name, value, meaning)->check(CLI::Range(1, 1000000))->capture_default_str();

@@ -67,25 +67,22 @@ Recommendation::Interval interval(const std::vector<double>& values) {
 AnalysisOfVariance analyseTuning(const TuningDesign& design, const std::vector<TuningRow>& rows,
                                  Objective objective) {
   const auto scenes = table(design, rows, objective);
-  const int batches = static_cast<int>(design.scans_per_batch.size());
   const int cuts = static_cast<int>(design.similarity_cut.size());
-  const bool with_batches = objective != Objective::kScan;
+  const int prices = static_cast<int>(design.vertex_price.size());
+  const int straight = static_cast<int>(design.straightness.size());
   Experiment experiment;
   experiment.factors = {{"scene", static_cast<int>(scenes.size())},
-                        {"points_per_cluster", static_cast<int>(design.points_per_cluster.size())},
                         {"similarity_cut", cuts},
-                        {"scans_per_batch", batches}};
+                        {"vertex_price", prices},
+                        {"straightness", straight}};
   for (int scene = 0; scene < static_cast<int>(scenes.size()); ++scene) {
     for (int k = 0; k < static_cast<int>(design.combinations()); ++k) {
-      if (!with_batches && k % batches != 0) continue;
-      experiment.settings.push_back({scene, k / batches / cuts, k / batches % cuts, k % batches});
+      experiment.settings.push_back(
+          {scene, k / straight / prices, k / straight % prices, k % straight});
       experiment.responses.push_back(scenes[scene][k]);
     }
   }
-  std::vector<std::vector<int>> effects{{1}, {2}, {1, 2}};
-  if (with_batches && batches > 1) effects = {{1}, {2}, {3}, {1, 2}, {1, 3}, {2, 3}};
-  effects.push_back({0});
-  return analyseVariance(experiment, effects);
+  return analyseVariance(experiment, {{1}, {2}, {3}, {1, 2}, {1, 3}, {2, 3}, {0}});
 }
 
 std::vector<Combination> combinationMeans(const TuningDesign& design,
@@ -111,24 +108,23 @@ Recommendation recommend(const TuningDesign& design, const std::vector<TuningRow
 
   Random random(1);
   const int last = static_cast<int>(scenes.size()) - 1;
-  std::vector<double> points, cuts, batches;
+  std::vector<double> cuts, prices, straight;
   for (int resample = 0; resample < kResamples; ++resample) {
     std::vector<std::size_t> chosen(scenes.size());
     for (std::size_t& scene : chosen) scene = static_cast<std::size_t>(random.integer(0, last));
     const CcaParameters p = tuningJob(design, largest(meanOf(scenes, chosen))).parameters;
-    points.push_back(p.points_per_cluster);
     cuts.push_back(p.similarity_cut);
-    batches.push_back(p.scans_per_batch);
+    prices.push_back(p.vertex_price);
+    straight.push_back(p.straightness);
   }
-  r.points_per_cluster = interval(points);
   r.similarity_cut = interval(cuts);
-  r.scans_per_batch = interval(batches);
+  r.vertex_price = interval(prices);
+  r.straightness = interval(straight);
 
   for (std::size_t k = 0; k < design.combinations(); ++k) {
     const CcaParameters p = tuningJob(design, k).parameters;
-    if (p.points_per_cluster != shipped.points_per_cluster ||
-        p.similarity_cut != shipped.similarity_cut ||
-        p.scans_per_batch != shipped.scans_per_batch) {
+    if (p.similarity_cut != shipped.similarity_cut || p.vertex_price != shipped.vertex_price ||
+        p.straightness != shipped.straightness) {
       continue;
     }
     std::vector<double> differences;

@@ -47,9 +47,9 @@ void widen(std::vector<std::pair<double, double>>& seen, const std::vector<Segme
 std::string TuningDesign::signature() const {
   std::ostringstream out;
   out << "# tune";
-  list(out, "points_per_cluster", points_per_cluster);
   list(out, "similarity_cut", similarity_cut);
-  list(out, "scans_per_batch", scans_per_batch);
+  list(out, "vertex_price", vertex_price);
+  list(out, "straightness", straightness);
   list(out, "worlds", worlds);
   list(out, "noises", noises);
   out << " seeds=" << seeds << " scans=" << scans << " poses=" << poses
@@ -62,11 +62,11 @@ TuningJob tuningJob(const TuningDesign& d, std::size_t index) {
   job.index = index;
   job.scene = index / d.combinations();
   std::size_t rest = index % d.combinations();
-  job.parameters.scans_per_batch = d.scans_per_batch[rest % d.scans_per_batch.size()];
-  rest /= d.scans_per_batch.size();
-  job.parameters.similarity_cut = d.similarity_cut[rest % d.similarity_cut.size()];
-  rest /= d.similarity_cut.size();
-  job.parameters.points_per_cluster = d.points_per_cluster[rest];
+  job.parameters.straightness = d.straightness[rest % d.straightness.size()];
+  rest /= d.straightness.size();
+  job.parameters.vertex_price = d.vertex_price[rest % d.vertex_price.size()];
+  rest /= d.vertex_price.size();
+  job.parameters.similarity_cut = d.similarity_cut[rest];
   rest = job.scene;
   job.seed = static_cast<int>(rest % d.seeds) + 1;
   rest /= d.seeds;
@@ -110,7 +110,6 @@ TuningRow runJob(const TuningJob& job, const Scene& scene) {
   if (!scene.scans.empty()) row.scan_f1 /= static_cast<double>(scene.scans.size());
   LineMap map(job.parameters);
   for (const Scan& scan : scene.tour) map.insert(scan);
-  map.finishBatch();
   std::vector<Segment2> segments;
   for (const MapLine& line : map.lines())
     segments.push_back({line.segment.start, line.segment.end});

@@ -11,7 +11,7 @@ namespace cca::evidence {
 namespace {
 
 constexpr const char* kHeader =
-    "job,points_per_cluster,similarity_cut,scans_per_batch,world,noise,seed,scan_f1,map_f1";
+    "job,similarity_cut,vertex_price,straightness,world,noise,seed,scan_f1,map_f1";
 
 std::string head(const TuningDesign& design) { return design.signature() + "\n" + kHeader + "\n"; }
 
@@ -80,8 +80,8 @@ TuningRows::~TuningRows() { std::fclose(file_); }
 void TuningRows::append(const TuningJob& job, const TuningRow& row) {
   std::ostringstream line;
   line.precision(9);
-  line << row.job << ',' << job.parameters.points_per_cluster << ','
-       << job.parameters.similarity_cut << ',' << job.parameters.scans_per_batch << ','
+  line << row.job << ',' << job.parameters.similarity_cut << ',' << job.parameters.vertex_price
+       << ',' << job.parameters.straightness << ','
        << std::filesystem::path(job.world).stem().string() << ',' << job.noise << ',' << job.seed
        << ',' << row.scan_f1 << ',' << row.map_f1 << '\n';
   const std::string text = line.str();

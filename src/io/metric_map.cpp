@@ -159,7 +159,7 @@ mrpt::maps::CMetricMap* CLineMap2D::internal_CreateFromMapDefinition(
   return map.release();
 }
 
-uint8_t CLineMap2D::serializeGetVersion() const { return 0; }
+uint8_t CLineMap2D::serializeGetVersion() const { return 1; }
 
 void CLineMap2D::serializeTo(mrpt::serialization::CArchive& out) const {
   CcaParameters insertion_copy = insertion_;
@@ -172,7 +172,7 @@ void CLineMap2D::serializeTo(mrpt::serialization::CArchive& out) const {
 }
 
 void CLineMap2D::serializeFrom(mrpt::serialization::CArchive& in, uint8_t version) {
-  if (version != 0) MRPT_THROW_UNKNOWN_SERIALIZATION_VERSION(version);
+  if (version != 1) MRPT_THROW_UNKNOWN_SERIALIZATION_VERSION(version);
   internal_clear();
   describe(insertion_, FromArchive{in});
   describe(likelihood_options, FromArchive{in});
@@ -190,11 +190,6 @@ std::vector<MapLine> CLineMap2D::lines() const {
     all.push_back(line);
   }
   return all;
-}
-
-void CLineMap2D::finishBatch() {
-  map_.finishBatch();
-  nearest_.reset();
 }
 
 bool CLineMap2D::isEmpty() const { return lines().empty(); }

@@ -11,18 +11,30 @@
 namespace cca {
 namespace {
 
-/// nats, price of the bulge that makes an arc of a line: noise alone lets this one parameter raise
-/// the likelihood by more than e^8.3 in one of 22 000 trials, as with an edge that meets its
-/// neighbours.
-constexpr double kBulgePrice = 8.3;
-/// nats, of a line that meets the one before it: one vertex more, see findEdgeBetween().
-constexpr double kNextLinePrice = 12.0;
+/// What arcs, and what else may tell their points, cost in nats: all in proportion to a vertex. The
+/// figures named are those where it costs 12.
+struct Prices {
+  double next_line;  ///< a line that meets the one before it: one vertex more
+  double line;       ///< see linePrice()
+  /// A line with a bulge, 8.3 more: noise alone lets this one parameter raise the likelihood by
+  /// more than e^8.3 in one of 22 000 trials.
+  double arc;
+  /// A pillar that stands free, 14.6: three parameters, for it ends where the rays cease to meet
+  /// it. Noise alone lets it raise the likelihood by more in one of 500 000 trials, as a line of
+  /// four.
+  double pillar;
+  /// The corner of a box that stands free, 20: four likewise, and the choice of the ray that it
+  /// lies at, one of some fifty.
+  double free_corner;
 
-/// nats, price of a pillar that stands free: three parameters, for it ends where the rays cease to
-/// meet it. Noise alone lets it raise the likelihood by more in one of 500 000 trials, as a line of
-/// four, see kLinePrice. The corner of a box that stands free has four likewise, and comes with the
-/// choice of the ray that it lies at, one of some fifty.
-constexpr double kPillarPrice = 14.6, kFreeCornerPrice = kLinePrice + 4.0;
+  explicit Prices(double vertex)
+      : next_line(vertex),
+        line(linePrice(vertex)),
+        arc(line + vertex * 8.3 / 12.0),
+        pillar(vertex * 14.6 / 12.0),
+        free_corner(line + vertex * 4.0 / 12.0) {}
+};
+
 /// Two lines that meet fit any four points: these are the fewest that can tell a bulge from that.
 constexpr int kFewestOnArc = 5;
 
@@ -37,8 +49,8 @@ struct Telling {
   double chi_square = 0.0;  ///< of the points on lines
   double freedom = 0.0;     ///< what that is to be expected
 
-  void addLine(double points, double line_chi_square) {
-    price += price > 0.0 ? kNextLinePrice : kLinePrice;
+  void addLine(double points, double line_chi_square, const Prices& prices) {
+    price += price > 0.0 ? prices.next_line : prices.line;
     chi_square += line_chi_square;
     freedom += std::max(0.0, points - 2.0);
   }
@@ -83,13 +95,14 @@ class WeighedRuns {
   std::vector<Sums> sums_;
 };
 
-Telling asTold(const std::vector<ChainLink>& links, const WeighedRuns& runs, int first, int last) {
+Telling asTold(const std::vector<ChainLink>& links, const WeighedRuns& runs, int first, int last,
+               const Prices& prices) {
   Telling told;
   for (int k = first; k < last; ++k) {
     const ChainLink& link = links[static_cast<std::size_t>(k)];
     const double points = link.last - link.first;
     if (link.is_line) {
-      told.addLine(points, runs.ofLine(link.first, link.last));
+      told.addLine(points, runs.ofLine(link.first, link.last), prices);
     } else {
       told.price += kPointPrice * points;
     }
@@ -99,9 +112,9 @@ Telling asTold(const std::vector<ChainLink>& links, const WeighedRuns& runs, int
 
 /// The points as they would be told with the noise alone: by two lines that meet, wherever that is.
 /// @param free  they stand free, as the two faces of a box.
-Telling byCorner(const WeighedRuns& runs, int first, int last, bool free) {
+Telling byCorner(const WeighedRuns& runs, int first, int last, bool free, const Prices& prices) {
   Telling best;
-  best.price = free ? kFreeCornerPrice : kLinePrice + kNextLinePrice;
+  best.price = free ? prices.free_corner : prices.line + prices.next_line;
   best.freedom = last - first - 4.0;
   best.chi_square = std::numeric_limits<double>::infinity();
   for (int middle = first + 2; middle + 2 <= last; ++middle) {
@@ -153,7 +166,8 @@ bool isSeenFromOrigin(const Arc& arc, double variance) {
 
 std::vector<ArcOfLinks> arcsOfChain(const std::vector<CurvePoint>& points,
                                     const std::vector<ChainLink>& links, double least_bulge,
-                                    const OneView* view) {
+                                    double vertex_price, const OneView* view) {
+  const Prices prices(vertex_price);
   const int n = static_cast<int>(links.size());
   struct Best {
     double saved = 0.0;
@@ -172,9 +186,9 @@ std::vector<ArcOfLinks> arcsOfChain(const std::vector<CurvePoint>& points,
     if (!fitted || bulge(fitted->arc) < least_bulge) return;
     if (!turnsOneWay(points, links, first, last, fitted->arc)) return;
     if (view && !isSeenFromOrigin(fitted->arc, points[at(from)].variance)) return;
-    const double price = touched ? kPillarPrice : kLinePrice + kBulgePrice;
-    const Telling told = asTold(links, runs, first, last);
-    const Telling corner = byCorner(runs, from, to, touched.has_value());
+    const double price = touched ? prices.pillar : prices.arc;
+    const Telling told = asTold(links, runs, first, last, prices);
+    const Telling corner = byCorner(runs, from, to, touched.has_value(), prices);
     const double gain = std::min(saving(told, *fitted, price), saving(corner, *fitted, price));
     const double saved = best[at(first)].saved + gain;
     if (gain > 0.0 && saved > best[at(last)].saved) best[at(last)] = {saved, first, fitted->arc};

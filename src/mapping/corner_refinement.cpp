@@ -15,11 +15,6 @@ constexpr int kLongestLoose = 8;
 /// nats, what it may cost that two lines meet at their boundary: half the 99 % quantile of
 /// chi-square with the one degree of freedom that this takes.
 constexpr double kMeetingPrice = 3.32;
-/// nats, price of an edge that meets both its neighbours: they fix where it begins and ends, so
-/// that it takes one vertex more, of two coordinates, and not a line of its own. Noise alone lets
-/// these raise the likelihood by more than e^10 in one of 22 000 trials; a scan offers some
-/// hundreds.
-constexpr double kEdgePrice = 12.0;
 /// nats, below any real gain: keeps rounding from moving a boundary to and fro.
 constexpr double kNoGain = 1e-6;
 
@@ -97,7 +92,8 @@ bool splitLines(const RunFitter& fitter, Runs* runs) {
   for (std::size_t k = 0; k < runs->size(); ++k) {
     FittedRun& run = (*runs)[k];
     const int first = run.first, last = run.last;
-    const bool may_gain = !run.is_searched && (!run.is_line || 0.5 * run.chi_square > kLinePrice);
+    const bool may_gain =
+        !run.is_searched && (!run.is_line || 0.5 * run.chi_square > fitter.linePrice());
     const int middle =
         may_gain ? bestParting(fitter, first, first + 1, last - 1, last, run.price) : -1;
     if (run.is_line) run.is_searched = true;
@@ -181,7 +177,7 @@ bool findEdgeBetween(const ScanPoints& points, const RunFitter& fitter, double l
   const int from = std::max(first + kFewestPoints, low - kReach);
   const int to = std::min(last - kFewestPoints, high + kReach);
   if (from > low || to < high) return false;
-  double least = 0.5 * (a->chi_square + b->chi_square) + loose_price - kEdgePrice;
+  double least = 0.5 * (a->chi_square + b->chi_square) + loose_price - fitter.vertexPrice();
   const auto leastOf = [&](int i, int j) { return i < j ? fitter.leastHalfChiSquare(i, j) : 0.0; };
   // Fewer points have smaller residuals: where none at all would not pay, nothing does.
   const double least_after = leastOf(to, last);

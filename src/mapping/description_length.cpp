@@ -5,8 +5,13 @@
 
 namespace cca {
 
-RunFitter::RunFitter(const std::vector<Eigen::Vector2d>& points, const PointNoise& noise)
-    : prefix_(points), noise_(noise), most_variance_(0.0) {
+RunFitter::RunFitter(const std::vector<Eigen::Vector2d>& points, const PointNoise& noise,
+                     double vertex_price)
+    : prefix_(points),
+      noise_(noise),
+      vertex_price_(vertex_price),
+      line_price_(cca::linePrice(vertex_price)),
+      most_variance_(0.0) {
   double farthest_sq = 0.0;
   for (const Eigen::Vector2d& p : points) farthest_sq = std::max(farthest_sq, p.squaredNorm());
   most_variance_ = noise.mostAcross(farthest_sq);
@@ -19,7 +24,7 @@ double RunFitter::price(int first, int last) const {
   const PrincipalAxis axis = principalAxis(moments);
   const LineNoise noise = noise_.onLine(moments.mean, axis);
   if (!isDrawnOut(moments.weight, axis.spread_sum_sq, noise)) return alone;
-  return std::min(alone, kLinePrice + 0.5 * axis.residual_sum_sq / noise.across);
+  return std::min(alone, line_price_ + 0.5 * axis.residual_sum_sq / noise.across);
 }
 
 }  // namespace cca

@@ -19,14 +19,12 @@ bool isUsable(double range) { return isReturn(range) && range <= kLongestReturn;
 /// The wall of the new line that each return lies on; -1 where there is none. The lines may come in
 /// any order: those of a full turn begin at a corner, not at the first beam.
 std::vector<Slot> wallsOfReturns(const Scan& scan, const std::vector<Eigen::Vector2d>& beams,
-                                 const std::vector<NewLine>& lines, std::size_t scan_in_batch,
-                                 const MapNoise& noise) {
+                                 const std::vector<NewLine>& lines, const MapNoise& noise) {
   const Eigen::Vector2d viewpoint = scan.T_map_sensor.position();
   const double on_line = kGates * std::sqrt(noise.rangeVariance()) + 0.01;
   std::vector<Slot> slots(scan.size(), -1);
   std::vector<double> off(scan.size(), on_line);
   for (const NewLine& line : lines) {
-    if (line.scan != scan_in_batch) continue;
     const Eigen::Vector2d u = line.segment.direction();
     const double length = line.segment.length();
     for (const BeamRange& range :
@@ -83,10 +81,9 @@ std::array<BeamRange, 2> beamsTowards(const Scan& scan, const Eigen::Vector2d& s
 }
 
 void depositReturns(const Scan& scan, const std::vector<Eigen::Vector2d>& beams,
-                    const std::vector<NewLine>& lines, std::size_t scan_in_batch,
-                    const MapNoise& noise, Walls& walls) {
+                    const std::vector<NewLine>& lines, const MapNoise& noise, Walls& walls) {
   const Eigen::Vector2d viewpoint = scan.T_map_sensor.position();
-  const std::vector<Slot> walls_of_lines = wallsOfReturns(scan, beams, lines, scan_in_batch, noise);
+  const std::vector<Slot> walls_of_lines = wallsOfReturns(scan, beams, lines, noise);
   const double on_wall = kGates * noise.lateralSigma();
   for (std::size_t beam = 0; beam < scan.size(); ++beam) {
     if (!isUsable(scan.ranges[beam])) continue;

@@ -44,19 +44,20 @@ void beginAtRun(std::size_t index, const PointNoise& noise, ScanPoints* points, 
     }
   }
   reopen(corner, points);
-  *fitter = RunFitter(points->positions, noise);
+  *fitter = RunFitter(points->positions, noise, fitter->vertexPrice());
 }
 
 /// Clusters a scan again and again, until no two runs are alike and every corner is in its place.
 ClusteredScan cluster(const Scan& scan, const CcaParameters& parameters) {
   const Ablation& without = parameters.without;
   PointNoise noise = rangeNoise(scan);
+  noise.straightness = parameters.straightness;
   if (without(Part::kScanNoise)) noise.range_sigma = kSetSigma;
   ScanPoints points = scanPoints(scan, std::max(noise.range_sigma, noise.straightness));
-  RunFitter fitter(points.positions, noise);
-  Runs runs = pointClusters(points, fitter, parameters.points_per_cluster, without);
+  RunFitter fitter(points.positions, noise, parameters.vertex_price);
+  Runs runs = pointClusters(points, fitter, without);
 
-  const AlphaCut cut(parameters.similarity_cut, without);
+  const AlphaCut cut(parameters);
   for (const double share : kOdds) {
     const AlphaCut higher(1.0 / (1.0 + share * (1.0 / cut.value - 1.0)), without);
     while (!without(Part::kRounds) && mergeConsecutive(points, fitter, higher, &runs)) {
@@ -85,7 +86,7 @@ ClusteredScan cluster(const Scan& scan, const CcaParameters& parameters) {
 }
 
 std::vector<LineSegment> linesOf(const ClusteredScan& s, const CcaParameters& parameters) {
-  const AlphaCut cut(parameters.similarity_cut, parameters.without);
+  const AlphaCut cut(parameters);
   return polyLines(s.points, s.fitter, s.runs, groupInterrupted(s.points, s.fitter, cut, s.runs));
 }
 
@@ -108,7 +109,8 @@ ScanFeatures extractFeatures(const Scan& scan, const CcaParameters& parameters) 
   ScanFeatures features;
   features.lines = linesOf(clustered, parameters);
   beginBehindBreak(&clustered);
-  features.arcs = arcsOfScan(clustered.points, clustered.runs, clustered.noise);
+  features.arcs =
+      arcsOfScan(clustered.points, clustered.runs, clustered.noise, parameters.vertex_price);
   return features;
 }
 

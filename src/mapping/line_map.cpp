@@ -45,47 +45,33 @@ NewLine inMap(const LineSegment& line, const Pose2& T_map_sensor, const MapNoise
 
 bool LineMap::insert(const Scan& scan) { return insert(scan, extractLines(scan, parameters_)); }
 
-bool LineMap::insert(const Scan& scan, std::vector<LineSegment> lines) {
+bool LineMap::insert(const Scan& scan, const std::vector<LineSegment>& lines) {
   const Pose2& T = scan.T_map_sensor;
   const bool in_reach = std::abs(T.x) < kFarthestPose && std::abs(T.y) < kFarthestPose;
   if (!in_reach || !std::isfinite(T.theta)) return false;
-  batch_.push_back({scan, std::move(lines)});
-  if (static_cast<int>(batch_.size()) >= parameters_.scans_per_batch) finishBatch();
+  std::vector<NewLine> new_lines = newLines(lines, T);
+  clusterIntoMap(new_lines, AlphaCut(parameters_), noise_, walls_);
+  learn(new_lines);
+  const std::vector<Eigen::Vector2d> beams = beamDirections(scan);
+  depositReturns(scan, beams, new_lines, noise_, walls_);
+  if (!parameters_.without(Part::kRays)) passRays(scan, beams, noise_, walls_);
+  seeToTouched(walls_, noise_, parameters_, next_id_);
   return true;
 }
 
-void LineMap::finishBatch() {
-  std::vector<NewLine> lines = newLines();
-  const AlphaCut cut(parameters_.similarity_cut, parameters_.without);
-  clusterIntoMap(lines, cut, noise_, walls_);
-  learn(lines);
-  std::vector<std::vector<Eigen::Vector2d>> beams;
-  for (std::size_t s = 0; s < batch_.size(); ++s) {
-    beams.push_back(beamDirections(batch_[s].scan));
-    depositReturns(batch_[s].scan, beams[s], lines, s, noise_, walls_);
+std::vector<NewLine> LineMap::newLines(const std::vector<LineSegment>& lines,
+                                       const Pose2& T_map_sensor) {
+  std::vector<NewLine> found;
+  for (const LineSegment& line : lines) {
+    const double length = line.length(), distance = line.moments.mean.norm();
+    const bool sane = length > 0.0 && length < kLongestSight && distance < kLongestSight;
+    if (!sane || !(line.moments.weight > 0.0)) continue;
+    const FittedLine fitted = fitLine(line.moments);
+    const double freedom = line.moments.weight - 2.0;
+    if (freedom > 2.0) noise_.learnRange(fitted.residual_sum_sq / freedom);
+    found.push_back(inMap(line, T_map_sensor, noise_));
   }
-  for (std::size_t s = 0; s < batch_.size() && !cut.without(Part::kRays); ++s) {
-    passRays(batch_[s].scan, beams[s], noise_, walls_);
-  }
-  seeToTouched(walls_, noise_, cut, next_id_);
-  batch_.clear();
-}
-
-std::vector<NewLine> LineMap::newLines() {
-  std::vector<NewLine> lines;
-  for (std::size_t s = 0; s < batch_.size(); ++s) {
-    for (const LineSegment& line : batch_[s].lines) {
-      const double length = line.length(), distance = line.moments.mean.norm();
-      const bool sane = length > 0.0 && length < kLongestSight && distance < kLongestSight;
-      if (!sane || !(line.moments.weight > 0.0)) continue;
-      const FittedLine fitted = fitLine(line.moments);
-      const double freedom = line.moments.weight - 2.0;
-      if (freedom > 2.0) noise_.learnRange(fitted.residual_sum_sq / freedom);
-      lines.push_back(inMap(line, batch_[s].scan.T_map_sensor, noise_));
-      lines.back().scan = s;
-    }
-  }
-  return lines;
+  return found;
 }
 
 void LineMap::learn(const std::vector<NewLine>& lines) {

@@ -34,12 +34,13 @@ double similarityOf(const RunFitter& fitter, const AlphaCut& cut, const FittedRu
   if (gap > 0.0 && !cut.without(Part::kGap)) return 0.0;
   if (!cut.without(Part::kFit)) {
     const double least = fitter.prefix().leastResidual(run.first, next.last);
-    const double most = mostFitMembership(run, next, least, fitter.mostVariance());
+    const double most =
+        mostFitMembership(run, next, least, fitter.mostVariance(), fitter.linePrice());
     *is_bound = most < cut.value;
     if (*is_bound) return most;
   }
   const JointFit joint = fitter.fitJointly(fitter.prefix().run(run.first, next.last));
-  return cut.similarity(memberships(run, next, joint, gap));
+  return cut.similarity(memberships(run, next, joint, gap, fitter.linePrice()));
 }
 
 /// Similarity of a run to the next one, remembered until either changes; where it is below the cut,
@@ -161,17 +162,20 @@ bool mergeInterrupted(const ScanPoints& points, const RunFitter& fitter, const A
       PointMoments moments = a.fit.moments;
       moments.add(b.fit.moments);
       if (!cut.without(Part::kFit)) {
-        const double bound =
-            mostFitMembership(a.fit, b.fit, leastResidual(moments), fitter.mostVariance());
+        const double bound = mostFitMembership(a.fit, b.fit, leastResidual(moments),
+                                               fitter.mostVariance(), fitter.linePrice());
         if (bound < cut.value) continue;
       }
       if (interlaced(a, b)) continue;
       const JointFit fitted = fitter.fitJointly(moments);
-      if (cut.similarity(memberships(a.fit, b.fit, fitted, 0.0)) < cut.value) continue;
+      const auto alike = [&](const JointFit& joint, double against) {
+        return cut.similarity(memberships(a.fit, b.fit, joint, against, fitter.linePrice()));
+      };
+      if (alike(fitted, 0.0) < cut.value) continue;
       const FittedSegment joint = fitter.fit(moments);
       const double against = gapEvidence(points, joint, runs, a, b, most);
       if (against > most) continue;
-      s.set(i, j, cut.similarity(memberships(a.fit, b.fit, joint, against)));
+      s.set(i, j, alike(joint, against));
     }
   }
   if (s.entries().empty()) return false;

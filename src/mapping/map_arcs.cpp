@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "cca_mrpt/mapping/gates.hpp"
-#include "cca_mrpt/mapping/range_noise.hpp"
 
 namespace cca {
 namespace {
@@ -81,13 +80,14 @@ void addPoints(const Piece& piece, const MapNoise& noise, std::vector<CurvePoint
 
 }  // namespace
 
-std::vector<MapArc> arcsOfWalls(const std::vector<Wall>& walls, const MapNoise& noise) {
+std::vector<MapArc> arcsOfWalls(const std::vector<Wall>& walls, const MapNoise& noise,
+                                const CcaParameters& parameters) {
   std::vector<Piece> pieces = piecesOf(walls);
   chain(&pieces);
   std::vector<MapArc> arcs;
   std::vector<bool> used(pieces.size(), false);
   // Walls are bent by pose errors that many returns have in common.
-  const double least_bulge = std::max(kStraightness, kNormalGate * noise.lateralSigma());
+  const double least_bulge = std::max(parameters.straightness, kNormalGate * noise.lateralSigma());
   const auto follow = [&](int begin) {
     std::vector<CurvePoint> points;
     std::vector<ChainLink> links;
@@ -101,7 +101,7 @@ std::vector<MapArc> arcsOfWalls(const std::vector<Wall>& walls, const MapNoise& 
       links.push_back({first, static_cast<int>(points.size()), true});
       ids.push_back(pieces[static_cast<std::size_t>(i)].line->id);
     }
-    for (ArcOfLinks& found : arcsOfChain(points, links, least_bulge)) {
+    for (ArcOfLinks& found : arcsOfChain(points, links, least_bulge, parameters.vertex_price)) {
       const bool whole = i == begin && found.last - found.first == static_cast<int>(links.size());
       if (whole) found.arc.sweep = 2.0 * M_PI;
       arcs.push_back({found.arc, {ids.begin() + found.first, ids.begin() + found.last}});

@@ -25,12 +25,6 @@ struct Resemblance {
   double similarity;
 };
 
-double similarityOf(const NewLine& a, const NewLine& b, const MapNoise& noise,
-                    const AlphaCut& cut) {
-  // The extraction has parted those of one scan.
-  return a.scan == b.scan ? 0.0 : cut.similarity(mapMemberships(a, b, noise));
-}
-
 /// Disjoint sets over the lines.
 class Neighbourhoods {
  public:
@@ -88,8 +82,7 @@ class Neighbourhood {
   }
 
   /// Walls first, then lines.
-  Eigen::MatrixXd matrix(const std::vector<NewLine>& lines,
-                         const std::vector<Resemblance>& resemblances, const MapNoise& noise,
+  Eigen::MatrixXd matrix(const std::vector<Resemblance>& resemblances, const MapNoise& noise,
                          const AlphaCut& cut, const Walls& walls) const {
     const int w = static_cast<int>(walls_.size()), n = w + static_cast<int>(members_.size());
     Eigen::MatrixXd s = Eigen::MatrixXd::Identity(n, n);
@@ -109,9 +102,9 @@ class Neighbourhood {
     }
     for (int i = w; i < n; ++i) {
       for (int j = i + 1; j < n; ++j) {
-        double alike = similarityOf(lines[at(members_[at(i - w)])], lines[at(members_[at(j - w)])],
-                                    noise, cut);
-        // A wall that both are alike speaks for what lies between them.
+        // The extraction has parted the two; a wall that both are alike speaks for what lies
+        // between.
+        double alike = 0.0;
         for (int k = 0; k < w; ++k) alike = std::max(alike, std::min(s(i, k), s(j, k)));
         set(i, j, alike);
       }
@@ -176,7 +169,8 @@ std::vector<Resemblance> resemblances(const std::vector<NewLine>& lines, const A
   return all;
 }
 
-/// A line that resembles no other and one wall at most needs no clustering; false where it does.
+/// A line that shares no wall with another and resembles one at most needs no clustering; false
+/// where it does.
 bool assignAlone(NewLine& line, int index, const std::vector<Resemblance>& alike,
                  const MapNoise& noise, Walls& walls) {
   const auto before = [](const Resemblance& r, int i) { return r.line < i; };
@@ -203,13 +197,6 @@ void clusterIntoMap(std::vector<NewLine>& lines, const AlphaCut& cut, const MapN
     }
   }
   const int n = static_cast<int>(lines.size());
-  for (int i = 0; i < n; ++i) {
-    for (int j = i + 1; j < n; ++j) {
-      const NewLine &a = lines[static_cast<std::size_t>(i)],
-                    &b = lines[static_cast<std::size_t>(j)];
-      if (similarityOf(a, b, noise, cut) >= cut.value) sets.join(i, j);
-    }
-  }
   std::vector<std::vector<int>> members(lines.size());
   for (int i = 0; i < n; ++i) members[static_cast<std::size_t>(sets.root(i))].push_back(i);
   for (std::vector<int>& m : members) {
@@ -218,7 +205,7 @@ void clusterIntoMap(std::vector<NewLine>& lines, const AlphaCut& cut, const MapN
         assignAlone(lines[static_cast<std::size_t>(m[0])], m[0], alike, noise, walls))
       continue;
     const Neighbourhood neighbourhood(std::move(m), alike);
-    const Eigen::MatrixXd s = neighbourhood.matrix(lines, alike, noise, cut, walls);
+    const Eigen::MatrixXd s = neighbourhood.matrix(alike, noise, cut, walls);
     const std::vector<int> group_of = groupsOf(s, cut);
     std::vector<std::vector<int>> groups(group_of.size());
     for (std::size_t i = 0; i < group_of.size(); ++i) {

@@ -116,25 +116,6 @@ Memberships mapMemberships(const NewLine& line, const Wall& wall, const MapNoise
   return mu;
 }
 
-Memberships mapMemberships(const NewLine& a, const NewLine& b, const MapNoise& noise) {
-  Wall frame;
-  frame.origin = a.segment.start;
-  frame.direction = a.segment.direction();
-  const double cosine = frame.direction.dot(b.segment.direction());
-  if (std::abs(cosine) < kComparable) return {};
-  const double b0 = frame.toWall(b.segment.start).x(), b1 = frame.toWall(b.segment.end).x();
-  const Extent of_a{0.0, a.segment.length()}, of_b{std::min(b0, b1), std::max(b0, b1)};
-  const LateralLine la = lateralLine(a.segment, frame), lb = lateralLine(b.segment, frame);
-  const Difference apart = difference(la, lb);
-  Memberships mu;
-  mu.orientation = bell(apart.angle, kChiSquareGate1);
-  mu.offset = bell(apart.offset, kChiSquareGate1);
-  mu.gap = bell(square(std::max(0.0, -overlapOf(of_a, of_b))), square(kGapOfLine));
-  mu.fit = bell(square(lb.offset - la.at(lb.middle)), square(kFitGate * noise.lateralSigma()));
-  mu.overlap = cosine > 0.0 ? 1.0 : 0.0;
-  return mu;
-}
-
 Memberships mapMemberships(const Wall& wall, const Wall& other, const MapNoise& noise) {
   const double cosine = wall.fittedDirection().dot(other.fittedDirection());
   if (std::abs(cosine) < kComparable) return {};

@@ -56,9 +56,9 @@ void prune(const ScanPoints& points, const RunFitter& fitter, int first, int las
 }  // namespace
 
 std::vector<FittedRun> pointClusters(const ScanPoints& points, const RunFitter& fitter,
-                                     int points_per_cluster, const Ablation& without) {
+                                     const Ablation& without) {
   const int n = static_cast<int>(points.size());
-  const int clusters = std::max(1, (n + points_per_cluster / 2) / points_per_cluster);
+  const int clusters = std::max(1, (n + kPointsPerCluster / 2) / kPointsPerCluster);
   const int sweeps = without(Part::kKMeans) ? 0 : kLloydSweeps;
   const std::vector<int> cluster = kMeansInOrder(points, clusters, sweeps);
   std::vector<FittedRun> runs;

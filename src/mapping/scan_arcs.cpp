@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <utility>
 
 namespace cca {
 namespace {
@@ -43,8 +44,10 @@ std::optional<Limbs> limbsOf(const ScanPoints& points, int first, int last) {
 
 }  // namespace
 
-std::vector<Arc> arcsOfScan(const ScanPoints& points, const Runs& runs, PointNoise noise) {
-  noise.straightness = 0.0;  // a bulge is told from the noise of the laser alone
+std::vector<Arc> arcsOfScan(const ScanPoints& points, const Runs& runs, PointNoise noise,
+                            double vertex_price) {
+  const double least_bulge =
+      std::exchange(noise.straightness, 0.0);  // a bulge is told from the noise of the laser alone
   std::vector<Arc> arcs;
   for (std::size_t k = 0; k < runs.size();) {
     Chain chain;
@@ -54,7 +57,8 @@ std::vector<Arc> arcsOfScan(const ScanPoints& points, const Runs& runs, PointNoi
       chain.add(points, runs[k++], noise);
     }
     const OneView view{limbsOf(points, first, runs[k - 1].last)};
-    for (const ArcOfLinks& found : arcsOfChain(chain.points, chain.links, kStraightness, &view)) {
+    for (const ArcOfLinks& found :
+         arcsOfChain(chain.points, chain.links, least_bulge, vertex_price, &view)) {
       arcs.push_back(found.arc);
     }
   }

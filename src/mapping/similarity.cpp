@@ -10,9 +10,6 @@
 namespace cca {
 namespace {
 
-/// Twice a price in nats is a chi-square: where mu_1 and mu_2 stand at one half.
-constexpr double kLineGate = 2.0 * kLinePrice;
-
 /// z^2 of the distance of b's centroid from a's line, extended that far; in units of the variance
 /// of one point.
 /// @param centroids  variances of the two centroids, likewise.
@@ -40,9 +37,10 @@ double residuals(const FittedSegment& a, const FittedSegment& b) {
 
 /// @param growth  of the residuals, in variances of a point about the common line: over the noise
 /// of each line by itself, a long wall that is met at many angles would seem bent.
-double fitOfGrowth(const FittedSegment& a, const FittedSegment& b, double growth) {
-  double saved = -kLinePrice;
-  for (const FittedSegment* part : {&a, &b}) saved += part->is_line ? kLinePrice : part->price;
+double fitOfGrowth(const FittedSegment& a, const FittedSegment& b, double growth,
+                   double line_price) {
+  double saved = -line_price;
+  for (const FittedSegment* part : {&a, &b}) saved += part->is_line ? line_price : part->price;
   return saved <= 0.0 ? 0.0 : bell(0.5 * std::max(0.0, growth), saved);
 }
 
@@ -63,24 +61,26 @@ double AlphaCut::similarity(const Memberships& mu) const {
 }
 
 double mostFitMembership(const FittedSegment& a, const FittedSegment& b, double least_residual,
-                         double most_variance) {
-  return fitOfGrowth(a, b, (least_residual - residuals(a, b)) / most_variance);
+                         double most_variance, double line_price) {
+  return fitOfGrowth(a, b, (least_residual - residuals(a, b)) / most_variance, line_price);
 }
 
-double fitMembership(const FittedSegment& a, const FittedSegment& b, const JointFit& joint) {
+double fitMembership(const FittedSegment& a, const FittedSegment& b, const JointFit& joint,
+                     double line_price) {
   if (joint.points < kFewestPoints) return 0.0;
-  return fitOfGrowth(a, b, (joint.residual_sum_sq - residuals(a, b)) / joint.variance);
+  return fitOfGrowth(a, b, (joint.residual_sum_sq - residuals(a, b)) / joint.variance, line_price);
 }
 
 Memberships memberships(const FittedSegment& a, const FittedSegment& b, const JointFit& joint,
-                        double gap_evidence) {
+                        double gap_evidence, double line_price) {
+  const double line_gate = 2.0 * line_price;  // twice a price in nats is a chi-square
   Memberships mu;
-  mu.fit = fitMembership(a, b, joint);
+  mu.fit = fitMembership(a, b, joint, line_price);
   const double centroids = 1.0 / a.moments.weight + 1.0 / b.moments.weight;
   const double offset =
       std::max(offsetStatistic(a, b, centroids), offsetStatistic(b, a, centroids)) / joint.variance;
-  mu.orientation = bell(orientationStatistic(a, b) / joint.variance, kLineGate);
-  mu.offset = bell(offset, kLineGate);
+  mu.orientation = bell(orientationStatistic(a, b) / joint.variance, line_gate);
+  mu.offset = bell(offset, line_gate);
   mu.gap = bell(gap_evidence, kGapGate);
   mu.overlap = 1.0;  // from one place no two runs are seen side by side
   return mu;

@@ -13,9 +13,6 @@ namespace {
 
 using Slot = Walls::Slot;
 
-/// nat, what a bend must save: one vertex, two coordinates of the longest wall at a bin's length,
-/// 2 ln(20 m / 5 cm).
-constexpr double kBendCost = 12.0;
 /// Returns after which a wall is compared with its neighbours again, however many it has.
 constexpr double kMostBeforeCheck = 100.0;
 /// Two walls that are not one share out what lies side by side within so many deviations of a
@@ -106,10 +103,11 @@ void mergeWithNeighbours(Slot slot, Walls& walls, const MapNoise& noise, const A
   }
 }
 
-/// Cuts the wall at its strongest bend; the part behind the bend becomes a wall of its own.
+/// Cuts the wall at its strongest bend, where that saves the price of a vertex [nats]; the part
+/// behind the bend becomes a wall of its own.
 /// @return whether it was bent.
-bool splitWhereBent(Slot slot, Walls& walls, const MapNoise& noise) {
-  const double least_gain = 2.0 * noise.lateralSigma() * noise.lateralSigma() * kBendCost;
+bool splitWhereBent(Slot slot, Walls& walls, const MapNoise& noise, double vertex_price) {
+  const double least_gain = 2.0 * noise.lateralSigma() * noise.lateralSigma() * vertex_price;
   const double residual = walls[slot].profile.sums().residual();
   // No cut gains more than all, nor more than the best one did and what came on top since.
   if (residual < std::max(least_gain, walls[slot].uncut_residual)) return false;
@@ -152,8 +150,9 @@ bool changedMuch(const Wall& wall) {
 
 }  // namespace
 
-void seeToTouched(Walls& walls, const MapNoise& noise, const AlphaCut& cut,
+void seeToTouched(Walls& walls, const MapNoise& noise, const CcaParameters& parameters,
                   std::uint64_t& next_id) {
+  const AlphaCut cut(parameters);
   std::vector<Slot>& touched = walls.touched();
   // What is cut off from a wall may be shared out so that the wall is bent again, and so on for
   // ever: there are no more cuts than walls that the scan has touched.
@@ -168,7 +167,7 @@ void seeToTouched(Walls& walls, const MapNoise& noise, const AlphaCut& cut,
     }
     refit(walls[slot]);
     const bool changed = changedMuch(walls[slot]);
-    if (cuts_left > 0 && splitWhereBent(slot, walls, noise)) --cuts_left;
+    if (cuts_left > 0 && splitWhereBent(slot, walls, noise, parameters.vertex_price)) --cuts_left;
     if (changed) {
       mergeWithNeighbours(slot, walls, noise, cut);
       if (!walls.prune(slot)) {

@@ -175,9 +175,7 @@ class LineMapper {
   }
 
   MapProducts products() const {
-    LineMap so_far = line_map_;  // later scans find the map as if nobody had saved it
-    so_far.finishBatch();
-    MapProducts products = record_.products("line_mapper", so_far);
+    MapProducts products = record_.products("line_mapper", line_map_);
     products.summary["scans"] = record_.way.size();
     products.summary["agreement"] = agreement_.overall();
     if (slam_) products.summary["loops"] = slam_->loops();

@@ -20,9 +20,10 @@ Eigen::Vector2d towardsSensor(const Eigen::Vector2d& direction, const Eigen::Vec
 /// A return lies on a line within this many deviations of its noise, or the straightness of walls.
 constexpr double kOnLine = 3.0;
 
-void takeNormalsOfLines(const std::vector<LineSegment>& lines, ScanSurface& surface) {
+void takeNormalsOfLines(const std::vector<LineSegment>& lines, double straightness,
+                        ScanSurface& surface) {
   const int count = static_cast<int>(surface.points.size());
-  const double gate = std::max(kStraightness, kOnLine * surface.range_sigma);
+  const double gate = std::max(straightness, kOnLine * surface.range_sigma);
   for (const LineSegment& line : lines) {
     const Eigen::Vector2d direction = line.direction();
     const double length = line.length();
@@ -99,7 +100,7 @@ ScanSurface scanSurface(const Scan& scan, const CcaParameters& parameters) {
     surface.points.push_back({range * Eigen::Vector2d(std::cos(bearing), std::sin(bearing)),
                               Eigen::Vector2d::Zero(), static_cast<int>(k)});
   }
-  takeNormalsOfLines(extractLines(scan, parameters), surface);
+  takeNormalsOfLines(extractLines(scan, parameters), parameters.straightness, surface);
   takeNormalsOfNeighbours(surface);
   return surface;
 }

@@ -32,7 +32,6 @@ TEST_P(RealLog, MapIsCompleteCleanAndOnTheWalls) {
   while (const auto record = reader->next()) scans.push_back(record->scan);
   LineMap map;
   for (const Scan& scan : scans) map.insert(scan);
-  map.finishBatch();
   std::vector<Segment2> segments;
   for (const MapLine& line : map.lines())
     segments.push_back({line.segment.start, line.segment.end});

@@ -14,7 +14,6 @@ namespace cca {
 namespace {
 
 constexpr double kSigma = 0.03;
-constexpr int kPointsPerCluster = 5;
 constexpr int kWalls = 12;
 
 /// A star-shaped room of that many walls, 3 to 6 m away.
@@ -34,6 +33,12 @@ Scan scanWith(int beams, int walls) {
   return scanOf(starRoom(walls), -M_PI, 2.0 * M_PI / beams, beams, kSigma, &random);
 }
 
+PointNoise noiseOf(const Scan& scan) {
+  PointNoise noise = rangeNoise(scan);
+  noise.straightness = CcaParameters().straightness;
+  return noise;
+}
+
 /// A scan on its way, up to the step that is measured.
 struct Stage {
   ScanPoints points;
@@ -43,9 +48,9 @@ struct Stage {
 
   explicit Stage(int beams)
       : points(scanPoints(scanWith(beams, kWalls), kSigma)),
-        noise(rangeNoise(scanWith(beams, kWalls))),
+        noise(noiseOf(scanWith(beams, kWalls))),
         fitter(points.positions, noise),
-        clusters(pointClusters(points, fitter, kPointsPerCluster)),
+        clusters(pointClusters(points, fitter)),
         merged(clusters) {
     while (mergeConsecutive(points, fitter, 0.5, &merged)) {
     }
@@ -80,7 +85,7 @@ void KMeansInOrder(benchmark::State& state) {
 void PointClusters(benchmark::State& state) {
   const Stage s(beamsOf(state));
   for (auto _ : state) {
-    benchmark::DoNotOptimize(pointClusters(s.points, s.fitter, kPointsPerCluster));
+    benchmark::DoNotOptimize(pointClusters(s.points, s.fitter));
   }
   state.SetComplexityN(state.range(0));
 }

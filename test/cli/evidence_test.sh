@@ -36,8 +36,8 @@ awk -F'|' '/line-slam/ { exit !($3 < 0.02) }' "$tmp/slam.txt" || fail "compare-s
 
 # tune: shards merged say what one run says; a killed run goes on; another design is refused.
 tune() {
-  "$program" tune "$maps/two_rooms.yaml" "$maps/maze.yaml" --points-per-cluster 3,5 \
-    --similarity-cut 0.3,0.5 --scans-per-batch 1,2 --noise 0.01 --seeds 1 --scans 2 --poses 8 "$@"
+  "$program" tune "$maps/two_rooms.yaml" "$maps/maze.yaml" --similarity-cut 0.3,0.5 \
+    --vertex-price 6,12 --straightness 0.01,0.035 --noise 0.01 --seeds 1 --scans 2 --poses 8 "$@"
 }
 tune --out "$tmp/whole" >"$tmp/whole.txt" 2>/dev/null
 tune --out "$tmp/parts" --shard 1/2 >/dev/null 2>&1
@@ -54,7 +54,7 @@ sort "$rows" | diff "$tmp/before" - || fail "a killed run goes on where it was"
 grep -q 'another design' "$tmp/error" || fail "says that the design differs"
 status=0; tune --out "$tmp/x" --shard 3/2 >/dev/null 2>&1 || status=$?
 [ $status -eq 2 ] || fail "a bad shard is a usage error, got $status"
-status=0; tune --out "$tmp/x" --points-per-cluster 0,5 >/dev/null 2>&1 || status=$?
+status=0; tune --out "$tmp/x" --vertex-price 0,12 >/dev/null 2>&1 || status=$?
 [ $status -eq 2 ] || fail "a level out of range is a usage error, got $status"
 status=0; "$program" tune "$maps/maze.yaml" --out "$tmp/x" --similarity-cut 0.5 >/dev/null 2>&1 || status=$?
 [ $status -eq 2 ] || fail "a single level is a usage error, got $status"

@@ -15,9 +15,9 @@ namespace {
 
 TuningDesign smallDesign() {
   TuningDesign d;
-  d.points_per_cluster = {3, 5};
   d.similarity_cut = {0.25, 0.5, 0.75};
-  d.scans_per_batch = {1, 4};
+  d.vertex_price = {8.0, 16.0};
+  d.straightness = {0.01, 0.04};
   d.worlds = {"maps/a.yaml", "maps/b.yaml"};
   d.noises = {0.01, 0.03};
   d.seeds = 2;
@@ -38,9 +38,9 @@ TEST(TuningDesign, NumbersEachCombinationOfEachSceneOnce) {
     const TuningJob j = tuningJob(d, k);
     EXPECT_EQ(j.scene, k / 12);
     seen.insert(j.world + "/" + std::to_string(j.noise) + "/" + std::to_string(j.seed) + "/" +
-                std::to_string(j.parameters.points_per_cluster) + "/" +
                 std::to_string(j.parameters.similarity_cut) + "/" +
-                std::to_string(j.parameters.scans_per_batch));
+                std::to_string(j.parameters.vertex_price) + "/" +
+                std::to_string(j.parameters.straightness));
   }
   EXPECT_EQ(seen.size(), d.jobs());
 }
@@ -75,15 +75,15 @@ TEST(TuningRows, RefusesTheResultsOfAnotherDesign) {
   EXPECT_THROW(readTuningRows({path}, d), std::runtime_error);
 }
 
-/// Rows whose objective is known: a parabola in the cut, the best at 0.5, a bonus for five points,
-/// nothing for the batch, and a scene's own level.
+/// Rows whose objective is known: a parabola in the cut, the best at 0.5, a bonus for a price
+/// of 16, nothing for the straightness, and a scene's own level.
 std::vector<TuningRow> knownRows(const TuningDesign& d) {
   std::vector<TuningRow> rows;
   for (std::size_t k = 0; k < d.jobs(); ++k) {
     const TuningJob j = tuningJob(d, k);
     const double cut = j.parameters.similarity_cut - 0.5;
     const double ripple = 1e-3 * std::sin(12.9898 * static_cast<double>(k));
-    const double value = 0.8 - cut * cut + (j.parameters.points_per_cluster == 5 ? 0.02 : 0.0) +
+    const double value = 0.8 - cut * cut + (j.parameters.vertex_price == 16.0 ? 0.02 : 0.0) +
                          0.01 * static_cast<double>(j.scene) + ripple;
     rows.push_back({k, value, value});
   }
@@ -103,11 +103,11 @@ TEST(TuningAnalysis, FindsTheEffectsThatAreThereAndNoOthers) {
 TEST(TuningAnalysis, RecommendsTheKnownBestAndTellsHowFarTheShippedIs) {
   const TuningDesign d = smallDesign();
   CcaParameters shipped;
-  shipped.points_per_cluster = 3;
   shipped.similarity_cut = 0.75;
-  shipped.scans_per_batch = 1;
+  shipped.vertex_price = 8.0;
+  shipped.straightness = 0.01;
   const Recommendation r = recommend(d, knownRows(d), Objective::kBoth, shipped);
-  EXPECT_EQ(r.best.points_per_cluster, 5);
+  EXPECT_DOUBLE_EQ(r.best.vertex_price, 16.0);
   EXPECT_DOUBLE_EQ(r.best.similarity_cut, 0.5);
   EXPECT_DOUBLE_EQ(r.similarity_cut.low, 0.5);
   EXPECT_DOUBLE_EQ(r.similarity_cut.high, 0.5);

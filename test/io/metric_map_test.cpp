@@ -69,14 +69,14 @@ TEST(CLineMap2D, MapsARoomFromMrptsScans) {
 TEST(CLineMap2D, IsMadeByAMultiMetricMapFromItsIni) {
   mrpt::config::CConfigFileMemory ini;
   ini.setContent(
-      "[map]\nlineMap_count = 1\n[map_lineMap_00_insertOpts]\nscans_per_batch = 2\n"
+      "[map]\nlineMap_count = 1\n[map_lineMap_00_insertOpts]\nvertex_price = 9\n"
       "[map_lineMap_00_likelihoodOpts]\nsigma = 0.25\n");
   mrpt::maps::TSetOfMetricMapInitializers definitions;
   definitions.loadFromConfigFile(ini, "map");
   mrpt::maps::CMultiMetricMap maps(definitions);
   const auto map = maps.mapByClass<CLineMap2D>();
   ASSERT_TRUE(map);
-  EXPECT_EQ(map->insertionOptions().scans_per_batch, 2);
+  EXPECT_DOUBLE_EQ(map->insertionOptions().vertex_price, 9.0);
   EXPECT_DOUBLE_EQ(map->likelihood_options.sigma, 0.25);
   mapRoom(maps);
   EXPECT_GE(map->lines().size(), 4u);

@@ -38,29 +38,29 @@ class ParametersFile : public ::testing::Test {
 };
 
 TEST_F(ParametersFile, SetsWhatItNamesAndLeavesTheRest) {
-  EXPECT_EQ(errorOf("[mapping]\npoints_per_cluster = 7\n[robot]\nradius = 0.3 // wide\n"), "");
-  EXPECT_EQ(parameters_.mapping.points_per_cluster, 7);
+  EXPECT_EQ(errorOf("[mapping]\nvertex_price = 7\n[robot]\nradius = 0.3 // wide\n"), "");
+  EXPECT_DOUBLE_EQ(parameters_.mapping.vertex_price, 7.0);
   EXPECT_DOUBLE_EQ(parameters_.robot.radius, 0.3);
   EXPECT_DOUBLE_EQ(parameters_.mapping.similarity_cut, Parameters().mapping.similarity_cut);
 }
 
 TEST_F(ParametersFile, NamesFileKeyValueAndRangeOfABadValue) {
-  for (const char* value : {"0", "-3", "1000", "5.5", "nan", "five", "", "5 5"}) {
-    EXPECT_THAT(errorOf(std::string("[mapping]\npoints_per_cluster = ") + value + "\n"),
-                AllOf(HasSubstr(path_), HasSubstr("[mapping] points_per_cluster"),
-                      HasSubstr("in [2, 50] points")))
+  for (const char* value : {"0", "-3", "1000000", "5.5", "nan", "five", "", "5 5"}) {
+    EXPECT_THAT(errorOf(std::string("[laser]\nbeams = ") + value + "\n"),
+                AllOf(HasSubstr(path_), HasSubstr("[laser] beams"), HasSubstr("in [1, 100000]")))
         << value;
   }
   EXPECT_THAT(errorOf("[laser]\nrange = inf\n"), HasSubstr("[laser] range"));
+  EXPECT_THAT(errorOf("[mapping]\nstraightness = 1\n"), HasSubstr("in [0, 0.5] m"));
   EXPECT_THAT(errorOf("[exploration]\nstrategy = fastest\n"), HasSubstr("one of"));
   EXPECT_THAT(errorOf("[exploration]\npath = straight\n"), HasSubstr("one of known_space paper"));
 }
 
 TEST_F(ParametersFile, RefusesUnknownKeysAndSections) {
-  EXPECT_THAT(errorOf("[mapping]\npoint_per_cluster = 7\n"), HasSubstr("unknown key"));
-  EXPECT_THAT(errorOf("[maping]\npoints_per_cluster = 7\n"), HasSubstr("unknown section"));
+  EXPECT_THAT(errorOf("[mapping]\nvertex_prize = 7\n"), HasSubstr("unknown key"));
+  EXPECT_THAT(errorOf("[maping]\nvertex_price = 7\n"), HasSubstr("unknown section"));
   EXPECT_THAT(errorOf("[maping]\n"), HasSubstr("unknown section"));
-  EXPECT_THAT(errorOf("points_per_cluster = 7\n"), HasSubstr("points_per_cluster"));
+  EXPECT_THAT(errorOf("vertex_price = 7\n"), HasSubstr("vertex_price"));
 }
 
 TEST_F(ParametersFile, NamesTheLineThatIsNoneOfAnIniFile) {
@@ -94,8 +94,8 @@ TEST_F(ParametersFile, PassesOverCommentsAndEmptyLines) {
 }
 
 TEST_F(ParametersFile, StaysUnchangedAfterAnError) {
-  EXPECT_NE(errorOf("[mapping]\npoints_per_cluster = 7\nsimilarity_cut = 2\n"), "");
-  EXPECT_EQ(parameters_.mapping.points_per_cluster, Parameters().mapping.points_per_cluster);
+  EXPECT_NE(errorOf("[mapping]\nvertex_price = 7\nsimilarity_cut = 2\n"), "");
+  EXPECT_EQ(parameters_.mapping.vertex_price, Parameters().mapping.vertex_price);
 }
 
 TEST_F(ParametersFile, NamesAFileThatDoesNotExistAndAFolder) {
@@ -131,7 +131,7 @@ TEST(Parameters, DefaultsLieWithinTheirOwnRangesAndKeysAreUnique) {
 
 TEST(Parameters, AnIniFileThatCannotBeReadIsNamedWithItsLine) {
   const std::string path = testing::TempDir() + "broken.ini";
-  std::ofstream(path) << "[mapping]\npoints_per_cluster = $env{HOME\n";
+  std::ofstream(path) << "[mapping]\nvertex_price = $env{HOME\n";
   Parameters p;
   try {
     loadParameters(path, p);

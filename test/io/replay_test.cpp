@@ -46,7 +46,6 @@ Replay drive(int moments) {
     if (k % 2 == 0) moment.frontier = {{1.0, 1.0}, {1.01, 1.01}};
     replay.add(moment, scan, map);
   }
-  map.finishBatch();
   replay.finish(map.lines());
   return replay;
 }
@@ -82,7 +81,6 @@ TEST(Replay, KeepsTheMomentsOfAShortRun) {
 TEST(Replay, EndsWithTheLinesAsTheyAre) {
   LineMap map;
   for (int k = 0; k < 20; ++k) map.insert(wallAhead({1e-3 * k, 0.0, 0.0}));
-  map.finishBatch();
   ASSERT_EQ(map.lines().size(), 1u);
   const auto lines = unpacked(drive(100).packed())["lines"];
   EXPECT_EQ(sum(lines["x1"]), std::llround(1e3 * map.lines()[0].segment.start.x()));

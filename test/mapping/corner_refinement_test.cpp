@@ -105,7 +105,7 @@ TEST(RefineCorners, WithMergingComesCloseToTheShortestTellingThereIs) {
     EXPECT_GE(price(runs), least - 1e-6);
     excess += price(runs) - least;
   }
-  EXPECT_LT(excess / 10.0, 0.1 * kLinePrice);
+  EXPECT_LT(excess / 10.0, 0.1 * linePrice(CcaParameters().vertex_price));
 }
 
 TEST(MeetAtCorners, MovesABoundaryBackToWhereTheLinesMeet) {

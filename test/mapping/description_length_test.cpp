@@ -48,10 +48,18 @@ TEST(RunFitter, TakesNoTwoPointsAndNoHeapForALine) {
 TEST(RunFitter, TellsThreePointsOfAWallByALineAndThreeScatteredOnesAlone) {
   const RunFitter wall({{1, 0}, {1, 1}, {1, 2}}, {0.01, 0.001, 0.0});
   EXPECT_TRUE(wall.fit(0, 3).is_line);
-  EXPECT_NEAR(wall.fit(0, 3).price, kLinePrice, 1e-9);
+  EXPECT_NEAR(wall.fit(0, 3).price, wall.linePrice(), 1e-9);
   const RunFitter clutter({{1, 0}, {1.5, 1}, {1, 2}}, {0.01, 0.001, 0.0});
   EXPECT_FALSE(clutter.fit(0, 3).is_line);
   EXPECT_NEAR(clutter.fit(0, 3).price, 3.0 * kPointPrice, 1e-9);
+}
+
+TEST(RunFitter, TellsAWallOfThreePointsAloneWhereAVertexIsDear) {
+  const std::vector<Eigen::Vector2d> points{{1, 0}, {1, 1}, {1, 2}};
+  const PointNoise noise{0.01, 0.001, 0.0};
+  EXPECT_TRUE(RunFitter(points, noise, 12.0).fit(0, 3).is_line);   // 16 nats, three points alone 27
+  EXPECT_FALSE(RunFitter(points, noise, 21.0).fit(0, 3).is_line);  // 28
+  EXPECT_EQ(RunFitter(points, noise, 21.0).price(0, 3), 3.0 * kPointPrice);
 }
 
 }  // namespace

@@ -269,6 +269,20 @@ TEST(ExtractLines, ManageTenThousandBeams) {
   EXPECT_EQ(lines.size(), 4u);
 }
 
+TEST(ExtractLines, LeaveOutOfAWallWhatIsWithinItsStraightness) {
+  // A cupboard a metre wide stands 3 cm out of a wall that is seen head on.
+  const PolygonRoom room{
+      {{-3, -3}, {-0.5, -3}, {-0.5, -2.97}, {0.5, -2.97}, {0.5, -3}, {3, -3}, {3, 3}, {-3, 3}}};
+  std::mt19937 random(14);
+  const Scan scan = scanOf(room, -2.2, 0.01, 126, 0.003, &random);
+  CcaParameters parameters;
+  EXPECT_EQ(extractLines(scan, parameters).size(), 1u);
+  parameters.straightness = 0.005;
+  EXPECT_EQ(extractLines(scan, parameters).size(), 3u);
+  parameters.vertex_price = 100.0;
+  EXPECT_LT(extractLines(scan, parameters).size(), 3u);
+}
+
 TEST(ExtractLines, SurviveAnyRangesAndStayFinite) {
   std::mt19937 random(12);
   std::uniform_real_distribution<double> uniform(0.0, 1.0);
@@ -285,8 +299,9 @@ TEST(ExtractLines, SurviveAnyRangesAndStayFinite) {
       scan.ranges.push_back(uniform(random) < 0.2 ? odd[random() % 9] : range);
     }
     CcaParameters parameters;
-    parameters.points_per_cluster = 2 + trial % 49;
     parameters.similarity_cut = 0.01 + 0.99 * uniform(random);
+    parameters.vertex_price = 1.0 + 50.0 * uniform(random);
+    parameters.straightness = 0.1 * uniform(random);
     for (const LineSegment& line : extractLines(scan, parameters)) {
       EXPECT_TRUE(line.start.allFinite() && line.end.allFinite() && line.covariance.allFinite());
       EXPECT_GT(line.length(), 0.0);

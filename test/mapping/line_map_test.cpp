@@ -160,16 +160,5 @@ TEST(LineMap, ARoundRoomHasNoLongChords) {
   EXPECT_GT(recall(world, map.lines(), 0.06), 0.97);
 }
 
-TEST(LineMap, ScansMayBeMergedInBatches) {
-  CcaParameters parameters;
-  parameters.scans_per_batch = 5;
-  LineMap map(parameters);
-  std::mt19937 random(15);
-  drive(map, room(), random, 0.01, 42);
-  EXPECT_GT(recall(room(), map.lines(), 0.02), 0.99);
-  EXPECT_GT(precision(room(), map.lines(), 0.02), 0.99);
-  EXPECT_EQ(map.lines().size(), 4u);
-}
-
 }  // namespace
 }  // namespace cca

@@ -56,7 +56,6 @@ inline void drive(LineMap& map, const SegmentWorld& world, std::mt19937& random,
     scan.T_map_sensor.y += jitter * noise(random);
     map.insert(scan);
   }
-  map.finishBatch();
 }
 
 inline SegmentWorld room() {

@@ -8,29 +8,27 @@
 namespace cca {
 namespace {
 
-std::vector<FittedRun> clustersOf(const ScanPoints& points, const PointNoise& noise, int size) {
-  return pointClusters(points, RunFitter(points.positions, noise), size);
+std::vector<FittedRun> clustersOf(const ScanPoints& points, const PointNoise& noise) {
+  return pointClusters(points, RunFitter(points.positions, noise));
 }
 
 TEST(PointClusters, CoverAllPointsOnceInOrder) {
   std::mt19937 random(4);
   const ScanPoints points = scanPoints(turnIn(rectangle(-2.0, -1.0, 3.0, 2.0), 0.1, &random), 0.1);
-  for (const int size : {2, 5, 20}) {
-    int next = 0;
-    for (const FittedRun& c : clustersOf(points, {0.1, 0.001, 0.0}, size)) {
-      EXPECT_EQ(c.first, next);
-      EXPECT_GT(c.size(), 0);
-      next = c.last;
-    }
-    EXPECT_EQ(next, 360);
+  int next = 0;
+  for (const FittedRun& c : clustersOf(points, {0.1, 0.001, 0.0})) {
+    EXPECT_EQ(c.first, next);
+    EXPECT_GT(c.size(), 0);
+    next = c.last;
   }
+  EXPECT_EQ(next, 360);
 }
 
 TEST(PointClusters, LieOnOneLineWithinTheNoise) {
   std::mt19937 random(4);
   const ScanPoints points = scanPoints(turnIn(rectangle(-2.0, -1.0, 3.0, 2.0), 0.02, &random));
   const PrefixMoments prefix(points.positions);
-  const auto clusters = clustersOf(points, {0.02, 0.0, 0.0}, 20);
+  const auto clusters = clustersOf(points, {0.02, 0.0, 0.0});
   ASSERT_GE(clusters.size(), 4U);  // the room has so many walls
   for (const FittedRun& c : clusters) {
     const FittedLine line = fitLine(prefix.run(c.first, c.last));
@@ -50,7 +48,7 @@ TEST(PointClusters, FallApartAtStepsAndMissingReturns) {
   scan.ranges[10] = std::numeric_limits<double>::infinity();
   const ScanPoints points = scanPoints(scan);
   bool at_silence = false, at_step = false;
-  for (const FittedRun& c : clustersOf(points, {0.035, 0.001, 0.0}, 20)) {
+  for (const FittedRun& c : clustersOf(points, {0.035, 0.001, 0.0})) {
     at_silence = at_silence || c.first == 10;
     at_step = at_step || c.first == 19;
   }
@@ -60,10 +58,10 @@ TEST(PointClusters, FallApartAtStepsAndMissingReturns) {
 
 TEST(PointClusters, OfNothingAndOfOnePointAreNothingAndOne) {
   Scan scan;
-  EXPECT_TRUE(clustersOf(scanPoints(scan), {0.01, 0.001, 0.0}, 5).empty());
+  EXPECT_TRUE(clustersOf(scanPoints(scan), {0.01, 0.001, 0.0}).empty());
   scan.angle_increment = 0.01;
   scan.ranges = {1.0};
-  EXPECT_EQ(clustersOf(scanPoints(scan), {0.01, 0.001, 0.0}, 5).size(), 1u);
+  EXPECT_EQ(clustersOf(scanPoints(scan), {0.01, 0.001, 0.0}).size(), 1u);
 }
 
 }  // namespace

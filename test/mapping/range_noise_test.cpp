@@ -69,9 +69,10 @@ TEST(PointNoise, IsTheSameForADirectionAndItsDoubleAngle) {
 
 TEST(PointNoise, IsNotFinerAcrossThanAWallIsStraight) {
   const Eigen::Vector2d p(4.0, 0.0), head_on(0.0, 1.0), grazing(1.0, 0.0);
-  EXPECT_NEAR(std::sqrt((PointNoise{0.005, 0.0}).onLine(p, head_on).across), kStraightness, 1e-4);
-  EXPECT_NEAR(std::sqrt((PointNoise{0.2, 0.0}).onLine(p, head_on).across), 0.2, 1e-4);
-  EXPECT_NEAR(std::sqrt((PointNoise{0.005, 0.0}).onLine(p, grazing).along), 0.005, 1e-12);
+  const PointNoise fine{0.005, 0.0, 0.035}, coarse{0.2, 0.0, 0.035};
+  EXPECT_NEAR(std::sqrt(fine.onLine(p, head_on).across), 0.035, 1e-4);
+  EXPECT_NEAR(std::sqrt(coarse.onLine(p, head_on).across), 0.2, 1e-4);
+  EXPECT_NEAR(std::sqrt(fine.onLine(p, grazing).along), 0.005, 1e-12);
 }
 
 }  // namespace

@@ -11,6 +11,7 @@ namespace cca {
 namespace {
 
 constexpr double kSigma = 0.03;
+const double kLinePrice = linePrice(CcaParameters().vertex_price);
 
 /// n points from `from` to `to`, with residuals of alternating sign.
 PointMoments wall(const Eigen::Vector2d& from, const Eigen::Vector2d& to, int n) {
@@ -24,13 +25,13 @@ PointMoments wall(const Eigen::Vector2d& from, const Eigen::Vector2d& to, int n)
 }
 
 FittedSegment fitted(const PointMoments& moments) {
-  return {moments, fitLine(moments), {kSigma * kSigma, 0.0}};
+  return {moments, fitLine(moments), {kSigma * kSigma, 0.0}, kLinePrice};
 }
 
 Memberships between(const PointMoments& a, const PointMoments& b, double gap = 0.0) {
   PointMoments joint = a;
   joint.add(b);
-  return memberships(fitted(a), fitted(b), fitted(joint), gap);
+  return memberships(fitted(a), fitted(b), fitted(joint), gap, kLinePrice);
 }
 
 TEST(Memberships, OfTwoPiecesOfOneWallAreAllNearOne) {
@@ -137,7 +138,7 @@ TEST(FitMembership, TakesNoWallForBentBecauseItIsMetAtManyAngles) {
     }
     const RunFitter fitter(points, noise);
     const FittedRun a = fitter.fit(0, n / 2), b = fitter.fit(n / 2, n), joint = fitter.fit(0, n);
-    parted += fitMembership(a, b, joint) < 0.5 ? 1 : 0;
+    parted += fitMembership(a, b, joint, kLinePrice) < 0.5 ? 1 : 0;
   }
   EXPECT_LE(parted, 2);
 }
@@ -154,9 +155,9 @@ TEST(FitMembership, IsNeverAboveItsBound) {
     }
     const RunFitter fitter(points, {kSigma, 0.001});
     const FittedRun a = fitter.fit(0, 20), b = fitter.fit(20, 40), joint = fitter.fit(0, 40);
-    const double bound =
-        mostFitMembership(a, b, fitter.prefix().leastResidual(0, 40), fitter.mostVariance());
-    EXPECT_LE(fitMembership(a, b, joint), bound * (1.0 + 1e-9));
+    const double bound = mostFitMembership(a, b, fitter.prefix().leastResidual(0, 40),
+                                           fitter.mostVariance(), kLinePrice);
+    EXPECT_LE(fitMembership(a, b, joint, kLinePrice), bound * (1.0 + 1e-9));
     rejected += bound < 0.5 ? 1 : 0;
   }
   EXPECT_GT(rejected, 50);
@@ -168,7 +169,7 @@ TEST(FitMembership, OfTwoStrayPointsIsZero) {
   b.add(Eigen::Vector2d(1.0, 0.1));
   PointMoments joint = a;
   joint.add(b);
-  EXPECT_EQ(fitMembership(fitted(a), fitted(b), fitted(joint)), 0.0);
+  EXPECT_EQ(fitMembership(fitted(a), fitted(b), fitted(joint), kLinePrice), 0.0);
 }
 
 }  // namespace

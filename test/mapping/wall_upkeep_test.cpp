@@ -32,7 +32,7 @@ class WallOfTwoMetres : public testing::Test {
     slot_ = walls_.create();
     hit(walls_, slot_, 0, kBins / 2, 50, 0.0);
     hit(walls_, slot_, kBins / 2, kBins, 2, 0.0);
-    seeToTouched(walls_, noise_, 0.5, next_id_);
+    seeToTouched(walls_, noise_, parameters_, next_id_);
     ASSERT_EQ(wallCount(), 1);
   }
   long wallCount() const {
@@ -43,32 +43,40 @@ class WallOfTwoMetres : public testing::Test {
   Walls walls_;
   Walls::Slot slot_ = -1;
   MapNoise noise_;
+  CcaParameters parameters_;
   std::uint64_t next_id_ = 1;
 };
 
 TEST_F(WallOfTwoMetres, IsCutWhenABendPaysHoweverFewHitsShowIt) {
   hit(walls_, slot_, kBins / 2, kBins, 4, 0.4);  // 80 of now 1120 hits
-  seeToTouched(walls_, noise_, 0.5, next_id_);
+  seeToTouched(walls_, noise_, parameters_, next_id_);
   EXPECT_EQ(wallCount(), 2);
+}
+
+TEST_F(WallOfTwoMetres, StaysWholeWhereAVertexIsDearerThanTheBend) {
+  parameters_.vertex_price = 100.0;
+  hit(walls_, slot_, kBins / 2, kBins, 4, 0.4);
+  seeToTouched(walls_, noise_, parameters_, next_id_);
+  EXPECT_EQ(wallCount(), 1);
 }
 
 TEST_F(WallOfTwoMetres, StaysWholeWhereTheBendIsWithinTheNoise) {
   for (int i = 0; i < 10; ++i) {
     hit(walls_, slot_, kBins / 2, kBins, 4, 0.1);
-    seeToTouched(walls_, noise_, 0.5, next_id_);
+    seeToTouched(walls_, noise_, parameters_, next_id_);
   }
   EXPECT_EQ(wallCount(), 1);
 }
 
 TEST_F(WallOfTwoMetres, IsCutAtABendThatGrowsAfterASearchInVain) {
   hit(walls_, slot_, 0, kBins, 50, 0.0, 0.04);  // a residual that no cut takes away
-  seeToTouched(walls_, noise_, 0.5, next_id_);
+  seeToTouched(walls_, noise_, parameters_, next_id_);
   ASSERT_EQ(wallCount(), 1);
   ASSERT_GT(walls_[slot_].uncut_residual, walls_[slot_].profile.sums().residual());
   int scans = 0;
   while (wallCount() == 1 && ++scans < 200) {
     hit(walls_, slot_, kBins / 2, kBins, 1, 0.3);
-    seeToTouched(walls_, noise_, 0.5, next_id_);
+    seeToTouched(walls_, noise_, parameters_, next_id_);
   }
   EXPECT_EQ(wallCount(), 2) << scans;
 }

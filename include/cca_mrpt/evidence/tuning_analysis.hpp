@@ -12,7 +12,7 @@ namespace cca::evidence {
 
 /// What is to be made large.
 enum class Objective {
-  kScan,  ///< F1 of single scans; scans_per_batch plays no part
+  kScan,  ///< F1 of single scans
   kMap,   ///< F1 of the map's length
   kBoth,  ///< the mean of the two
 };
@@ -38,7 +38,7 @@ struct Recommendation {
   struct Interval {
     double low = 0.0, high = 0.0;
   };
-  Interval points_per_cluster, similarity_cut, scans_per_batch;  ///< 95 %, bootstrap over scenes
+  Interval similarity_cut, vertex_price, straightness;  ///< 95 %, bootstrap over scenes
   double shipped_value = 0.0;  ///< 0 where the design does not hold the shipped combination
   Estimate shortfall;          ///< best minus shipped, scene by scene
   bool shipped_in_design = false;

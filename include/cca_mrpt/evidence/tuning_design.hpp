@@ -15,9 +15,9 @@ namespace cca::evidence {
 /// The factorial experiment on the three input parameters: every combination of their levels, in
 /// every scene (world x range noise x seed).
 struct TuningDesign {
-  std::vector<int> points_per_cluster{3, 5, 8, 12, 18};
   std::vector<double> similarity_cut{0.2, 0.35, 0.5, 0.65, 0.8};
-  std::vector<int> scans_per_batch{1, 2, 4, 8};
+  std::vector<double> vertex_price{4.0, 8.0, 12.0, 20.0, 32.0};
+  std::vector<double> straightness{0.01, 0.02, 0.035, 0.05, 0.08};
   std::vector<std::string> worlds;  ///< .yaml
   std::vector<double> noises{0.01, 0.03};
   int seeds = 2;
@@ -28,7 +28,7 @@ struct TuningDesign {
 
   std::size_t scenes() const { return worlds.size() * noises.size() * seeds; }
   std::size_t combinations() const {
-    return points_per_cluster.size() * similarity_cut.size() * scans_per_batch.size();
+    return similarity_cut.size() * vertex_price.size() * straightness.size();
   }
   std::size_t jobs() const { return scenes() * combinations(); }
   /// One line that tells a design from another.

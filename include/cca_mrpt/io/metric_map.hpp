@@ -37,7 +37,7 @@ void describe(LineLikelihoodParameters& p, Field&& field) {
 /// [map]
 /// lineMap_count = 1
 /// [map_lineMap_00_creationOpts]      ; file: begins with the lines of a map.linemap.gz
-/// [map_lineMap_00_insertOpts]        ; points_per_cluster, similarity_cut, scans_per_batch
+/// [map_lineMap_00_insertOpts]        ; similarity_cut, vertex_price, straightness
 /// [map_lineMap_00_likelihoodOpts]    ; sigma, max_distance, decimation
 /// ```
 /// It takes CObservation2DRangeScan. Stored are the lines, not the evidence behind them: what is
@@ -55,8 +55,6 @@ class CLineMap2D : public mrpt::maps::CMetricMap {
   /// The lines as they stand, those that were read from a file first.
   std::vector<MapLine> lines() const;
   const CcaParameters& insertionOptions() const { return insertion_; }
-  /// Merges scans that still wait for their batch to fill.
-  void finishBatch();
 
   bool isEmpty() const override;
   std::string asString() const override;

@@ -68,6 +68,7 @@ struct ChainLink {
 ///
 /// @param links  in order, without gaps between their points.
 /// @param least_bulge  m; what stands off its chord by less is no arc.
+/// @param vertex_price  nats, > 0; what an arc costs is in proportion to it.
 /// @param view   none where the chain was seen from many places. A pillar that stands free needs no
 ///               price for its ends.
 /// @return  arcs in the order of the links, each with the links first <= k < last that it is taken
@@ -79,6 +80,6 @@ struct ArcOfLinks {
 };
 std::vector<ArcOfLinks> arcsOfChain(const std::vector<CurvePoint>& points,
                                     const std::vector<ChainLink>& links, double least_bulge,
-                                    const OneView* view = nullptr);
+                                    double vertex_price, const OneView* view = nullptr);
 
 }  // namespace cca

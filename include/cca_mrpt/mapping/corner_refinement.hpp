@@ -27,10 +27,11 @@ void meetAtCorners(const ScanPoints& points, const RunFitter& fitter, Runs* runs
 /// Finds the short edges between two lines that both have taken over, or that hide among the loose
 /// points between them.
 ///
-/// An edge that meets its neighbours in the gaps beside it is no free line: it takes the price of
-/// one vertex. Two points will do, for the neighbours are the third that could have spoken against
-/// it. So the steep edges are found that few beams enter, as any closed outline of many corners
-/// has. Cost: O(1) for each two neighbours, most of which are dismissed by a bound.
+/// An edge that meets its neighbours in the gaps beside it is no free line: they fix where it
+/// begins and ends, and it takes the price of one vertex. Two points will do, for the neighbours
+/// are the third that could have spoken against it. So the steep edges are found that few beams
+/// enter, as any closed outline of many corners has. Cost: O(1) for each two neighbours, most of
+/// which are dismissed by a bound.
 void tellEdgesBetween(const ScanPoints& points, const RunFitter& fitter, Runs* runs);
 
 }  // namespace cca

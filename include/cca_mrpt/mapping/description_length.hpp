@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "cca_mrpt/mapping/line_segment.hpp"
+#include "cca_mrpt/mapping/parameters.hpp"
 #include "cca_mrpt/mapping/range_noise.hpp"
 
 namespace cca {
@@ -13,11 +14,12 @@ namespace cca {
 // no line has a price of its own. Two pieces of wall are one where one line tells their points in
 // fewer nats than two lines do, a corner is where two do.
 
-/// Price of a line: noise alone lets its four parameters raise the likelihood by more than e^16 in
-/// one of 500 000 trials (chi-square 32, four degrees of freedom). A scan offers some 10^5 ways to
-/// part it: about one false line in five scans at the very most, for the ways are far from
-/// independent.
-inline constexpr double kLinePrice = 16.0;
+/// Price of a line, nats. Its four parameters are twice those of a vertex, but where it ends its
+/// points tell in part: a third more than a vertex, 16 nats where that is 12. Noise alone lets them
+/// raise the likelihood by more than e^16 in one of 500 000 trials (chi-square 32, four degrees of
+/// freedom). A scan offers some 10^5 ways to part it: about one false line in five scans at the
+/// very most, for the ways are far from independent.
+inline double linePrice(double vertex_price) { return 4.0 * vertex_price / 3.0; }
 /// Price of a point on no line: a residual of sqrt(2 * 9) = 4.2 deviations, one in 45 000 points.
 inline constexpr double kPointPrice = 9.0;
 /// Two points always fit a line: three are the fewest that can speak against it.
@@ -41,12 +43,13 @@ struct FittedSegment {
   bool is_line = false;     ///< the line is the briefer
 
   FittedSegment() = default;
-  FittedSegment(const PointMoments& points, const FittedLine& fitted, const LineNoise& noise)
+  FittedSegment(const PointMoments& points, const FittedLine& fitted, const LineNoise& noise,
+                double line_price)
       : moments(points),
         line(fitted),
         variance(noise.across),
         chi_square(fitted.residual_sum_sq / noise.across) {
-    const double told = kLinePrice + 0.5 * chi_square, alone = kPointPrice * points.weight;
+    const double told = line_price + 0.5 * chi_square, alone = kPointPrice * points.weight;
     is_line = points.weight >= kFewestPoints && told < alone &&
               isDrawnOut(points.weight, fitted.spread_sum_sq, noise);
     price = is_line ? told : alone;
@@ -82,33 +85,29 @@ struct FittedRun : FittedSegment {
   bool similarity_is_bound = false;  ///< it is not known, but not above that
 
   FittedRun() = default;
-  FittedRun(const PointMoments& points, const FittedLine& fitted, const LineNoise& noise, int from,
-            int to)
-      : FittedSegment(points, fitted, noise), first(from), last(to) {}
+  FittedRun(const FittedSegment& segment, int from, int to)
+      : FittedSegment(segment), first(from), last(to) {}
   int size() const { return last - first; }
 };
 
 /// Fits any run of a scan in O(1).
 class RunFitter {
  public:
-  RunFitter(const std::vector<Eigen::Vector2d>& points, const PointNoise& noise);
+  RunFitter(const std::vector<Eigen::Vector2d>& points, const PointNoise& noise,
+            double vertex_price = CcaParameters().vertex_price);
 
-  FittedRun fit(int first, int last) const {
-    const PointMoments moments = prefix_.run(first, last);
-    const FittedLine line = fitLine(moments);
-    return {moments, line, noise_.onLine(line.centroid, line.direction), first, last};
-  }
+  FittedRun fit(int first, int last) const { return {fit(prefix_.run(first, last)), first, last}; }
   /// The price of a run alone: the same as fit(first, last).price, cheaper; 0 of an empty run.
   double price(int first, int last) const;
   /// A lower bound of price(), without roots: most partings are not worth more.
   double leastPrice(int first, int last) const {
     const double points = last - first, alone = kPointPrice * points;
     if (points < kFewestPoints) return alone;
-    return std::min(alone, kLinePrice + leastHalfChiSquare(first, last));
+    return std::min(alone, linePrice() + leastHalfChiSquare(first, last));
   }
   FittedSegment fit(const PointMoments& moments) const {
     const FittedLine line = fitLine(moments);
-    return {moments, line, noise_.onLine(line.centroid, line.direction)};
+    return {moments, line, noise_.onLine(line.centroid, line.direction), line_price_};
   }
   /// The same without the line's direction, cheaper.
   JointFit fitJointly(const PointMoments& moments) const {
@@ -126,10 +125,13 @@ class RunFitter {
   /// m^2, > 0, the largest of any line through these points.
   double mostVariance() const { return most_variance_; }
   const PrefixMoments& prefix() const { return prefix_; }
+  double vertexPrice() const { return vertex_price_; }  ///< nats
+  double linePrice() const { return line_price_; }      ///< nats
 
  private:
   PrefixMoments prefix_;
   PointNoise noise_;
+  double vertex_price_, line_price_;
   double most_variance_;
 };
 

@@ -28,11 +28,10 @@ std::array<BeamRange, 2> beamsTowards(const Scan& scan, const Eigen::Vector2d& s
 /// that it lies on, else the nearest wall that was hit there before, else none.
 ///
 /// @param beams  as beamDirections() gives them.
-/// @param lines  of the batch, in any order.
+/// @param lines  of the scan, in any order.
 /// Cost: O(beams).
 void depositReturns(const Scan& scan, const std::vector<Eigen::Vector2d>& beams,
-                    const std::vector<NewLine>& lines, std::size_t scan_in_batch,
-                    const MapNoise& noise, Walls& walls);
+                    const std::vector<NewLine>& lines, const MapNoise& noise, Walls& walls);
 
 /// Counts each ray against the bins of the walls that it went clearly through: further behind them
 /// than noise and pose error could feign. A ray without return counts up to

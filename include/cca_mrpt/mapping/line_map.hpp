@@ -26,9 +26,7 @@ class LineMap {
   ///          scan is then left out.
   bool insert(const Scan& scan);
   /// The same with lines (sensor frame, in any order) that were extracted elsewhere.
-  bool insert(const Scan& scan, std::vector<LineSegment> lines);
-  /// Merges scans that still wait for their batch to fill.
-  void finishBatch();
+  bool insert(const Scan& scan, const std::vector<LineSegment>& lines);
 
   /// The lines as they stand, by rising id; ends that meet share their corner.
   /// Cost: O(n log n) for n lines, of which none is fitted anew.
@@ -36,23 +34,18 @@ class LineMap {
   /// The same lines, chained along their corners.
   std::vector<PolyLine> polyLines() const;
   /// Round pillars and curved walls among the same lines; see arcsOfWalls().
-  std::vector<MapArc> arcs() const { return arcsOfWalls(walls_.all(), noise_); }
+  std::vector<MapArc> arcs() const { return arcsOfWalls(walls_.all(), noise_, parameters_); }
 
   /// What the map has learned about the noise and the pose error of its scans.
   const MapNoise& noise() const { return noise_; }
   const Walls& walls() const { return walls_; }
 
  private:
-  struct Waiting {
-    Scan scan;
-    std::vector<LineSegment> lines;
-  };
   std::vector<MapLine> pieces() const;
-  std::vector<NewLine> newLines();
+  std::vector<NewLine> newLines(const std::vector<LineSegment>& lines, const Pose2& T_map_sensor);
   void learn(const std::vector<NewLine>& lines);
 
   CcaParameters parameters_;
-  std::vector<Waiting> batch_;
   Walls walls_;
   MapNoise noise_;
   std::uint64_t next_id_ = 1;

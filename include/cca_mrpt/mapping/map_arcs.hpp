@@ -6,6 +6,7 @@
 
 #include "cca_mrpt/mapping/arc.hpp"
 #include "cca_mrpt/mapping/map_noise.hpp"
+#include "cca_mrpt/mapping/parameters.hpp"
 #include "cca_mrpt/mapping/wall.hpp"
 
 namespace cca {
@@ -20,6 +21,7 @@ struct MapArc {
 /// arcsOfChain() tells by the mean points of their bins which are chords of one circle.
 /// @return  in the order of the smallest id of each chain's beginning.
 /// Cost: O(n log n) for n pieces, and O(length) fits for each chain.
-std::vector<MapArc> arcsOfWalls(const std::vector<Wall>& walls, const MapNoise& noise);
+std::vector<MapArc> arcsOfWalls(const std::vector<Wall>& walls, const MapNoise& noise,
+                                const CcaParameters& parameters);
 
 }  // namespace cca

@@ -11,10 +11,10 @@
 namespace cca {
 
 /// The paper's last step: the new lines are clustered against the map's lines. Each line meets only
-/// the walls near it; what is alike, directly or through others, makes one neighbourhood; the
-/// Similarity Index Matrix and Rank Order Clustering run on that. The lines of a group go to the
-/// wall of the group that they are most alike; a group without a wall founds one, unless the map
-/// explains its lines already.
+/// the walls near it; lines that are alike one wall, directly or through others, make one
+/// neighbourhood with their walls; the Similarity Index Matrix and Rank Order Clustering run on
+/// that. The lines of a group go to the wall of the group that they are most alike; a group without
+/// a wall founds one, unless the map explains its lines already. The lines are those of one scan.
 ///
 /// Several walls in one group are told to compare themselves with each other (see wall_upkeep.hpp).
 ///

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <cstddef>
 
 #include "cca_mrpt/mapping/map_noise.hpp"
 #include "cca_mrpt/mapping/similarity.hpp"
@@ -15,7 +14,6 @@ namespace cca {
 struct NewLine {
   LineSegment segment;                                  ///< the covariance holds the pose error too
   Eigen::Vector2d viewpoint = Eigen::Vector2d::Zero();  ///< m, map frame
-  std::size_t scan = 0;                                 ///< in its batch
   double own_offset_variance = 0.0;                     ///< m^2, range noise alone
   double own_angle_variance = 0.0;                      ///< rad^2
   WallIndex::Slot wall = -1;                            ///< where it belongs; -1 nowhere
@@ -38,9 +36,6 @@ struct NewLine {
 /// that of a thin wall: overlap is 0 there, unless the wall is known to be two-sided.
 /// @return  all 0 where the wall would outgrow kLongestWall.
 Memberships mapMemberships(const NewLine& line, const Wall& wall, const MapNoise& noise);
-
-/// Two new lines, of different scans.
-Memberships mapMemberships(const NewLine& a, const NewLine& b, const MapNoise& noise);
 
 /// Two walls. What they hold has been seen often, each time at its own pose error: bins are
 /// independent, but of two fronts side by side only one can be seen, whatever part them.

@@ -12,10 +12,6 @@ namespace cca {
 /// No 2-D laser measures finer than this [m]; keeps noise-free simulations well posed.
 inline constexpr double kFinestSigma = 1e-3;
 
-/// A wall, plastered and furnished, is straight to about this [m]: finer detail is no line's
-/// concern.
-inline constexpr double kStraightness = 0.035;
-
 /// Variances [m^2] of a point that stands for a place on a line.
 struct LineNoise {
   double across = 0.0;  ///< > 0, of its distance from the line
@@ -26,8 +22,7 @@ struct LineNoise {
 struct PointNoise {
   double range_sigma = 0.0;    ///< m, along the beam
   double bearing_sigma = 0.0;  ///< rad, of the beam's direction
-  double straightness =
-      kStraightness;  ///< m, of what the beam meets; counts where it is the larger
+  double straightness = 0.0;   ///< m, of what the beam meets; counts where it is the larger
 
   /// Noise of `point` (sensor frame) as seen from a line of unit `direction`.
   ///
@@ -61,7 +56,7 @@ struct PointNoise {
   }
 };
 
-/// The noise of a scan, estimated from this scan alone: the program has no noise parameter.
+/// The noise of a laser, estimated from one scan alone: the program has no noise parameter.
 ///
 /// Along a straight wall the inverse range q is harmonic in the bearing,
 /// q(i-1) + q(i+1) = 2 cos(dphi) q(i), whatever the distance and the incidence. Hence

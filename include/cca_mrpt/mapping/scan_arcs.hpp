@@ -13,6 +13,8 @@ namespace cca {
 ///
 /// @param runs   as they stand when the scan's lines are told from them.
 /// @param noise  of the scan.
-std::vector<Arc> arcsOfScan(const ScanPoints& points, const Runs& runs, PointNoise noise);
+/// @param vertex_price  nats, > 0.
+std::vector<Arc> arcsOfScan(const ScanPoints& points, const Runs& runs, PointNoise noise,
+                            double vertex_price);
 
 }  // namespace cca

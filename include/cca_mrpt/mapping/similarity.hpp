@@ -41,23 +41,26 @@ struct AlphaCut {
   Ablation without;  ///< memberships left out count as 1
 
   AlphaCut(double cut, Ablation left_out = {}) : value(cut), without(left_out) {}
+  explicit AlphaCut(const CcaParameters& p) : AlphaCut(p.similarity_cut, p.without) {}
   double similarity(const Memberships& mu) const;
 };
 
 /// mu_4 alone: the cheapest, and the first to fail.
 /// @param joint  fit of the points of both.
-double fitMembership(const FittedSegment& a, const FittedSegment& b, const JointFit& joint);
+/// @param line_price  nats, > 0: see linePrice().
+double fitMembership(const FittedSegment& a, const FittedSegment& b, const JointFit& joint,
+                     double line_price);
 /// What mu_4 cannot exceed, before the points of both are fitted.
 /// @param least_residual  m^2, residual_sum_sq of the joint fit is not less.
 /// @param most_variance   m^2, > 0, that of a point's distance from any line is not more.
 double mostFitMembership(const FittedSegment& a, const FittedSegment& b, double least_residual,
-                         double most_variance);
+                         double most_variance, double line_price);
 
 /// All five; mu_5 is 1, for from one place no two runs are seen side by side.
 /// @param joint        fit of the points of both.
 /// @param gap_evidence rays, >= 0: that pass where the joint line is, or end before it unexplained.
 Memberships memberships(const FittedSegment& a, const FittedSegment& b, const JointFit& joint,
-                        double gap_evidence);
+                        double gap_evidence, double line_price);
 
 /// The Similarity Index Matrix: symmetric, in [0, 1], unit diagonal, 0 where nothing is set.
 class SimilarityMatrix {
