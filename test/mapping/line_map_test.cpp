@@ -160,5 +160,40 @@ TEST(LineMap, ARoundRoomHasNoLongChords) {
   EXPECT_GT(recall(world, map.lines(), 0.06), 0.97);
 }
 
+/// Share of the two faces of a wall, `thickness` [m], that a map shows within 2 cm: two rooms that
+/// it parts, 40 scans of each in turn, poses off by 1 cm and 0.002 rad. Mean of ten runs.
+double facesShown(double thickness, const Ablation& without) {
+  SegmentWorld world;
+  const double half = 0.5 * thickness;
+  world.box(-4.0, half, 4.0, 4.0);
+  world.box(-4.0, -4.0, 4.0, -half);
+  SegmentWorld faces;
+  faces.walls = {{{-4.0, half}, {4.0, half}}, {{-4.0, -half}, {4.0, -half}}};
+  CcaParameters parameters;
+  parameters.without = without;
+  constexpr int kRuns = 10;
+  double shown = 0.0;
+  for (unsigned seed = 0; seed < kRuns; ++seed) {
+    LineMap map(parameters);
+    std::mt19937 random(seed);
+    std::normal_distribution<double> noise(0.0, 1.0);
+    for (int i = 0; i < 80; ++i) {
+      Scan scan = world.scan({-2.0 + 0.05 * i, i % 2 == 0 ? 1.5 : -1.5, 0.3 * i}, 0.01, random);
+      scan.T_map_sensor.x += 0.01 * noise(random);
+      scan.T_map_sensor.y += 0.01 * noise(random);
+      scan.T_map_sensor.theta += 0.002 * noise(random);
+      map.insert(scan);
+    }
+    shown += recall(faces, map.lines(), 0.02) / kRuns;
+  }
+  return shown;
+}
+
+TEST(LineMap, TheOverlapAloneKeepsBothFacesOfAThinWall) {
+  EXPECT_GT(facesShown(0.135, {}), 0.95);
+  EXPECT_GT(facesShown(0.135, Ablation(Part::kOffset)), 0.95);
+  EXPECT_LT(facesShown(0.135, Ablation(Part::kOverlap)), 0.7);
+}
+
 }  // namespace
 }  // namespace cca
