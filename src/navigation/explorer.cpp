@@ -9,14 +9,13 @@
 namespace cca {
 namespace {
 
-constexpr double kSameWayPoint = 0.1;      // m
-constexpr double kHome = 0.3;              // m
-constexpr double kReachedWayPoint = 0.15;  // m, a little more than Tangent Bug stops at
-constexpr int kHomeNumber = -2;            // among the numbers of goals
+constexpr double kSameWayPoint = 0.1;              // m
+constexpr double kHome = 0.3;                      // m
+constexpr double kReachedWayPoint = 0.15;          // m, a little more than Tangent Bug stops at
+constexpr int kHomeNumber = -2, kTurnNumber = -3;  // among the numbers of goals
 
 constexpr double kAround = 0.8;             // m, of the robot: what may stand beside it
 constexpr double kLookAround = 0.5;         // of the full turning rate
-constexpr double kLookingTime = 30.0;       // s
 constexpr double kTurn = 2.0 / 3.0 * M_PI;  // rad: three make one round, and none is ambiguous
 
 constexpr double kMuchUnreached = 1.0;  // m^2
@@ -177,7 +176,6 @@ Action Explorer::explore(const Observation& observation) {
     return {{}, {}, ExplorationStatus::kFinished, plan.reason};
   }
   if (plan.look_around) return lookAround(observation);
-  looks_around_since_.reset();
   T_map_turned_.reset();
   if (plan.path.empty()) {
     const std::string why = plan.reason.empty() ? "waiting for a scan" : plan.reason;
@@ -241,8 +239,8 @@ void Explorer::turnOnTheSpot(double rate, Action& action) const {
 // A disc may always turn. Should something hold it nevertheless, then not for ever.
 Action Explorer::lookAround(const Observation& observation) {
   const Eigen::Vector2d robot = observation.T_map_robot.position();
-  if (!looks_around_since_) looks_around_since_ = observation.time;
-  if (observation.time - *looks_around_since_ > kLookingTime) planner_.noteLookAround(robot);
+  progress_.note(kTurnNumber, {robot}, observation.time);
+  if (progress_.isOverdue(observation.time)) planner_.noteLookAround(robot);
   if (leaves_driving_) return leaveTurning(observation.T_map_robot);
   Action action{{}, robot, ExplorationStatus::kExploring, planner_.plan().reason};
   action.velocity = driveTo(robot, observation);

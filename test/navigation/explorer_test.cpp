@@ -291,6 +291,20 @@ TEST(Explorer, BelievesInAnotherLatencyWhereItIsTold) {
   EXPECT_NEAR(driver.explorer.shownMotion().latency(), 0.3, 1e-9);
 }
 
+// Something holds a robot with a narrow laser: half a minute, and it goes on without.
+TEST(Explorer, APauseIsNoTimeForLookingAround) {
+  Explorer explorer({}, {}, {});
+  const Scan scan = ahead(kRooms.scanFrom(kStart, 4.0), 0.8);
+  const auto reasonAt = [&](double time) { return explorer.step({scan, kStart, {}, time}).reason; };
+  EXPECT_EQ(reasonAt(0.0), "to look around");
+  explorer.pause(true);
+  EXPECT_EQ(reasonAt(100.0), "paused");
+  explorer.pause(false);
+  for (const double time : {110.0, 129.9}) EXPECT_EQ(reasonAt(time), "to look around") << time;
+  reasonAt(130.1);
+  EXPECT_NE(reasonAt(130.2), "to look around");
+}
+
 TEST(Explorer, StandsStillWhilePausedAndGoesOnAfterwards) {
   Driver driver;
   for (int i = 0; i < 20; ++i) driver.step();

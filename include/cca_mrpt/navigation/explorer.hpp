@@ -170,7 +170,6 @@ class Explorer {
   WayProgress progress_;
   std::optional<Pose2> T_map_start_;
   std::optional<Eigen::Vector2d> way_point_;  ///< drive frame
-  std::optional<double> looks_around_since_;  ///< s
   std::optional<Pose2> T_map_turned_;  ///< where somebody else is to turn it to, looking around
   std::optional<DriveOutcome> outcome_;
   bool leaves_driving_ = false;
