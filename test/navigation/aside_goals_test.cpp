@@ -21,17 +21,6 @@ TEST(AsideGoals, NeighboursAreTheSameGoal) {
   EXPECT_FALSE(goals.contains({14, 10}, 0));
 }
 
-TEST(AsideGoals, AreRecalledOnlyAfterSomethingNewWasSeen) {
-  AsideGoals goals;
-  goals.add({10, 10}, 0);
-  goals.add({50, 50}, 150);
-  EXPECT_FALSE(goals.recall(200));
-  EXPECT_TRUE(goals.recall(201));
-  EXPECT_FALSE(goals.contains({10, 10}, 201));
-  EXPECT_TRUE(goals.contains({50, 50}, 201)) << "too little has been seen since then";
-  EXPECT_FALSE(goals.recall(201));
-}
-
 TEST(AsideGoals, AWayIsLostAgainTheSecondTime) {
   AsideGoals goals;
   EXPECT_FALSE(goals.noteLostWay({10, 10}));

@@ -147,16 +147,6 @@ TEST(LastLook, LeavesWhatIsNotWorthItsWay) {
   EXPECT_GT(look.last_look.left().front().expected, 0.0);
 }
 
-TEST(LastLook, DropsWhatIsAroundAPlaceThatCannotBeReached) {
-  Look look;
-  for (int k = 0; k < 40; ++k) {
-    const auto view = look.next(Strategy::kGreedy);
-    if (!view) return;
-    look.last_look.drop(view->cell);
-  }
-  ADD_FAILURE() << "the places do not run out";
-}
-
 TEST(LastLook, FindsNothingBeforeItBeginsOrWhereAllIsKnown) {
   LastLook last_look(0.1, 5, kPriceless);
   KnownPlace nowhere(0.27);

@@ -36,13 +36,4 @@ void AsideGoals::move(const CellMove& moved, std::size_t revealed) {
   for (Cell& lost : lost_ways_) lost = moved(lost);
 }
 
-bool AsideGoals::recall(std::size_t revealed) {
-  const auto kept = std::remove_if(aside_.begin(), aside_.end(), [&](const Aside& a) {
-    return revealed > a.revealed_then + kWorthAnotherTry;
-  });
-  const bool any = kept != aside_.end();
-  aside_.erase(kept, aside_.end());
-  return any;
-}
-
 }  // namespace cca

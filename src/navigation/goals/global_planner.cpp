@@ -16,6 +16,7 @@ constexpr std::size_t kWorthReconsidering = 20;  // cells newly seen
 constexpr double kPassed = 0.1;                  // m, of a corner
 constexpr double kSamePlace = 0.3;               // m
 constexpr int kMostGivenUpHere = 3;              // goals of the last look
+constexpr std::size_t kWorthAnotherLook = 200;   // cells newly seen: half a square metre
 constexpr double kLongestInVain = 100.0;         // m, and once around what is known
 
 }  // namespace
@@ -171,7 +172,7 @@ bool GlobalPlanner::drivesTo(const ViewPoint& chosen, const Eigen::Vector2d& rob
   return false;
 }
 
-// What was given up gets another chance.
+// Where nothing else is left, ways that were barred are open again.
 void GlobalPlanner::findViews() {
   const Cell here = grid().cellOf(decided_at_);
   const auto present = is_last_look_ ? std::nullopt : goal_;
@@ -179,15 +180,9 @@ void GlobalPlanner::findViews() {
   views_.find(place_, aside_, here);
   goal_ = present;
   if (!isGoalUnseen() || !views_.keep(place_, *goal_)) goal_.reset();
-  if (views_.viewPoints().empty() && recall()) views_.find(place_, aside_, here);
-}
-
-// Goals that were set aside, and ways.
-bool GlobalPlanner::recall() {
-  const bool any_goals = aside_.recall(grid().revealed());
-  const bool any_ways = place_.openAll();
-  if (any_ways) place_.findWays(decided_at_);
-  return any_goals || any_ways;
+  if (!views_.viewPoints().empty() || !place_.openAll()) return;
+  place_.findWays(decided_at_);
+  views_.find(place_, aside_, here);
 }
 
 // From all places, and again where much was seen since; then through passages that look too narrow.
@@ -208,7 +203,7 @@ bool GlobalPlanner::lookLast(const Eigen::Vector2d& robot_map) {
       plan_.reason = "to find out what is left to see";
       return true;
     }
-    if (revealed_at_last_look_ && grid().revealed() < *revealed_at_last_look_ + kWorthAnotherTry) {
+    if (revealed_at_last_look_ && grid().revealed() < *revealed_at_last_look_ + kWorthAnotherLook) {
       if (!place_.openNarrowPassages()) return false;
       place_.findWays(decided_at_);
     }
@@ -261,7 +256,6 @@ void GlobalPlanner::setGoalAside() {
 
 void GlobalPlanner::dropGoal() {
   if (goal_) aside_.add(goal_->target, grid().revealed());
-  if (goal_ && is_last_look_) last_look_.drop(goal_->cell);
   goal_.reset();
 }
 

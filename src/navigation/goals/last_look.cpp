@@ -9,7 +9,6 @@ namespace cca {
 namespace {
 
 constexpr int kLooksAtATime = 60;  // some 10 ms, 30 in a wide hall
-constexpr int kAround = 10;        // cells
 
 /// Cells of a block that the robot can reach: the first one, and beside obstacles, where a few
 /// centimetres count, also the last one.
@@ -46,13 +45,6 @@ std::optional<ViewPoint> LastLook::next(KnownPlace& place, Strategy strategy,
   askPlaces(place);
   is_under_way_ = !openings_.empty() || !blocks_.empty();
   return is_under_way_ ? std::nullopt : choose(place, strategy, filter);
-}
-
-void LastLook::drop(Cell place) {
-  const auto is_around = [&](const ViewPoint& view) {
-    return std::max(std::abs(view.cell.x - place.x), std::abs(view.cell.y - place.y)) <= kAround;
-  };
-  found_.erase(std::remove_if(found_.begin(), found_.end(), is_around), found_.end());
 }
 
 std::string LastLook::whatIsLeft() const {

@@ -8,9 +8,6 @@
 
 namespace cca {
 
-/// Cells newly seen, half a square metre, that make another try worth while.
-constexpr std::size_t kWorthAnotherTry = 200;
-
 /// Goals that are not to be tried for now: they proved unreachable, or were reached and nothing was
 /// seen. How much of the map has changed since then is told by `revealed`, the number of cells that
 /// the grid has ever come to know. Goals within 15 cm of each other are one.
@@ -30,10 +27,6 @@ class AsideGoals {
 
   /// The map has been made anew, and as much of it is revealed now.
   void move(const CellMove& moved, std::size_t revealed);
-
-  /// Gives those another chance since which half a square metre has been seen.
-  /// @return whether there are any.
-  bool recall(std::size_t revealed);
 
  private:
   struct Aside {

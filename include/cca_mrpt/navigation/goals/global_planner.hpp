@@ -121,7 +121,6 @@ class GlobalPlanner {
   bool isTimeToReconsider(const Eigen::Vector2d& robot_map) const;
   void decide(const Eigen::Vector2d& robot_map);
   void findViews();
-  bool recall();
   std::optional<ViewPoint> choose();
   void lookAround();
   bool lookLast(const Eigen::Vector2d& robot_map);

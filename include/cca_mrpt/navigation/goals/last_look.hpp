@@ -45,9 +45,6 @@ class LastLook {
   /// Cost: O(frontier cells), and a bounded number of looks.
   std::optional<ViewPoint> next(KnownPlace& place, Strategy strategy, const Filter& filter);
 
-  /// Takes out a place that could not be reached, with those around it (0.5 m).
-  void drop(Cell place);
-
   /// The places that were left when next() found none that is worth its way, with their ways.
   const std::vector<ViewPoint>& left() const { return found_; }
   /// Likewise: what the best of them promises. For people.
