@@ -3,251 +3,182 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <tuple>
-#include <unordered_set>
+#include <utility>
 
 namespace cca {
-namespace {
 
-/// The likelihood beside a return, as far as it matters (three deviations).
-class Kernel {
- public:
-  constexpr static int kHalf = 3;
-  Kernel() {
-    for (int y = -kHalf; y <= kHalf; ++y) {
-      for (int x = -kHalf; x <= kHalf; ++x) {
-        const double d = std::hypot(x, y) / LikelihoodPyramid::kSigma;
-        values_[y + kHalf][x + kHalf] =
-            static_cast<std::uint8_t>(std::lround(255.0 * std::exp(-0.5 * d * d)));
-      }
-    }
+PoseSearch::PoseSearch(std::vector<SurfacePoint> query, LikelihoodPyramid pyramid,
+                       const SearchWindow& window, double least_score)
+    : query_(std::move(query)), pyramid_(std::move(pyramid)), window_(window) {
+  double farthest = pyramid_.cell();
+  for (const SurfacePoint& p : query_) {
+    farthest = std::max(farthest, p.position.norm());
+    facings_.push_back(bearingOf(p.normal));
   }
-  std::uint8_t at(int x, int y) const { return values_[y + kHalf][x + kHalf]; }
+  const double turn_step = pyramid_.cell() / farthest;
+  half_turns_ = static_cast<int>(std::ceil(window.half_turn / turn_step));
+  steps_ = static_cast<int>(std::ceil(window.half_width / pyramid_.cell()));
+  begin(least_score);
+}
 
- private:
-  std::uint8_t values_[2 * kHalf + 1][2 * kHalf + 1];
-};
+void PoseSearch::begin(double least_score) {
+  best_bound_ = least_score;
+  next_turn_ = query_.empty() ? turns() : 0;
+  open_.clear();
+}
 
-struct Candidate {
-  double bound = 0.0;
-  int turn = 0, x = 0, y = 0;  // steps from the window's corner
-};
+void PoseSearch::seekRival(double distance, double turn, double least_score) {
+  excluded_ = Excluded{found_->T_map_query, distance, turn};
+  found_.reset();
+  begin(least_score);
+}
 
-/// One turn of the query: its points in cells, at the window's lowest shift.
-struct TurnedQuery {
-  double angle = 0.0;
-  double penalty = 0.0;
-  std::vector<Eigen::Vector2i> cells;
-};
-
-class BranchAndBound {
- public:
-  BranchAndBound(const std::vector<Eigen::Vector2d>& query, const LikelihoodPyramid& pyramid,
-                 const SearchWindow& window)
-      : pyramid_(pyramid), window_(window), count_(static_cast<double>(query.size())) {
-    double farthest = pyramid.cell();
-    for (const Eigen::Vector2d& p : query) farthest = std::max(farthest, p.norm());
-    const double turn_step = pyramid.cell() / farthest;
-    const int turns = static_cast<int>(std::ceil(window.half_turn / turn_step));
-    steps_ = static_cast<int>(std::ceil(window.half_width / pyramid.cell()));
-    const Eigen::Vector2d low =
-        window.centre.position() - Eigen::Vector2d::Constant(steps_ * pyramid.cell());
-    for (int k = -turns; k <= turns; ++k) {
-      TurnedQuery turned;
-      const double by = turns > 0 ? k * window.half_turn / turns : 0.0;
-      turned.angle = wrapAngle(window.centre.theta + by);
-      turned.penalty = window.prior_information.z() * by * by;
-      const double c = std::cos(turned.angle), s = std::sin(turned.angle);
-      turned.cells.reserve(query.size());
-      for (const Eigen::Vector2d& p : query) {
-        const Eigen::Vector2d at =
-            pyramid.toCells(low + Eigen::Vector2d(c * p.x() - s * p.y(), s * p.x() + c * p.y()));
-        turned.cells.emplace_back(static_cast<int>(std::floor(at.x())),
-                                  static_cast<int>(std::floor(at.y())));
-      }
-      turned_.push_back(std::move(turned));
-    }
-  }
-
-  std::optional<SearchResult> search(double least_score) {
-    best_bound_ = least_score;
-    const int top = pyramid_.levels() - 1;
-    std::vector<Candidate> roots;
-    for (int turn = 0; turn < static_cast<int>(turned_.size()); ++turn) {
-      for (int y = 0; y <= 2 * steps_; y += 1 << top) {
-        for (int x = 0; x <= 2 * steps_; x += 1 << top) {
-          addIfGood(top, {0.0, turn, x, y}, roots);
-        }
-      }
-    }
-    visit(top, roots);
-    if (!found_) return std::nullopt;
-    SearchResult result;
-    result.T_map_query = poseOf(best_);
-    result.score = scoreOf(0, best_);
-    return result;
-  }
-
- private:
-  Pose2 poseOf(const Candidate& c) const {
-    const double cell = pyramid_.cell();
-    return {window_.centre.x + (c.x - steps_) * cell, window_.centre.y + (c.y - steps_) * cell,
-            turned_[static_cast<std::size_t>(c.turn)].angle};
-  }
-
-  /// @param least  what cannot score more is given up, and its score is less.
-  double scoreOf(int level, const Candidate& c, double least = 0.0) const {
-    // What may be missed of the most that there could be.
-    int missed = static_cast<int>((1.0 - least) * 255.0 * count_) + 1;
-    int sum = 0;
-    for (const Eigen::Vector2i& at : turned_[static_cast<std::size_t>(c.turn)].cells) {
-      const int value = pyramid_.at(level, at.x() + c.x, at.y() + c.y);
-      sum += value;
-      missed -= 255 - value;
-      if (missed < 0) return 0.0;
-    }
-    return sum / (255.0 * count_);
-  }
-
-  /// The least penalty of the shifts that a candidate stands for.
-  double penaltyOf(int level, const Candidate& c) const {
-    const double cell = pyramid_.cell();
-    const auto least = [&](int from) {
-      const int low = from - steps_, high = std::min(from + (1 << level) - 1, 2 * steps_) - steps_;
-      return cell * (low > 0 ? low : high < 0 ? -high : 0);
-    };
-    const double dx = least(c.x), dy = least(c.y);
-    const Eigen::Vector3d& information = window_.prior_information;
-    const double off_sq = information.x() * dx * dx + information.y() * dy * dy +
-                          turned_[static_cast<std::size_t>(c.turn)].penalty;
-    return off_sq > 0.0
-               ? window_.prior_weight * 0.5 * kPriorFreedom * std::log1p(off_sq / kPriorFreedom)
-               : 0.0;
-  }
-
-  bool isExcluded(const Candidate& c) const {
-    if (!window_.excluded) return false;
-    const Eigen::Vector3d off = difference(poseOf(c), *window_.excluded);
-    return off.head<2>().norm() < window_.excluded_distance &&
-           std::abs(off.z()) < window_.excluded_turn;
-  }
-
-  void addIfGood(int level, Candidate c, std::vector<Candidate>& candidates) const {
-    const double penalty = penaltyOf(level, c);
-    if (1.0 - penalty <= best_bound_) return;
-    c.bound = scoreOf(level, c, best_bound_ + penalty) - penalty;
-    if (c.bound > best_bound_) candidates.push_back(c);
-  }
-
-  void visit(int level, std::vector<Candidate>& candidates) {
-    std::sort(candidates.begin(), candidates.end(), [](const Candidate& a, const Candidate& b) {
-      if (a.bound != b.bound) return a.bound > b.bound;
-      return std::tie(a.turn, a.y, a.x) < std::tie(b.turn, b.y, b.x);
-    });
-    for (const Candidate& c : candidates) {
-      if (c.bound <= best_bound_) return;
-      if (level == 0) {
-        if (isExcluded(c)) continue;
-        best_bound_ = c.bound;
-        best_ = c;
-        found_ = true;
-        return;
-      }
-      std::vector<Candidate> parts;
-      const int half = 1 << (level - 1);
-      for (const int dy : {0, half}) {
-        for (const int dx : {0, half}) {
-          const Candidate part{0.0, c.turn, c.x + dx, c.y + dy};
-          if (part.x > 2 * steps_ || part.y > 2 * steps_) continue;
-          addIfGood(level - 1, part, parts);
-        }
-      }
-      visit(level - 1, parts);
-    }
-  }
-
-  const LikelihoodPyramid& pyramid_;
-  const SearchWindow& window_;
-  double count_;
-  int steps_ = 0;
-  std::vector<TurnedQuery> turned_;
-  double best_bound_ = 0.0;
-  Candidate best_;
-  bool found_ = false;
-};
-
-}  // namespace
-
-LikelihoodPyramid::LikelihoodPyramid(const std::vector<Eigen::Vector2d>& points,
-                                     const Eigen::Vector2d& centre, double reach, int levels,
-                                     double cell)
-    : cell_(cell) {
-  static const Kernel kernel;
-  Eigen::Vector2d low = centre, high = centre;
-  const auto isNear = [&](const Eigen::Vector2d& p) {
-    return (p - centre).cwiseAbs().maxCoeff() <= reach;
-  };
-  for (const Eigen::Vector2d& p : points) {
-    if (!isNear(p)) continue;
-    low = low.cwiseMin(p);
-    high = high.cwiseMax(p);
-  }
-  const double border = Kernel::kHalf * cell_;
-  low_ = low - Eigen::Vector2d::Constant(border);
-  width_ = static_cast<int>((high.x() - low_.x() + border) / cell_) + 2 + kMargin;
-  height_ = static_cast<int>((high.y() - low_.y() + border) / cell_) + 2 + kMargin;
-  const std::size_t width = static_cast<std::size_t>(width_);
-  cells_.emplace_back(width * static_cast<std::size_t>(height_), std::uint8_t{0});
-  std::vector<std::uint8_t>& finest = cells_.front();
-  for (const Eigen::Vector2d& p : points) {
-    if (!isNear(p)) continue;
-    const Eigen::Vector2d at = toCells(p);
-    const int cx = static_cast<int>(at.x()) + kMargin, cy = static_cast<int>(at.y()) + kMargin;
-    if (finest[static_cast<std::size_t>(cy) * width + static_cast<std::size_t>(cx)] == 255)
+bool PoseSearch::advance(int cells) {
+  looked_up_ = 0;
+  while (looked_up_ < cells) {
+    if (next_turn_ < turns()) {
+      openTurn(next_turn_++);
+      if (next_turn_ == turns()) sortFrom(0);
       continue;
-    for (int y = -Kernel::kHalf; y <= Kernel::kHalf; ++y) {
-      std::uint8_t* row = &finest[static_cast<std::size_t>(cy + y) * width];
-      for (int x = -Kernel::kHalf; x <= Kernel::kHalf; ++x) {
-        std::uint8_t& value = row[cx + x];
-        value = std::max(value, kernel.at(x, y));
-      }
     }
+    if (open_.empty()) return true;
+    const Candidate next = open_.back();
+    open_.pop_back();
+    if (next.bound <= best_bound_) continue;
+    if (next.level > 0) {
+      expand(next);
+      continue;
+    }
+    best_bound_ = next.bound;
+    found_ = SearchResult{poseOf(next), scoreOf(next, 0.0)};
+    if (excluded_) open_.clear();  // one rival is enough
   }
-  for (int level = 1; level <= levels; ++level) {
-    const std::vector<std::uint8_t>& finer = cells_.back();
-    std::vector<std::uint8_t> coarser(finer.size());
-    const int half = 1 << (level - 1);
-    for (int y = 0; y < height_; ++y) {
-      const std::uint8_t* here = &finer[static_cast<std::size_t>(y) * width];
-      const std::uint8_t* there =
-          y + half < height_ ? here + static_cast<std::size_t>(half) * width : here;
-      std::uint8_t* out = &coarser[static_cast<std::size_t>(y) * width];
-      for (int x = 0; x < width_ - half; ++x) {
-        out[x] = std::max(std::max(here[x], here[x + half]), std::max(there[x], there[x + half]));
-      }
-      for (int x = std::max(0, width_ - half); x < width_; ++x)
-        out[x] = std::max(here[x], there[x]);
-    }
-    cells_.push_back(std::move(coarser));
+  return false;
+}
+
+void PoseSearch::run() {
+  while (!advance(std::numeric_limits<int>::max())) continue;
+}
+
+/// The query as it is turned for the k-th time, from the window's one end to the other.
+PoseSearch::TurnedQuery PoseSearch::turnedQuery(int k) const {
+  TurnedQuery turned;
+  const double by = half_turns_ > 0 ? (k - half_turns_) * window_.half_turn / half_turns_ : 0.0;
+  turned.angle = wrapAngle(window_.centre.theta + by);
+  turned.penalty = window_.prior_information.z() * by * by;
+  const double c = std::cos(turned.angle), s = std::sin(turned.angle);
+  const Eigen::Vector2d low =
+      window_.centre.position() - Eigen::Vector2d::Constant(steps_ * pyramid_.cell());
+  turned.cells.reserve(query_.size());
+  for (std::size_t i = 0; i < query_.size(); ++i) {
+    const Eigen::Vector2d& p = query_[i].position;
+    const Eigen::Vector2d at =
+        pyramid_.toCells(low + Eigen::Vector2d(c * p.x() - s * p.y(), s * p.x() + c * p.y()));
+    turned.cells.emplace_back(static_cast<int>(std::floor(at.x())),
+                              static_cast<int>(std::floor(at.y())),
+                              pyramid_.layerOf(facings_[i] + turned.angle));
+  }
+  return turned;
+}
+
+void PoseSearch::openTurn(int turn) {
+  if (static_cast<int>(turned_.size()) == turn) {
+    turned_.push_back(turnedQuery(turn));
+    looked_up_ += static_cast<int>(query_.size());
+  }
+  const int top = pyramid_.levels() - 1;
+  for (int y = 0; y <= 2 * steps_; y += 1 << top) {
+    for (int x = 0; x <= 2 * steps_; x += 1 << top) openIfGood({0.0, top, turn, x, y});
   }
 }
 
-std::optional<SearchResult> searchPose(const std::vector<Eigen::Vector2d>& query,
-                                       const LikelihoodPyramid& pyramid, const SearchWindow& window,
-                                       double least_score) {
-  if (query.empty()) return std::nullopt;
-  return BranchAndBound(query, pyramid, window).search(least_score);
+void PoseSearch::expand(const Candidate& candidate) {
+  const std::size_t first = open_.size();
+  const int half = 1 << (candidate.level - 1);
+  for (const int dy : {0, half}) {
+    for (const int dx : {0, half}) {
+      const int x = candidate.x + dx, y = candidate.y + dy;
+      if (x > 2 * steps_ || y > 2 * steps_) continue;
+      openIfGood({0.0, candidate.level - 1, candidate.turn, x, y});
+    }
+  }
+  sortFrom(first);
 }
 
-std::vector<Eigen::Vector2d> thinned(const std::vector<Eigen::Vector2d>& points, double spacing) {
-  std::unordered_set<std::int64_t> taken;
-  std::vector<Eigen::Vector2d> kept;
-  for (const Eigen::Vector2d& p : points) {
-    const auto x = static_cast<std::int64_t>(std::floor(p.x() / spacing));
-    const auto y = static_cast<std::int64_t>(std::floor(p.y() / spacing));
-    if (taken.insert(x * (std::int64_t{1} << 32) + y).second) kept.push_back(p);
+void PoseSearch::openIfGood(Candidate candidate) {
+  const double penalty = penaltyOf(candidate);
+  if (1.0 - penalty <= best_bound_ || isExcluded(candidate)) return;
+  candidate.bound = scoreOf(candidate, best_bound_ + penalty) - penalty;
+  if (candidate.bound > best_bound_) open_.push_back(candidate);
+}
+
+void PoseSearch::sortFrom(std::size_t first) {
+  std::sort(open_.begin() + static_cast<std::ptrdiff_t>(first), open_.end(),
+            [](const Candidate& a, const Candidate& b) {
+              if (a.bound != b.bound) return a.bound < b.bound;
+              return std::tie(a.turn, a.y, a.x) > std::tie(b.turn, b.y, b.x);
+            });
+}
+
+Pose2 PoseSearch::poseOf(const Candidate& c) const {
+  const double cell = pyramid_.cell();
+  return {window_.centre.x + (c.x - steps_) * cell, window_.centre.y + (c.y - steps_) * cell,
+          turned_[static_cast<std::size_t>(c.turn)].angle};
+}
+
+/// @param least  what cannot score more is given up, and its score is less.
+double PoseSearch::scoreOf(const Candidate& c, double least) {
+  const std::vector<Eigen::Vector3i>& cells = turned_[static_cast<std::size_t>(c.turn)].cells;
+  const double most = 255.0 * static_cast<double>(cells.size());
+  // What may be missed of the most that there could be.
+  int missed = static_cast<int>((1.0 - least) * most) + 1;
+  int sum = 0, seen = 0;
+  for (const Eigen::Vector3i& at : cells) {
+    const int value = pyramid_.at(c.level, at.z(), at.x() + c.x, at.y() + c.y);
+    sum += value;
+    missed -= 255 - value;
+    ++seen;
+    if (missed < 0) break;
   }
-  return kept;
+  looked_up_ += seen;
+  return missed < 0 ? 0.0 : sum / most;
+}
+
+/// The least penalty of the shifts that a candidate stands for.
+double PoseSearch::penaltyOf(const Candidate& c) const {
+  const double cell = pyramid_.cell();
+  const auto least = [&](int from) {
+    const int low = from - steps_, high = std::min(from + (1 << c.level) - 1, 2 * steps_) - steps_;
+    return cell * (low > 0 ? low : high < 0 ? -high : 0);
+  };
+  const double dx = least(c.x), dy = least(c.y);
+  const Eigen::Vector3d& information = window_.prior_information;
+  const double off_sq = information.x() * dx * dx + information.y() * dy * dy +
+                        turned_[static_cast<std::size_t>(c.turn)].penalty;
+  return off_sq > 0.0
+             ? window_.prior_weight * 0.5 * kPriorFreedom * std::log1p(off_sq / kPriorFreedom)
+             : 0.0;
+}
+
+/// Whether all the shifts that a candidate stands for lie beside what was found.
+bool PoseSearch::isExcluded(const Candidate& c) const {
+  if (!excluded_) return false;
+  const Eigen::Vector3d off = difference(poseOf(c), excluded_->T_map_query);
+  const double size = ((1 << c.level) - 1) * pyramid_.cell();
+  const auto farthest = [&](double from) {
+    return std::max(std::abs(from), std::abs(from + size));
+  };
+  return std::hypot(farthest(off.x()), farthest(off.y())) < excluded_->distance &&
+         std::abs(off.z()) < excluded_->turn;
+}
+
+std::optional<SearchResult> searchPose(std::vector<SurfacePoint> query, LikelihoodPyramid pyramid,
+                                       const SearchWindow& window, double least_score) {
+  PoseSearch search(std::move(query), std::move(pyramid), window, least_score);
+  search.run();
+  return search.found();
 }
 
 }  // namespace cca

@@ -43,36 +43,42 @@ bool isCredible(const LoopVerdict& verdict) {
   return verdict.agreement > std::min(1.0 - doubt, kAgreeAnywhere) &&
          verdict.moved <= std::max(kFarMove, kLikelySigmas * verdict.sigma) &&
          verdict.moved <= M_SQRT2 * verdict.window &&  // the match after the search may slide away
-         verdict.common > kLeastCommon && verdict.runner_up < kRival * verdict.score;
+         verdict.common > kLeastCommon && !verdict.has_rival;
 }
 
-bool LoopCloser::findCandidates(const KeyFrames& frames) {
+bool LoopCloser::beginNext(const KeyFrames& frames) {
   for (int asked = 0; asked < kFramesAtOnce && !sought_.empty(); ++asked) {
     Sought& sought = sought_.front();
     if (!sought.candidates) {
       sought.candidates = loopCandidates(frames, sought.frame);
       std::reverse(sought.candidates->begin(), sought.candidates->end());
     }
-    if (!sought.candidates->empty()) return true;
+    if (!sought.candidates->empty()) {
+      search_.emplace(PlaceSearch::atVisit(frames, sought.frame, sought.candidates->back()));
+      sought.candidates->pop_back();
+      if (sought.candidates->empty()) sought_.pop_front();
+      return true;
+    }
     sought_.pop_front();
   }
   return false;
 }
 
-std::vector<GraphEdge> LoopCloser::seekOnce(const KeyFrames& frames) {
-  Sought& sought = sought_.front();
-  const auto verdict = findLoop(frames, sought.frame, sought.candidates->back());
-  sought.candidates->pop_back();
-  std::vector<GraphEdge> edges;
-  if (verdict) edges = take(frames.graph, *verdict);
-  if (!edges.empty() || sought.candidates->empty()) sought_.pop_front();
-  return edges;
+void LoopCloser::beginAnywhere(const KeyFrames& frames, int frame, int part) {
+  search_.emplace(PlaceSearch::anywhere(frames, frame, part));
 }
 
-std::vector<GraphEdge> LoopCloser::findPlace(const KeyFrames& frames, int frame, int part) {
-  const auto verdict = relocate(frames, frame, part);
+std::vector<GraphEdge> LoopCloser::advance(const KeyFrames& frames, int cells) {
+  if (!search_->advance(cells)) return {};
+  const auto verdict = search_->verdict(frames);
+  search_.reset();
   if (!verdict) return {};
-  return take(frames.graph, *verdict);
+  const std::vector<GraphEdge> edges = take(frames.graph, *verdict);
+  // The frame's other visits are of no concern any more.
+  if (!edges.empty() && !sought_.empty() && sought_.front().frame == verdict->frame) {
+    sought_.pop_front();
+  }
+  return edges;
 }
 
 std::vector<GraphEdge> LoopCloser::take(const PoseGraph& graph, const LoopVerdict& verdict) {

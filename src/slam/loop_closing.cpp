@@ -4,8 +4,8 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-
-#include "cca_mrpt/slam/correlative_search.hpp"
+#include <limits>
+#include <utility>
 
 namespace cca {
 namespace {
@@ -26,18 +26,29 @@ constexpr double kLeastScore = 0.45;
 /// agree with score .88 and more.
 constexpr double kLeastScoreAnywhere = 0.8;
 constexpr double kCellAnywhere = 0.2, kSpacingAnywhere = 0.4;
-constexpr double kTolerance = 0.2;  // m, within which rays agree
+constexpr double kTolerance = 0.2;                        // m, within which rays agree
+constexpr double kRivalDistance = 0.6, kRivalTurn = 0.3;  // m, rad, from the best place at least
 
-/// Points of frames in the axes of frame `base`.
-std::vector<Eigen::Vector2d> pointsOf(const KeyFrames& frames, const std::vector<int>& of, int base,
-                                      double reach) {
-  std::vector<Eigen::Vector2d> points;
+/// Returns of frames in the axes that `T_base_map` leads to.
+std::vector<SurfacePoint> pointsOf(const KeyFrames& frames, const std::vector<int>& of,
+                                   const Pose2& T_base_map, double reach) {
+  std::vector<SurfacePoint> points;
   for (const int k : of) {
-    const Pose2 T_base_k = frames.graph.pose(base).inverse() * frames.graph.pose(k);
+    const Pose2 T_base_k = T_base_map * frames.graph.pose(k);
+    const Pose2 turn{0.0, 0.0, T_base_k.theta};
     for (const auto& point : frames.surfaces[static_cast<std::size_t>(k)].points) {
-      if (point.position.norm() < reach) points.push_back(T_base_k * point.position);
+      if (point.position.norm() >= reach) continue;
+      points.push_back({T_base_k * point.position, turn * point.normal});
     }
   }
+  return points;
+}
+
+/// Those that face somewhere.
+std::vector<SurfacePoint> facing(std::vector<SurfacePoint> points) {
+  points.erase(std::remove_if(points.begin(), points.end(),
+                              [](const SurfacePoint& p) { return p.normal.isZero(); }),
+               points.end());
   return points;
 }
 
@@ -54,33 +65,10 @@ std::vector<int> recentFrames(const KeyFrames& frames, int frame) {
   return recent;
 }
 
-/// The best place of a query in a window, and how good the next best elsewhere in it is.
-struct Found {
-  SearchResult best;
-  double runner_up = 0.0;
-};
-
-std::optional<Found> foundIn(const std::vector<Eigen::Vector2d>& query,
-                             const LikelihoodPyramid& pyramid, SearchWindow window,
-                             double least_score) {
-  const auto best = searchPose(query, pyramid, window, least_score);
-  if (!best) return std::nullopt;
-  Found found{*best, 0.0};
-  window.excluded = best->T_map_query;
-  window.excluded_distance = 0.6;
-  window.excluded_turn = 0.3;
-  if (const auto second = searchPose(query, pyramid, window, kRival * best->score)) {
-    found.runner_up = second->score;
-  }
-  return found;
-}
-
 /// Matches the frame where the search found it, and asks the rays of both visits.
-LoopVerdict judged(const KeyFrames& frames, int frame, int earlier, const std::vector<int>& recent,
-                   const std::vector<int>& around, const Pose2& T_earlier_frame) {
-  LoopVerdict verdict;
-  verdict.frame = frame;
-  verdict.candidate = earlier;
+void judge(const KeyFrames& frames, const std::vector<int>& recent, const std::vector<int>& around,
+           const Pose2& T_earlier_frame, LoopVerdict& verdict) {
+  const int frame = verdict.frame, earlier = verdict.candidate;
   std::vector<PlacedSurface> references;
   for (const int k : around) {
     references.push_back({&frames.surfaces[static_cast<std::size_t>(k)],
@@ -105,7 +93,6 @@ LoopVerdict judged(const KeyFrames& frames, int frame, int earlier, const std::v
   verdict.agreement = sights.agreement();
   const double all = sights.agree + sights.contradict + sights.unseen;
   verdict.common = all > 0.0 ? sights.agree / all : 0.0;
-  return verdict;
 }
 
 }  // namespace
@@ -143,8 +130,16 @@ std::vector<RelativeCovariance> loopCandidates(const KeyFrames& frames, int fram
   return chosen;
 }
 
-std::optional<LoopVerdict> findLoop(const KeyFrames& frames, int frame,
-                                    const RelativeCovariance& candidate) {
+PlaceSearch::PlaceSearch(const LoopVerdict& known, const std::optional<Pose2>& T_candidate_frame,
+                         std::vector<int> recent, std::vector<int> among, PoseSearch search)
+    : known_(known),
+      T_candidate_frame_(T_candidate_frame),
+      recent_(std::move(recent)),
+      among_(std::move(among)),
+      search_(std::move(search)) {}
+
+PlaceSearch PlaceSearch::atVisit(const KeyFrames& frames, int frame,
+                                 const RelativeCovariance& candidate) {
   const int earlier = candidate.node;
   const std::vector<int> recent = recentFrames(frames, frame);
   std::vector<int> around =
@@ -155,28 +150,25 @@ std::optional<LoopVerdict> findLoop(const KeyFrames& frames, int frame,
                               }),
                around.end());
   if (static_cast<int>(around.size()) > kEarlier) around.resize(kEarlier);
-  const double sigma = std::sqrt(0.5 * candidate.covariance.topLeftCorner<2, 2>().trace());
-  const double turn_sigma = std::sqrt(candidate.covariance(2, 2));
 
   SearchWindow window;
   window.centre = frames.graph.pose(earlier).inverse() * frames.graph.pose(frame);
-  window.half_width = std::min(kSigmas * sigma + kTiedSigma, kWidestWindow);
-  window.half_turn = std::min(kSigmas * turn_sigma + 0.05, M_PI);
-  const LikelihoodPyramid pyramid(pointsOf(frames, around, earlier, kFarthestSurface),
-                                  Eigen::Vector2d::Zero(), kReach, kLevels, kCell);
-  const auto found = foundIn(thinned(pointsOf(frames, recent, frame, kReach), kSpacing), pyramid,
-                             window, kLeastScore);
-  if (!found) return std::nullopt;
-  LoopVerdict verdict = judged(frames, frame, earlier, recent, around, found->best.T_map_query);
-  verdict.score = found->best.score;
-  verdict.runner_up = found->runner_up;
-  verdict.window = window.half_width;
-  verdict.sigma = sigma;
-  verdict.moved = (verdict.T_candidate_frame.position() - window.centre.position()).norm();
-  return verdict;
+  LoopVerdict known;
+  known.frame = frame;
+  known.candidate = earlier;
+  known.sigma = std::sqrt(0.5 * candidate.covariance.topLeftCorner<2, 2>().trace());
+  known.window = window.half_width = std::min(kSigmas * known.sigma + kTiedSigma, kWidestWindow);
+  window.half_turn = std::min(kSigmas * std::sqrt(candidate.covariance(2, 2)) + 0.05, M_PI);
+  const Pose2 T_frame_map = frames.graph.pose(frame).inverse();
+  const Pose2 T_earlier_map = frames.graph.pose(earlier).inverse();
+  return {known, window.centre, recent, around,
+          PoseSearch(thinned(pointsOf(frames, recent, T_frame_map, kReach), kSpacing),
+                     LikelihoodPyramid(pointsOf(frames, around, T_earlier_map, kFarthestSurface),
+                                       Eigen::Vector2d::Zero(), kReach, kLevels, kCell),
+                     window, kLeastScore)};
 }
 
-std::optional<LoopVerdict> relocate(const KeyFrames& frames, int frame, int part) {
+PlaceSearch PlaceSearch::anywhere(const KeyFrames& frames, int frame, int part) {
   std::vector<int> all;
   Eigen::AlignedBox2d place;
   for (int k = part; k < frames.size(); ++k) {
@@ -184,37 +176,55 @@ std::optional<LoopVerdict> relocate(const KeyFrames& frames, int frame, int part
     all.push_back(k);
     place.extend(frames.graph.pose(k).position());
   }
-  const std::vector<int> recent = recentFrames(frames, frame);
-  std::vector<Eigen::Vector2d> points;
-  for (const int k : all) {
-    for (const auto& point : frames.surfaces[static_cast<std::size_t>(k)].points) {
-      points.push_back(frames.graph.pose(k) * point.position);
-    }
-  }
-  SearchWindow window;
   const Eigen::Vector2d centre = place.center();
+  SearchWindow window;
   window.centre = {centre.x(), centre.y(), 0.0};
-  window.half_width = 0.5 * place.sizes().maxCoeff() + kCommonView;
   window.half_turn = M_PI;
-  const LikelihoodPyramid pyramid(points, centre, window.half_width + kReach, kLevelsAnywhere,
-                                  kCellAnywhere);
-  const auto found = foundIn(thinned(pointsOf(frames, recent, frame, kReach), kSpacingAnywhere),
-                             pyramid, window, kLeastScoreAnywhere);
-  if (!found) return std::nullopt;
+  LoopVerdict known;
+  known.frame = frame;
+  known.window = window.half_width = 0.5 * place.sizes().maxCoeff() + kCommonView;
+  const std::vector<int> recent = recentFrames(frames, frame);
+  const Pose2 T_frame_map = frames.graph.pose(frame).inverse();
+  return {
+      known, std::nullopt, recent, all,
+      PoseSearch(thinned(facing(pointsOf(frames, recent, T_frame_map, kReach)), kSpacingAnywhere),
+                 LikelihoodPyramid(pointsOf(frames, all, {}, kFarthestSurface), centre,
+                                   window.half_width + kReach, kLevelsAnywhere, kCellAnywhere,
+                                   LikelihoodPyramid::Facing::kAlike),
+                 window, kLeastScoreAnywhere)};
+}
 
+bool PlaceSearch::advance(int cells) {
+  if (!search_.advance(cells)) return false;
+  if (best_ || !search_.found()) return true;
+  best_ = search_.found();
+  search_.seekRival(kRivalDistance, kRivalTurn, kRival * best_->score);
+  return false;
+}
+
+void PlaceSearch::run() {
+  while (!advance(std::numeric_limits<int>::max())) continue;
+}
+
+std::optional<LoopVerdict> PlaceSearch::verdict(const KeyFrames& frames) const {
+  if (!best_) return std::nullopt;
+  LoopVerdict verdict = known_;
+  verdict.score = best_->score;
+  verdict.has_rival = search_.found().has_value();
+  if (T_candidate_frame_) {
+    judge(frames, recent_, among_, best_->T_map_query, verdict);
+    verdict.moved = (verdict.T_candidate_frame.position() - T_candidate_frame_->position()).norm();
+    return verdict;
+  }
   // The frame there whose view has most in common.
-  const Pose2& there = found->best.T_map_query;
+  const Pose2& there = best_->T_map_query;
   const auto apart = [&](int k) {
     return (frames.graph.pose(k).position() - there.position()).norm();
   };
-  const int earlier =
-      *std::min_element(all.begin(), all.end(), [&](int a, int b) { return apart(a) < apart(b); });
-  const std::vector<int> around = framesInView(frames, earlier, there, kEarlier);
-  LoopVerdict verdict =
-      judged(frames, frame, earlier, recent, around, frames.graph.pose(earlier).inverse() * there);
-  verdict.score = found->best.score;
-  verdict.runner_up = found->runner_up;
-  verdict.window = window.half_width;
+  verdict.candidate = *std::min_element(among_.begin(), among_.end(),
+                                        [&](int a, int b) { return apart(a) < apart(b); });
+  judge(frames, recent_, framesInView(frames, verdict.candidate, there, kEarlier),
+        frames.graph.pose(verdict.candidate).inverse() * there, verdict);
   return verdict;
 }
 

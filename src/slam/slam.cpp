@@ -39,6 +39,10 @@ constexpr double kLeastInCommon = 0.1;
 constexpr int kLostScans = 3, kLostStanding = 50;
 constexpr double kLostWay = 1.0;
 
+/// Cells of the likelihood pyramid that a search looks up in one scan: some 5 ms. Of a lost robot
+/// in an office it takes five to ten times as many, and a key frame at walking pace as many scans.
+constexpr int kCellsAtOnce = 2000000;
+
 /// Poses are solved for again when the graph has grown by this, and by this share: all solutions of
 /// a drive together cost a few of the last one.
 constexpr int kSettleAfter = 15, kSettleShare = 10;
@@ -92,7 +96,7 @@ SearchWindow windowOf(const PoseBelief& prior) {
 }  // namespace
 
 SlamWork& SlamWork::operator+=(const SlamWork& other) {
-  places += other.places;
+  searches += other.searches;
   iterations += other.iterations;
   return *this;
 }
@@ -106,14 +110,14 @@ bool Slam::isNewPlace(const Pose2& T_map_sensor, const ScanSurface& surface) con
 }
 
 Pose2 Slam::searched(const ScanSurface& surface, SearchWindow window) const {
-  std::vector<Eigen::Vector2d> points, query;
+  std::vector<SurfacePoint> points, query;
   for (const PlacedSurface& placed : frames_.placed(view_)) {
     for (const auto& point : placed.surface->points) {
-      points.push_back(placed.T_map_sensor * point.position);
+      points.push_back({placed.T_map_sensor * point.position});
     }
   }
   for (const auto& point : surface.points) {
-    if (point.position.norm() < kSearchReach) query.push_back(point.position);
+    if (point.position.norm() < kSearchReach) query.push_back({point.position});
   }
   query = thinned(query, kSearchSpacing);
   if (query.empty()) return window.centre;
@@ -345,19 +349,18 @@ void Slam::workOnce() {
   }
 }
 
-/// Looks for one frame at one visit, or in another part of the graph.
+/// Goes on looking for a frame at a visit, or in another part of the graph.
 std::vector<GraphEdge> Slam::soughtOnce() {
-  if (loop_closer_.findCandidates(frames_)) {
-    ++work_.places;
-    return loop_closer_.seekOnce(frames_);
+  if (!loop_closer_.isSearching() && !loop_closer_.beginNext(frames_)) {
+    if (loop_closer_.isSeeking() || places_.empty()) return {};
+    const int frame = places_.front();
+    places_.pop_front();
+    const auto part = soughtPart(frame);
+    if (!part) return {};
+    loop_closer_.beginAnywhere(frames_, frame, *part);
   }
-  if (loop_closer_.isSeeking() || places_.empty()) return {};
-  const int frame = places_.front();
-  places_.pop_front();
-  const auto part = soughtPart(frame);
-  if (!part) return {};
-  ++work_.places;
-  return loop_closer_.findPlace(frames_, frame, *part);
+  ++work_.searches;
+  return loop_closer_.advance(frames_, kCellsAtOnce);
 }
 
 void Slam::beginSettling(const std::vector<GraphEdge>& loops) {

@@ -3,6 +3,7 @@
 // Slam's parts of the graph: drives whose place in the map is known, lost or remembered.
 #include <algorithm>
 #include <cassert>
+#include <limits>
 
 #include "cca_mrpt/slam/slam.hpp"
 
@@ -51,7 +52,10 @@ void Slam::finish(const DoAll& do_all) {
   for (int k = 0; k < frames_.size(); ++k) {
     const auto part = soughtPart(k);
     if (!part) continue;
-    const auto loops = loop_closer_.findPlace(frames_, k, *part);
+    loop_closer_.beginAnywhere(frames_, k, *part);
+    std::vector<GraphEdge> loops;
+    while (loop_closer_.isSearching())
+      loops = loop_closer_.advance(frames_, std::numeric_limits<int>::max());
     if (loops.empty()) continue;
     connectLoops(frames_.graph, loops);
     map_part_ = frames_.graph.part(map_part_);

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <limits>
 #include <string>
 
 #include "cca_mrpt/io/parameters.hpp"
@@ -101,7 +102,9 @@ TEST(Relocation, ARobotThatIsSetDownAnywhereFindsItselfWithinThreeMetres) {
     Observation seen = robot.observe();
     slam.step(seen.scan, {}, robot.T_odom_robot());
     const int frame = slam.keyFrames().size() - 1;
-    const auto verdict = relocate(slam.keyFrames(), frame, 0);
+    PlaceSearch search = PlaceSearch::anywhere(slam.keyFrames(), frame, 0);
+    search.run();
+    const auto verdict = search.verdict(slam.keyFrames());
     if (verdict && isCredible(*verdict)) {
       at_once.add(
           isRight(slam.keyFrames().graph.pose(verdict->candidate) * verdict->T_candidate_frame,
@@ -161,7 +164,10 @@ TEST(Relocation, NoPlaceOfAnotherBuildingOrBehindAMirrorIsTakenForOne) {
     LoopCloser closer;
     for (int k = first; k < frames.size(); k += step) {  // a drive through it, as SLAM asks
       ++offered;
-      believed += !closer.findPlace(frames, k, 0).empty();
+      closer.beginAnywhere(frames, k, 0);
+      while (closer.isSearching()) {
+        believed += !closer.advance(frames, std::numeric_limits<int>::max()).empty();
+      }
     }
   }
   std::printf("%d scans of other buildings offered, %d believed\n", offered, believed);

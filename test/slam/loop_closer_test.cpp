@@ -37,7 +37,7 @@ TEST(LoopCloser, AMatchThatSlidOutOfItsWindowIsNot) {
 
 TEST(LoopCloser, APlaceWithARivalIsNot) {
   LoopVerdict verdict = goodLoop();
-  verdict.runner_up = 0.75;
+  verdict.has_rival = true;
   EXPECT_FALSE(isCredible(verdict));
 }
 

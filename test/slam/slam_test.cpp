@@ -82,17 +82,17 @@ TEST(Slam, TheSameInputGivesTheSameBits) {
   }
 }
 
-TEST(Slam, EachScanLooksAtOnePlaceOrTakesOneStepOfTheGraph) {
+TEST(Slam, EachScanSearchesABitOrTakesOneStepOfTheGraph) {
   Drive drive;
   Slam slam(drive.way.front());
   SlamWork all;
   for (std::size_t k = 0; k < drive.way.size(); ++k) {
     slam.step(drive.scans[k], {}, drive.wheels[k]);
-    EXPECT_LE(slam.work().places + slam.work().iterations, 1) << k;
+    EXPECT_LE(slam.work().searches + slam.work().iterations, 1) << k;
     all += slam.work();
   }
   EXPECT_FALSE(slam.loops().empty()) << "else nothing is shown";
-  EXPECT_GT(all.places, 5);
+  EXPECT_GT(all.searches, 5);
   EXPECT_GT(all.iterations, 2);
   slam.finish();
   EXPECT_TRUE(slam.isSettled());

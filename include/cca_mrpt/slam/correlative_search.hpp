@@ -2,49 +2,13 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <cstdint>
 #include <optional>
 #include <vector>
 
+#include "cca_mrpt/slam/likelihood_pyramid.hpp"
 #include "cca_mrpt/slam/surface_matching.hpp"
 
 namespace cca {
-
-/// How likely a return is at each place near some surfaces: 255 on a return, falling with the
-/// distance from it as a Gaussian. Coarser levels hold, for a cell, the largest value of the
-/// 2^level x 2^level cells that begin there, so that none is missed [Hess et al. 2016].
-class LikelihoodPyramid {
- public:
-  /// @param points  m, map frame; the grid covers these within `reach` [m] of `centre`.
-  /// @param levels  how many besides the finest.
-  /// @param cell    m, of the finest; the Gaussian's deviation is kSigma of it.
-  LikelihoodPyramid(const std::vector<Eigen::Vector2d>& points, const Eigen::Vector2d& centre,
-                    double reach, int levels, double cell);
-  static constexpr double kSigma = 1.2;
-
-  double cell() const { return cell_; }  ///< m
-
-  int levels() const { return static_cast<int>(cells_.size()); }
-  /// The value that cell (x, y) of a level holds; 0 outside.
-  std::uint8_t at(int level, int x, int y) const {
-    x += kMargin;
-    y += kMargin;
-    if (x < 0 || y < 0 || x >= width_ || y >= height_) return 0;
-    return cells_[static_cast<std::size_t>(level)]
-                 [static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) +
-                  static_cast<std::size_t>(x)];
-  }
-  /// In units of cells.
-  Eigen::Vector2d toCells(const Eigen::Vector2d& p_map) const { return (p_map - low_) / cell_; }
-
- private:
-  // A coarse cell may begin up to 2^level - 1 cells before the first fine one.
-  static constexpr int kMargin = 64;
-  double cell_;
-  Eigen::Vector2d low_ = Eigen::Vector2d::Zero();
-  int width_ = 0, height_ = 0;
-  std::vector<std::vector<std::uint8_t>> cells_;
-};
 
 /// Where to search: about `centre`, within these half widths.
 struct SearchWindow {
@@ -56,9 +20,6 @@ struct SearchWindow {
   /// Student's t: wheels slip.
   Eigen::Vector3d prior_information = Eigen::Vector3d::Zero();
   double prior_weight = 0.0;
-  /// Poses this near (m, and rad) to `excluded` are passed over.
-  std::optional<Pose2> excluded;
-  double excluded_distance = 0.0, excluded_turn = 0.0;
 };
 
 struct SearchResult {
@@ -67,15 +28,71 @@ struct SearchResult {
 };
 
 /// The pose with the best mean likelihood of the query's points in a window, less the prior's
-/// penalty: exact to the grid, by branch and bound [Hess et al. 2016; Olson 2009].
-/// @param query        m, sensor frame.
-/// @param least_score  what scores less is not found.
-/// @return             nothing where no pose scores more.
-std::optional<SearchResult> searchPose(const std::vector<Eigen::Vector2d>& query,
-                                       const LikelihoodPyramid& pyramid, const SearchWindow& window,
-                                       double least_score);
+/// penalty: exact to the grid, by branch and bound [Hess et al. 2016; Olson 2009]; bit by bit.
+class PoseSearch {
+ public:
+  /// @param query        sensor frame.
+  /// @param least_score  what scores less is not found.
+  PoseSearch(std::vector<SurfacePoint> query, LikelihoodPyramid pyramid, const SearchWindow& window,
+             double least_score);
 
-/// Points at least `spacing` [m] apart, in the order given.
-std::vector<Eigen::Vector2d> thinned(const std::vector<Eigen::Vector2d>& points, double spacing);
+  /// Goes on. @param cells  of the pyramid that are looked up, about so many: the same ones
+  ///                        whatever the bits.
+  /// @return  whether the search is at its end.
+  bool advance(int cells);
+  /// Goes on to the end.
+  void run();
+  /// At the end; nothing where no pose scores more than the least.
+  const std::optional<SearchResult>& found() const { return found_; }
+
+  /// Begins again, for any pose that scores more than this, and is not within so much [m, and rad]
+  /// of what was found: ends with the first.
+  void seekRival(double distance, double turn, double least_score);
+
+ private:
+  struct Candidate {
+    double bound;
+    int level;
+    int turn, x, y;  // steps from the window's corner
+  };
+  /// One turn of the query: its points in cells, at the window's lowest shift.
+  struct TurnedQuery {
+    double angle, penalty;
+    std::vector<Eigen::Vector3i> cells;  // (x, y, layer)
+  };
+  /// What was found before, whose neighbourhood is passed over.
+  struct Excluded {
+    Pose2 T_map_query;
+    double distance, turn;
+  };
+  int turns() const { return 2 * half_turns_ + 1; }
+  void begin(double least_score);
+  TurnedQuery turnedQuery(int turn) const;
+  void openTurn(int turn);
+  void expand(const Candidate& candidate);
+  void openIfGood(Candidate candidate);
+  void sortFrom(std::size_t first);
+  Pose2 poseOf(const Candidate& candidate) const;
+  double scoreOf(const Candidate& candidate, double least);
+  double penaltyOf(const Candidate& candidate) const;
+  bool isExcluded(const Candidate& candidate) const;
+
+  std::vector<SurfacePoint> query_;
+  std::vector<double> facings_;  // rad, of the query's points
+  LikelihoodPyramid pyramid_;
+  SearchWindow window_;
+  int steps_ = 0, half_turns_ = 0;
+  std::vector<TurnedQuery> turned_;
+  int next_turn_ = 0;                 // to be opened
+  std::vector<Candidate> open_;       // the most promising part last
+  std::optional<Excluded> excluded_;  // where a rival is sought
+  double best_bound_ = 0.0;
+  std::optional<SearchResult> found_;
+  int looked_up_ = 0;  // cells, since advance() began
+};
+
+/// PoseSearch in one go.
+std::optional<SearchResult> searchPose(std::vector<SurfacePoint> query, LikelihoodPyramid pyramid,
+                                       const SearchWindow& window, double least_score);
 
 }  // namespace cca

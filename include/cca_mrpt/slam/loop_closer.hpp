@@ -17,24 +17,23 @@ bool isCredible(const LoopVerdict& verdict);
 /// another frame, says the same.
 class LoopCloser {
  public:
-  /// The place of a frame will be looked for at earlier visits within its part of the graph, after
-  /// those that were asked for before.
+  /// The place of a frame will be looked for at earlier visits within its part of the graph, three
+  /// at the most, after those that were asked for before.
   void seek(int frame) { sought_.push_back({frame, std::nullopt}); }
-  /// Whether there is such a frame.
-  bool isSeeking() const { return !sought_.empty(); }
-  /// Goes on to the next frame that may have been seen at an earlier visit. @return whether there
-  /// is one: seekOnce() has something to do. It has not, and may still be seeking, where none of
-  /// the next few has; to find that out takes time as well, see loopCandidates().
-  bool findCandidates(const KeyFrames& frames);
-  /// Looks for that frame at the next one of these visits, of three at the most.
-  /// @return the edges of the loops that were believed now, two or none.
-  /// Cost: see findLoop().
-  std::vector<GraphEdge> seekOnce(const KeyFrames& frames);
+  /// Whether there is such a frame, or a search under way.
+  bool isSeeking() const { return search_ || !sought_.empty(); }
+  /// Whether a search is under way. No pose may move until it is at its end.
+  bool isSearching() const { return search_.has_value(); }
 
-  /// Looks for a frame's place anywhere in another part of the graph; edges as above.
-  /// @param part  PoseGraph::part() of that part's frames.
-  /// Cost: see relocate().
-  std::vector<GraphEdge> findPlace(const KeyFrames& frames, int frame, int part);
+  /// Begins to look for the next frame at a visit that it may have seen. @return whether it has
+  /// begun. It has not, and may still be seeking, where none of the next few has such a visit; to
+  /// find that out takes time as well, see loopCandidates().
+  bool beginNext(const KeyFrames& frames);
+  /// Begins to look for a frame's place anywhere in another part of the graph.
+  void beginAnywhere(const KeyFrames& frames, int frame, int part);
+  /// Goes on with the search under way; see PoseSearch::advance().
+  /// @return the edges of the loops that were believed now, two or none.
+  std::vector<GraphEdge> advance(const KeyFrames& frames, int cells);
 
   /// What waits for a second one waits no more.
   void forgetDoubtful() { waiting_.clear(); }
@@ -51,6 +50,7 @@ class LoopCloser {
   GraphEdge believed(const LoopVerdict& verdict);
 
   std::deque<Sought> sought_;
+  std::optional<PlaceSearch> search_;
   std::vector<LoopVerdict> verdicts_, waiting_, loops_;
 };
 

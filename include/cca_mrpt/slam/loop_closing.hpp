@@ -4,6 +4,7 @@
 #include <optional>
 #include <vector>
 
+#include "cca_mrpt/slam/correlative_search.hpp"
 #include "cca_mrpt/slam/key_frames.hpp"
 
 namespace cca {
@@ -15,7 +16,7 @@ struct LoopVerdict {
   Pose2 T_candidate_frame;
   Eigen::Matrix3d information = Eigen::Matrix3d::Zero();  ///< axes of the candidate
   double score = 0.0;      ///< mean likelihood of the recent frames' returns, [0, 1]
-  double runner_up = 0.0;  ///< the best score elsewhere in the window; 0: below kRival of `score`
+  bool has_rival = false;  ///< elsewhere in the window something scores kRival of that
   double agreement = 0.0;  ///< of the rays of both visits, [0, 1]
   double common = 0.0;     ///< share of the recent returns that the earlier visit saw, too
   double window = 0.0;     ///< m, half width that was searched
@@ -30,15 +31,35 @@ inline constexpr double kRival = 0.9;
 /// each other visit, the one most likely nearest.
 std::vector<RelativeCovariance> loopCandidates(const KeyFrames& frames, int frame);
 
-/// Looks for the place of the frame, and of those driven just before, at an earlier visit.
-/// Cost: a search by branch and bound in the window that the covariance leaves.
-std::optional<LoopVerdict> findLoop(const KeyFrames& frames, int frame,
-                                    const RelativeCovariance& candidate);
+/// Looks for the place of a frame, and of those driven just before, at an earlier visit or anywhere
+/// in another part of the graph; bit by bit, while the graph grows, but no pose of it may move.
+class PlaceSearch {
+ public:
+  /// At an earlier visit, in the window that the covariance leaves.
+  static PlaceSearch atVisit(const KeyFrames& frames, int frame,
+                             const RelativeCovariance& candidate);
+  /// Among all frames of another part of the graph: the robot has been carried away, or goes on
+  /// with an earlier map. Returns have to face as the surfaces do. Cost: 20 ms for 1000 frames.
+  /// @param part  PoseGraph::part() of these.
+  static PlaceSearch anywhere(const KeyFrames& frames, int frame, int part);
 
-/// Looks for the place of the frame, and of those driven just before, anywhere among the frames of
-/// another part of the graph: the robot has been carried away, or goes on with an earlier map.
-/// @param part  PoseGraph::part() of that part's frames.
-/// Cost: grows with that part: a search by branch and bound over all of it.
-std::optional<LoopVerdict> relocate(const KeyFrames& frames, int frame, int part);
+  /// Goes on; see PoseSearch::advance(). @return whether it is at its end.
+  bool advance(int cells);
+  /// Goes on to the end.
+  void run();
+  /// At the end: where it is; nothing where nothing is alike.
+  std::optional<LoopVerdict> verdict(const KeyFrames& frames) const;
+
+ private:
+  PlaceSearch(const LoopVerdict& known, const std::optional<Pose2>& T_candidate_frame,
+              std::vector<int> recent, std::vector<int> among, PoseSearch search);
+
+  LoopVerdict known_;                       // before the search
+  std::optional<Pose2> T_candidate_frame_;  // as the graph has it; none: anywhere
+  std::vector<int> recent_;                 // frames that look for their place together
+  std::vector<int> among_;                  // frames that they are compared with
+  PoseSearch search_;
+  std::optional<SearchResult> best_;
+};
 
 }  // namespace cca

@@ -37,7 +37,7 @@ struct SlamMemory {
 
 /// What a step does besides finding its own pose: one thing at the most.
 struct SlamWork {
-  int places = 0;      ///< visits, or other parts of the graph, at which a frame was looked for
+  int searches = 0;  ///< bits of the search for a frame at a visit, or in another part of the graph
   int iterations = 0;  ///< of the least squares over the graph
 
   SlamWork& operator+=(const SlamWork& other);
