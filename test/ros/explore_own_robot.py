@@ -104,8 +104,8 @@ class ExploreOwnRobot(OwnMaster):
         lines = placed(lines.reshape(-1, 2), (x, y, math.radians(degrees))).reshape(-1, 4)
         self.check(world, report, summary, lines)
 
-    def test_two_rooms_with_nobody_who_tells_where_it_is(self):
-        self.with_nobody_who_tells_where_it_is(os.path.join(MAPS, "two_rooms.yaml"), "2,3,0",
+    def test_corridor_loop_with_nobody_who_tells_where_it_is(self):
+        self.with_nobody_who_tells_where_it_is(os.path.join(MAPS, "corridor_loop.yaml"), "1.2,1.2,0",
                                                launch=["latency:=0"])
         self.assertIn("robot/latency says 0.00 s", self.told)
 
@@ -140,12 +140,12 @@ class ExploreOwnRobot(OwnMaster):
     def test_two_rooms_with_a_bar_that_distance_sensors_tell_of(self):
         self.with_a_bar_below_the_laser("range")
 
-    def test_two_rooms_with_two_lasers_and_true_poses(self):
-        self.with_true_poses(os.path.join(MAPS, "two_rooms.yaml"), "2,3,0", "--two-lasers",
+    def test_corridor_loop_with_two_lasers_and_true_poses(self):
+        self.with_true_poses(os.path.join(MAPS, "corridor_loop.yaml"), "1.2,1.2,0", "--two-lasers",
                              launch=["scans:=[scan_front, scan_rear]"])
 
-    def test_two_rooms_with_two_lasers_and_nobody_who_tells_where_it_is(self):
-        self.with_nobody_who_tells_where_it_is(os.path.join(MAPS, "two_rooms.yaml"), "2,3,0", "--two-lasers",
+    def test_corridor_loop_with_two_lasers_and_nobody_who_tells_where_it_is(self):
+        self.with_nobody_who_tells_where_it_is(os.path.join(MAPS, "corridor_loop.yaml"), "1.2,1.2,0", "--two-lasers",
                                                launch=["scans:=[scan_front, scan_rear]"])
 
     def test_apartment_on_wheels_that_are_trusted(self):
