@@ -14,8 +14,8 @@ ros="catkin libactionlib-dev libdiagnostic-updater-dev libdynamic-reconfigure-co
   python3-visualization-msgs python3-yaml ros-core-dev rosbash rosout rviz"
 tests="catkin-lint chromium clang clang-format ffmpeg gdal-bin git imagemagick libbenchmark-dev libclang-rt-14-dev
   libgl1-mesa-dri libgmock-dev libgtest-dev librostest-dev mrpt-apps python3-actionlib python3-dev
-  python3-dynamic-reconfigure
-  python3-matplotlib python3-move-base-msgs python3-numpy python3-rostest python3-venv x11-utils xauth xvfb"
+  python3-dynamic-reconfigure python3-matplotlib python3-move-base-msgs python3-numpy python3-pandas python3-rostest
+  python3-statsmodels python3-venv x11-utils xauth xvfb"
 case "${1:-}" in
   --ros) packages="$packages $ros" ;;
   --tests) packages="$packages $ros $tests" ;;

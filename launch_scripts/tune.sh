@@ -5,8 +5,7 @@ set -eu
 cd "$(dirname "$0")/.."
 ./launch_scripts/install_dependencies.sh --tests
 program=$(launch_scripts/build_program.sh --evidence)
-mkdir -p out
 worlds=()
 for truth in maps/*.truth.csv; do worlds+=("${truth%.truth.csv}.yaml"); done
-"$program" tune "${worlds[@]}" --out out/tuning "$@" | tee out/tuning.txt
-/usr/bin/python3 launch_scripts/tuning_report.py out/tuning out/tuning.txt docs/tuning.md docs/images
+"$program" tune "${worlds[@]}" --out out/tuning "$@"
+/usr/bin/python3 launch_scripts/tuning_report.py out/tuning docs/tuning.md docs/images

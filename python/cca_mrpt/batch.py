@@ -60,12 +60,11 @@ def _map_job(job) -> dict:
         return {"log": log, "folder": folder, "error": str(error)}
 
 
-def _call(arguments) -> str:
-    """What a program prints; what it complains about is raised."""
+def _call(arguments) -> None:
+    """Run a program; what it complains about is raised."""
     run = subprocess.run(arguments, capture_output=True, text=True)
     if run.returncode not in (0, 3):  # 3: done, and short of something that summary.json tells
         raise RuntimeError(run.stderr.strip() or f"{arguments[0]}: exit status {run.returncode}")
-    return run.stdout
 
 
 def _program_job(job) -> "str | None":
@@ -196,13 +195,13 @@ def tune(worlds, out, *, shards=16, options=(), program="cca-mrpt", workers=None
 
     Args:
         worlds: map_server YAML files with their true segments beside them.
-        out: folder for the rows of all shards and surface.csv.
+        out: folder for the rows of all shards and runs.csv, byte for byte that of the program alone.
         shards: number of jobs.
         options: further options of `cca-mrpt tune`, e.g. ("--seeds", "4").
         program, workers, scheduler: as in `explore`.
 
     Returns:
-        The analysis, as the program prints it.
+        The path of runs.csv, which launch_scripts/tuning_report.py analyses.
 
     Raises:
         RuntimeError: a job failed.
@@ -214,4 +213,5 @@ def tune(worlds, out, *, shards=16, options=(), program="cca-mrpt", workers=None
     for folder in folders:
         for rows in Path(folder).glob("rows-*.csv"):
             shutil.copy(rows, out)
-    return _call([*common, "--merge", "--out", str(out)])
+    _call([*common, "--merge", "--out", str(out)])
+    return str(Path(out) / "runs.csv")

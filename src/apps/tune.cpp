@@ -6,13 +6,10 @@
 #include <filesystem>
 #include <memory>
 #include <mutex>
-#include <sstream>
-#include <stdexcept>
 #include <string>
 #include <thread>
 #include <vector>
 
-#include "cca_mrpt/evidence/tuning_analysis.hpp"
 #include "cca_mrpt/evidence/tuning_rows.hpp"
 #include "cca_mrpt/io/atomic_file.hpp"
 #include "commands.hpp"
@@ -115,53 +112,12 @@ std::vector<std::string> allRows(const std::string& folder) {
   return paths;
 }
 
-void printVariance(const AnalysisOfVariance& a) {
-  std::printf("| effect | df | sum of squares | mean square | F | p | partial eta^2 |\n");
-  std::printf("|---|---|---|---|---|---|---|\n");
-  for (const Effect& e : a.effects) {
-    std::printf("| %s | %d | %.4f | %.5f | %.1f | %.2g | %.3f |\n", e.name.c_str(), e.degrees,
-                e.sum_of_squares, e.mean_square, e.f, e.p_value, e.partial_eta_sq);
-  }
-  std::printf("| residual | %d | %.4f | %.5f | | | |\n", a.residual_degrees,
-              a.residual_sum_of_squares, a.residual_sum_of_squares / a.residual_degrees);
-}
-
-void printRecommendation(const Recommendation& r) {
-  std::printf("\nBest: similarity_cut %g [%g, %g], vertex_price %g [%g, %g], ",
-              r.best.similarity_cut, r.similarity_cut.low, r.similarity_cut.high,
-              r.best.vertex_price, r.vertex_price.low, r.vertex_price.high);
-  std::printf("straightness %g [%g, %g]: %.4f.\n", r.best.straightness, r.straightness.low,
-              r.straightness.high, r.best_value);
-  if (!r.shipped_in_design) {
-    std::printf("The shipped combination is not one of the design's.\n");
-    return;
-  }
-  std::printf("Shipped: %.4f; short of the best by %.4f [%.4f, %.4f]: %s.\n", r.shipped_value,
-              r.shortfall.value, r.shortfall.low, r.shortfall.high,
-              r.shortfall.low <= 0.0 ? "the two cannot be told apart" : "worse");
-}
-
-void analyse(const TuningOptions& options) {
+void merge(const TuningOptions& options) {
   const std::vector<TuningRow> rows = readTuningRows(allRows(options.out), options.design);
-  std::printf("%zu of %zu runs, %zu scenes.\n", rows.size(), options.design.jobs(),
-              options.design.scenes());
-  std::ostringstream csv;
-  csv << "objective,similarity_cut,vertex_price,straightness,value,low,high\n";
-  const std::pair<Objective, const char*> objectives[] = {
-      {Objective::kScan, "scan"}, {Objective::kMap, "map"}, {Objective::kBoth, "both"}};
-  const char* titles[] = {"F1 of single scans", "F1 of the map's length", "Mean of the two"};
-  for (int k = 0; k < 3; ++k) {
-    const auto [objective, name] = objectives[k];
-    std::printf("\n### %s\n\n", titles[k]);
-    printVariance(analyseTuning(options.design, rows, objective));
-    printRecommendation(recommend(options.design, rows, objective));
-    for (const Combination& c : combinationMeans(options.design, rows, objective)) {
-      csv << name << ',' << c.parameters.similarity_cut << ',' << c.parameters.vertex_price << ','
-          << c.parameters.straightness << ',' << c.value.value << ',' << c.value.low << ','
-          << c.value.high << '\n';
-    }
-  }
-  writeFile(options.out + "/surface.csv", csv.str());
+  const std::string path = options.out + "/runs.csv";
+  writeFile(path, tuningTable(options.design, rows));
+  std::printf("%zu of %zu runs: %s; analysis: launch_scripts/tuning_report.py %s\n", rows.size(),
+              options.design.jobs(), path.c_str(), options.out.c_str());
 }
 
 /// The analysis of variance compares levels: one alone would end it after all the work.
@@ -179,14 +135,15 @@ void tune(const TuningOptions& options) {
     TuningRows rows(rowsPath(options, shard), options.design);
     Workers(options, shard, rows).run();
   }
-  if (options.merge || shard.count == 1) analyse(options);
+  if (options.merge || shard.count == 1) merge(options);
 }
 
 }  // namespace
 
 void addTuneCommand(CLI::App& program) {
   auto* command = program.add_subcommand(
-      "tune", "statistics of the three input parameters: a factorial experiment over worlds");
+      "tune",
+      "a factorial experiment over worlds, for the statistics of the three input parameters");
   auto options = std::make_shared<TuningOptions>();
   TuningDesign& design = options->design;
   command->add_option("WORLD", design.worlds, "worlds (.yaml, true segments beside them)")
@@ -213,7 +170,8 @@ void addTuneCommand(CLI::App& program) {
   count("--poses", design.poses, "longest tour for a map, in scans");
   count("--threads", options->threads, "runs at a time");
   command->add_option("--shard", options->shard, "I/N: run only the I-th of N parts of the scenes");
-  command->add_flag("--merge", options->merge, "run nothing: analyse what all shards have left");
+  command->add_flag("--merge", options->merge,
+                    "run nothing: write runs.csv of what all shards have left");
   command->callback([options] { tune(*options); });
 }
 

@@ -15,6 +15,16 @@ constexpr const char* kHeader =
 
 std::string head(const TuningDesign& design) { return design.signature() + "\n" + kHeader + "\n"; }
 
+std::string line(const TuningJob& job, const TuningRow& row) {
+  std::ostringstream out;
+  out.precision(9);
+  out << row.job << ',' << job.parameters.similarity_cut << ',' << job.parameters.vertex_price
+      << ',' << job.parameters.straightness << ','
+      << std::filesystem::path(job.world).stem().string() << ',' << job.noise << ',' << job.seed
+      << ',' << row.scan_f1 << ',' << row.map_f1 << '\n';
+  return out.str();
+}
+
 /// The whole lines of a file after its head, and how many bytes they and the head take.
 struct Content {
   std::vector<TuningRow> rows;
@@ -78,13 +88,7 @@ TuningRows::TuningRows(const std::string& path, const TuningDesign& design) : pa
 TuningRows::~TuningRows() { std::fclose(file_); }
 
 void TuningRows::append(const TuningJob& job, const TuningRow& row) {
-  std::ostringstream line;
-  line.precision(9);
-  line << row.job << ',' << job.parameters.similarity_cut << ',' << job.parameters.vertex_price
-       << ',' << job.parameters.straightness << ','
-       << std::filesystem::path(job.world).stem().string() << ',' << job.noise << ',' << job.seed
-       << ',' << row.scan_f1 << ',' << row.map_f1 << '\n';
-  const std::string text = line.str();
+  const std::string text = line(job, row);
   if (std::fwrite(text.data(), 1, text.size(), file_) != text.size() || std::fflush(file_) != 0) {
     throw std::runtime_error(path_ + ": cannot be written (disk full?)");
   }
@@ -100,6 +104,19 @@ std::vector<TuningRow> readTuningRows(const std::vector<std::string>& paths,
   std::vector<TuningRow> rows;
   for (const auto& [job, row] : by_job) rows.push_back(row);
   return rows;
+}
+
+std::string tuningTable(const TuningDesign& design, const std::vector<TuningRow>& rows) {
+  const CcaParameters shipped;
+  std::ostringstream out;
+  out.precision(9);
+  out << design.signature() << "\n# combinations=" << design.combinations()
+      << " scenes=" << design.scenes() << " shipped similarity_cut=" << shipped.similarity_cut
+      << " vertex_price=" << shipped.vertex_price << " straightness=" << shipped.straightness
+      << '\n'
+      << kHeader << '\n';
+  for (const TuningRow& row : rows) out << line(tuningJob(design, row.job), row);
+  return out.str();
 }
 
 }  // namespace cca::evidence

@@ -34,7 +34,7 @@ cmp "$tmp/slam.txt" "$tmp/slam/slam.md" || fail "compare-slam: slam.md is not wh
 awk -F'|' '/line-slam/ { exit !($3 < 0.02) }' "$tmp/slam.txt" || fail "compare-slam: $(cat "$tmp/slam.txt")"
 "$program" compare-slam "$tmp/run/run.rawlog" --methods nobody >/dev/null 2>&1 && fail "unknown method"
 
-# tune: shards merged say what one run says; a killed run goes on; another design is refused.
+# tune: shards merged leave the table that one run leaves; a killed run goes on; another design is refused.
 tune() {
   "$program" tune "$maps/two_rooms.yaml" "$maps/maze.yaml" --similarity-cut 0.3,0.5 \
     --vertex-price 6,12 --straightness 0.01,0.035 --noise 0.01 --seeds 1 --scans 2 --poses 8 "$@"
@@ -42,9 +42,10 @@ tune() {
 tune --out "$tmp/whole" >"$tmp/whole.txt" 2>/dev/null
 tune --out "$tmp/parts" --shard 1/2 >/dev/null 2>&1
 tune --out "$tmp/parts" --shard 2/2 >/dev/null 2>&1
-tune --out "$tmp/parts" --merge >"$tmp/parts.txt"
-diff "$tmp/whole.txt" "$tmp/parts.txt" || fail "two shards merged equal one run"
-grep -q '16 of 16 runs' "$tmp/whole.txt" || fail "all runs"
+[ ! -e "$tmp/parts/runs.csv" ] || fail "a shard alone leaves no table of all"
+tune --out "$tmp/parts" --merge >/dev/null
+cmp "$tmp/whole/runs.csv" "$tmp/parts/runs.csv" || fail "two shards merged equal one run"
+grep -q '^16 of 16 runs: .*tuning_report.py' "$tmp/whole.txt" || fail "all runs, and what analyses them"
 rows="$tmp/whole/rows-1-of-1.csv"
 sort "$rows" >"$tmp/before"
 truncate -s -30 "$rows"

@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <set>
 
 #include "cca_mrpt/evidence/tour.hpp"
-#include "cca_mrpt/evidence/tuning_analysis.hpp"
 #include "cca_mrpt/evidence/tuning_rows.hpp"
 
 namespace cca::evidence {
@@ -75,54 +73,25 @@ TEST(TuningRows, RefusesTheResultsOfAnotherDesign) {
   EXPECT_THROW(readTuningRows({path}, d), std::runtime_error);
 }
 
-/// Rows whose objective is known: a parabola in the cut, the best at 0.5, a bonus for a price
-/// of 16, nothing for the straightness, and a scene's own level.
-std::vector<TuningRow> knownRows(const TuningDesign& d) {
-  std::vector<TuningRow> rows;
-  for (std::size_t k = 0; k < d.jobs(); ++k) {
-    const TuningJob j = tuningJob(d, k);
-    const double cut = j.parameters.similarity_cut - 0.5;
-    const double ripple = 1e-3 * std::sin(12.9898 * static_cast<double>(k));
-    const double value = 0.8 - cut * cut + (j.parameters.vertex_price == 16.0 ? 0.02 : 0.0) +
-                         0.01 * static_cast<double>(j.scene) + ripple;
-    rows.push_back({k, value, value});
+TEST(TuningRows, AreOneTableWhateverTheShardsAndTheirOrder) {
+  const TuningDesign d = smallDesign();
+  const std::string first = freshPath("rows-first.csv"), second = freshPath("rows-second.csv");
+  {
+    TuningRows a(first, d), b(second, d);
+    a.append(tuningJob(d, 14), {14, 0.5, 0.25});
+    a.append(tuningJob(d, 0), {0, 1.0 / 3.0, 1.0});
+    b.append(tuningJob(d, 13), {13, 0.75, 0.0});
   }
-  return rows;
-}
-
-TEST(TuningAnalysis, FindsTheEffectsThatAreThereAndNoOthers) {
-  const TuningDesign d = smallDesign();
-  const AnalysisOfVariance a = analyseTuning(d, knownRows(d), Objective::kMap);
-  ASSERT_EQ(a.effects.size(), 7u);
-  EXPECT_LT(a.effects[0].p_value, 1e-6) << a.effects[0].name;
-  EXPECT_LT(a.effects[1].p_value, 1e-6) << a.effects[1].name;
-  for (int k = 2; k < 6; ++k) EXPECT_GT(a.effects[k].p_value, 0.01) << a.effects[k].name;
-  EXPECT_LT(a.effects[6].p_value, 1e-6) << a.effects[6].name;
-}
-
-TEST(TuningAnalysis, RecommendsTheKnownBestAndTellsHowFarTheShippedIs) {
-  const TuningDesign d = smallDesign();
-  CcaParameters shipped;
-  shipped.similarity_cut = 0.75;
-  shipped.vertex_price = 8.0;
-  shipped.straightness = 0.01;
-  const Recommendation r = recommend(d, knownRows(d), Objective::kBoth, shipped);
-  EXPECT_DOUBLE_EQ(r.best.vertex_price, 16.0);
-  EXPECT_DOUBLE_EQ(r.best.similarity_cut, 0.5);
-  EXPECT_DOUBLE_EQ(r.similarity_cut.low, 0.5);
-  EXPECT_DOUBLE_EQ(r.similarity_cut.high, 0.5);
-  EXPECT_TRUE(r.shipped_in_design);
-  EXPECT_NEAR(r.shortfall.value, 0.0625 + 0.02, 2e-3);
-  EXPECT_GT(r.shortfall.low, 0.0);
-}
-
-TEST(TuningAnalysis, LeavesOutScenesThatAreNotComplete) {
-  const TuningDesign d = smallDesign();
-  auto rows = knownRows(d);
-  rows.resize(12 * 3 + 5);
-  EXPECT_EQ(analyseTuning(d, rows, Objective::kScan).effects.back().degrees, 2);
-  rows.resize(12 + 5);
-  EXPECT_THROW(analyseTuning(d, rows, Objective::kScan), std::runtime_error);
+  const std::string table = tuningTable(d, readTuningRows({first, second}, d));
+  EXPECT_EQ(table, tuningTable(d, readTuningRows({second, first}, d)));
+  EXPECT_EQ(table,
+            d.signature() +
+                "\n# combinations=12 scenes=8 shipped similarity_cut=0.5 vertex_price=12 "
+                "straightness=0.035\n"
+                "job,similarity_cut,vertex_price,straightness,world,noise,seed,scan_f1,map_f1\n"
+                "0,0.25,8,0.01,a,0.01,1,0.333333333,1\n"
+                "13,0.25,8,0.04,a,0.01,2,0.75,0\n"
+                "14,0.25,16,0.01,a,0.01,2,0.5,0.25\n");
 }
 
 TEST(Tour, VisitsBothRoomsThroughTheDoor) {

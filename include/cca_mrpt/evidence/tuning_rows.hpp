@@ -37,4 +37,9 @@ class TuningRows {
 std::vector<TuningRow> readTuningRows(const std::vector<std::string>& paths,
                                       const TuningDesign& design);
 
+/// The table that `launch_scripts/tuning_report.py` analyses, CSV: two lines that begin with '#',
+/// the design's signature and `combinations=N scenes=N shipped` with the defaults of the three
+/// parameters; then the columns' names and a row a run, by job. The same runs give the same bytes.
+std::string tuningTable(const TuningDesign& design, const std::vector<TuningRow>& rows);
+
 }  // namespace cca::evidence
