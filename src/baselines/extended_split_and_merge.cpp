@@ -36,13 +36,13 @@ void track(const Points& points, Run run, double distance, std::vector<Run>& out
   out.push_back(part);
 }
 
-void split(const Points& points, Run run, double tolerance, std::vector<Run>& out) {
+void splitAtFarthest(const Points& points, Run run, double tolerance, std::vector<Run>& out) {
   if (run.size() > 2) {
     const FittedLine line = fitLine(momentsOf(points, run));
     const std::size_t cut = farthestFromChord(points, run);
     if (distanceFrom(line, points[cut]) > tolerance) {
-      split(points, {run.first, cut}, tolerance, out);
-      split(points, {cut, run.last}, tolerance, out);
+      splitAtFarthest(points, {run.first, cut}, tolerance, out);
+      splitAtFarthest(points, {cut, run.last}, tolerance, out);
       return;
     }
   }
@@ -71,7 +71,7 @@ std::vector<LineSegment> extendedSplitAndMerge(const Scan& scan,
   runs = each(points, runs, p.edge, followEdges);
   runs = each(points, runs, p.tracking, track);
   runs = mergeCollinear(points, runs, p.tolerance, spacing, p.common.break_points);
-  runs = each(points, runs, p.tolerance, split);
+  runs = each(points, runs, p.tolerance, splitAtFarthest);
   runs = mergeCollinear(points, runs, p.tolerance, spacing, p.common.break_points);
   return segmentsOf(points, runs, p.common.limits);
 }

@@ -3,8 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
-#include <limits>
 #include <stdexcept>
 
 #include "log_score_parts.hpp"
@@ -14,20 +12,11 @@ namespace {
 
 using namespace log_score;
 
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-constexpr double kShortest = 1e-6;          // m, segments that count
 constexpr double kNatsPerSegment = 27.6;    // four coordinates of log(1000): 20 m at 2 cm
 constexpr std::size_t kMostTested = 50000;  // samples tested for redundancy
 constexpr double kMostSamples = 400000.0;
 
 double harmonicMean(double a, double b) { return a + b > 0.0 ? 2.0 * a * b / (a + b) : 0.0; }
-
-std::vector<Segment2> withLength(const std::vector<Segment2>& segments) {
-  std::vector<Segment2> kept;
-  std::copy_if(segments.begin(), segments.end(), std::back_inserter(kept),
-               [](const Segment2& s) { return s.length() > kShortest; });
-  return kept;
-}
 
 double totalLength(const std::vector<Segment2>& segments) {
   double total = 0.0;

@@ -8,7 +8,6 @@
 namespace cca::log_score {
 namespace {
 
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 constexpr double kUnsupportedRun = 0.5;  // m
 constexpr double kFarthest = 1.0;        // m, distances are capped here
 

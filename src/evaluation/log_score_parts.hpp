@@ -2,12 +2,18 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include "cca_mrpt/evaluation/log_score.hpp"
 
 /// The parts of scoreAgainstLog(), each in a file of its own.
 namespace cca::log_score {
+
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+
+/// Segments of a micrometre and more: shorter ones count nowhere.
+std::vector<Segment2> withLength(const std::vector<Segment2>& segments);
 
 /// Returns of the log in the map frame, scan by scan.
 struct EndPoints {

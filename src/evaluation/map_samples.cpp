@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <map>
 #include <utility>
@@ -10,6 +11,7 @@
 namespace cca::log_score {
 namespace {
 
+constexpr double kShortest = 1e-6;  // m
 constexpr double kKeyframeDistance = 0.5, kKeyframeTurn = 20.0 * M_PI / 180.0;
 constexpr double kNeighbourhood = 0.30, kThickness = 0.05, kSpread = 0.10;
 constexpr std::size_t kFewestCells = 6;
@@ -35,6 +37,13 @@ bool isThinLine(const Cells& cells, std::size_t i, const std::vector<std::size_t
 }
 
 }  // namespace
+
+std::vector<Segment2> withLength(const std::vector<Segment2>& segments) {
+  std::vector<Segment2> kept;
+  std::copy_if(segments.begin(), segments.end(), std::back_inserter(kept),
+               [](const Segment2& s) { return s.length() > kShortest; });
+  return kept;
+}
 
 EndPoints endPoints(const std::vector<Scan>& scans) {
   EndPoints ends;

@@ -11,7 +11,7 @@
 namespace cca {
 namespace {
 
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+using namespace log_score;
 
 double angleBetween(const Segment2& a, const Segment2& b) {
   const Eigen::Vector2d u = a.end - a.start, v = b.end - b.start;
@@ -41,13 +41,6 @@ Match match(const Eigen::Vector2d& point, const Segment2& segment, std::size_t s
   return best;
 }
 
-std::vector<Segment2> withLength(const std::vector<Segment2>& segments) {
-  std::vector<Segment2> kept;
-  std::copy_if(segments.begin(), segments.end(), std::back_inserter(kept),
-               [](const Segment2& s) { return s.length() > 1e-6; });
-  return kept;
-}
-
 std::vector<Eigen::Vector2d> endsOf(const std::vector<Segment2>& segments) {
   std::vector<Eigen::Vector2d> ends;
   for (const auto& s : segments) ends.insert(ends.end(), {s.start, s.end});
@@ -68,7 +61,7 @@ std::vector<double> distancesToNearest(const std::vector<Eigen::Vector2d>& point
 /// Share of `ends` whose distance is within the tolerance; NaN where there are none.
 double shareFound(const std::vector<Eigen::Vector2d>& ends, const std::vector<double>& distances,
                   double tolerance) {
-  return ends.empty() ? kNaN : log_score::shareWithin(distances, tolerance);
+  return ends.empty() ? kNaN : shareWithin(distances, tolerance);
 }
 
 }  // namespace
@@ -78,8 +71,8 @@ LogScore scoreAgainstWorld(const std::vector<Segment2>& all_truth,
   const std::vector<Segment2> truth = withLength(all_truth), map = withLength(all_map);
   if (truth.empty()) throw std::runtime_error("the world has no true segment to judge a map by");
   const SegmentIndex truth_index(truth), map_index(map);
-  const auto map_samples = log_score::sampleMap(map, p.step);
-  const auto truth_samples = log_score::sampleMap(truth, p.step);
+  const auto map_samples = sampleMap(map, p.step);
+  const auto truth_samples = sampleMap(truth, p.step);
 
   double map_length = 0.0, right = 0.0, once = 0.0, squares = 0.0, angles = 0.0, redundant = 0.0;
   std::vector<double> laterals;
@@ -122,10 +115,10 @@ LogScore scoreAgainstWorld(const std::vector<Segment2>& all_truth,
              {"f1", sum > 0.0 ? 2.0 * precision * recall / sum : 0.0},
              {"redundant", map_length > 0.0 ? redundant / map_length : 0.0},
              {"lateral_rms_m", right > 0.0 ? std::sqrt(squares / right) : kNaN},
-             {"lateral_median_m", log_score::ranked(laterals, 0.5)},
+             {"lateral_median_m", ranked(laterals, 0.5)},
              {"angle_mean_deg", right > 0.0 ? angles / right * 180.0 / M_PI : kNaN},
-             {"end_error_median_m", log_score::ranked(map_to_truth, 0.5)},
-             {"end_error_p90_m", log_score::ranked(map_to_truth, 0.9)},
+             {"end_error_median_m", ranked(map_to_truth, 0.5)},
+             {"end_error_p90_m", ranked(map_to_truth, 0.9)},
              {"vertices_found", shareFound(truth_ends, truth_to_map, p.tolerance)},
              {"vertices_right", shareFound(map_ends, map_to_truth, p.tolerance)}}}}};
 }

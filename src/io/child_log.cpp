@@ -32,7 +32,7 @@ struct Message {
   Pose2 T_map_sensor, T_robot_sensor, corrected, odometry, truth;
 };
 
-constexpr std::uint64_t kMostBeams = 1U << 27;  // what is more was never written by a sound child
+constexpr std::uint64_t kMostTold = 1U << 27;  // what is more was never written by a sound child
 
 /// What reading a file of this size can need at most. Zipped, a file can grow by 1032 at most
 /// [zlib]; no log needs a gigabyte beyond a few times what is in its file.
@@ -79,9 +79,9 @@ void send(int pipe, Message message, const std::string& text, const std::vector<
   message.beams = ranges.size();
   const auto* const head = reinterpret_cast<const char*>(&message);
   const auto* const beams = reinterpret_cast<const char*>(ranges.data());
-  const bool arrived = transferAll(write, pipe, head, sizeof message) &&
-                       transferAll(write, pipe, text.data(), text.size()) &&
-                       transferAll(write, pipe, beams, ranges.size() * sizeof(double));
+  const bool arrived = transferAll(::write, pipe, head, sizeof message) &&
+                       transferAll(::write, pipe, text.data(), text.size()) &&
+                       transferAll(::write, pipe, beams, ranges.size() * sizeof(double));
   if (!arrived) _exit(0);  // nobody reads any more
 }
 
@@ -203,12 +203,12 @@ class ChildLog : public LogReader {
 
  private:
   bool receive(Message& m, std::string& text, std::vector<double>& ranges) const {
-    if (!transferAll(read, pipe_, reinterpret_cast<char*>(&m), sizeof m)) return false;
-    if (m.beams > kMostBeams || m.text_length > kMostBeams) return false;
+    if (!transferAll(::read, pipe_, reinterpret_cast<char*>(&m), sizeof m)) return false;
+    if (m.beams > kMostTold || m.text_length > kMostTold) return false;
     text.resize(m.text_length);
     ranges.resize(m.beams);
-    return transferAll(read, pipe_, text.data(), text.size()) &&
-           transferAll(read, pipe_, reinterpret_cast<char*>(ranges.data()),
+    return transferAll(::read, pipe_, text.data(), text.size()) &&
+           transferAll(::read, pipe_, reinterpret_cast<char*>(ranges.data()),
                        ranges.size() * sizeof(double));
   }
 

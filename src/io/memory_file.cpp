@@ -21,7 +21,7 @@ constexpr const char* kFormat = "cca_mrpt memory 1";
 /// A day of driving is a tenth of this.
 constexpr std::size_t kLargest = std::size_t{1} << 30;
 constexpr std::size_t kMostCompressed = 1100;  // times, by deflate
-constexpr std::size_t kMostBeams = 100000;
+constexpr std::size_t kMostRemembered = 100000;
 
 json asJson(const Pose2& pose) { return {pose.x, pose.y, pose.theta}; }
 
@@ -64,7 +64,7 @@ KeyScan keyScanOf(const json& frame) {
   key.scan.free_range_without_return = finite(frame.at("free_range"));
   const auto& bytes = frame.at("ranges").get_binary();
   std::vector<float> ranges(bytes.size() / sizeof(float));
-  if (ranges.size() > kMostBeams) throw std::runtime_error("holds a scan of too many beams");
+  if (ranges.size() > kMostRemembered) throw std::runtime_error("holds a scan of too many beams");
   if (!ranges.empty()) std::memcpy(ranges.data(), bytes.data(), ranges.size() * sizeof(float));
   key.scan.ranges.assign(ranges.begin(), ranges.end());
   return key;

@@ -28,8 +28,8 @@ MRPT_INITIALIZER(registerLineMap) { mrpt::rtti::registerClass(CLASS_ID(cca::CLin
 namespace cca {
 namespace {
 
-constexpr std::size_t kHead = 64;    // bytes, that hold the name of the class
-constexpr double kWallHeight = 1.0;  // m, of the 3-D view
+constexpr std::size_t kClassName = 64;  // bytes, that hold the name of the class
+constexpr double kHeight = 1.0;         // m, of the 3-D view
 
 /// Reads each described field of an .ini section, where the section has it.
 struct FromIni {
@@ -216,9 +216,9 @@ void CLineMap2D::getVisualizationInto(mrpt::opengl::CSetOfObjects& objects) cons
   for (const MapLine& line : lines()) {
     const auto &a = line.segment.start, &b = line.segment.end;
     walls->appendLine(a.x(), a.y(), 0.0, b.x(), b.y(), 0.0);
-    walls->appendLine(a.x(), a.y(), kWallHeight, b.x(), b.y(), kWallHeight);
-    walls->appendLine(a.x(), a.y(), 0.0, a.x(), a.y(), kWallHeight);
-    walls->appendLine(b.x(), b.y(), 0.0, b.x(), b.y(), kWallHeight);
+    walls->appendLine(a.x(), a.y(), kHeight, b.x(), b.y(), kHeight);
+    walls->appendLine(a.x(), a.y(), 0.0, a.x(), a.y(), kHeight);
+    walls->appendLine(b.x(), b.y(), 0.0, b.x(), b.y(), kHeight);
   }
   objects.insert(walls);
 }
@@ -284,7 +284,7 @@ void writeLineMap(const std::string& path, const std::vector<MapLine>& lines) {
 
 std::vector<MapLine> readLineMap(const std::string& path) {
   MrptObjects objects(path);
-  const bool is_one = mrptClassName(fileHead(path, kHead)) == "cca::CLineMap2D";
+  const bool is_one = mrptClassName(fileHead(path, kClassName)) == "cca::CLineMap2D";
   const auto map = is_one ? std::dynamic_pointer_cast<CLineMap2D>(objects.next()) : nullptr;
   if (map) return map->lines();
   throw std::runtime_error(path + ": no line map of MRPT's" +

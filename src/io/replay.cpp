@@ -8,7 +8,7 @@
 namespace cca {
 namespace {
 
-constexpr std::size_t kMostBeams = 181;  // of a scan: what can be told apart on a screen
+constexpr std::size_t kMostShown = 181;  // of a scan: what can be told apart on a screen
 constexpr std::int64_t kVisible = 20;    // mm, that a line's end moves before it is drawn anew
 constexpr std::size_t kLinesAMoment = 40;
 
@@ -68,7 +68,7 @@ void Replay::add(const ReplayMoment& moment, const Scan& scan, const LineMap& ma
 }
 
 void Replay::addScan(const ReplayMoment& moment, const Scan& scan, Frame& frame) {
-  const std::size_t every = (scan.size() + kMostBeams - 1) / kMostBeams;
+  const std::size_t every = (scan.size() + kMostShown - 1) / kMostShown;
   for (std::size_t beam = 0; every > 0 && beam < scan.size(); beam += every) {
     const double range = scan.ranges[beam];
     frame.ranges.push_back(

@@ -9,7 +9,7 @@
 namespace cca {
 namespace {
 
-constexpr int kFewestPoints = 4;  // three always lie on a circle
+constexpr int kFewestOfCircle = 4;  // three always lie on a circle
 constexpr int kMostSteps = 10;
 constexpr double kConverged = 1e-9;  // m
 constexpr double kFlattest = 1e3;    // radii per spread of the points: a line
@@ -137,7 +137,7 @@ Eigen::Vector2d Arc::at(double share) const {
 
 std::optional<FittedArc> fitArc(const std::vector<CurvePoint>& points, int first, int last,
                                 const std::optional<Limbs>& limbs) {
-  if (last - first < (limbs ? 2 : kFewestPoints)) return std::nullopt;
+  if (last - first < (limbs ? 2 : kFewestOfCircle)) return std::nullopt;
   const auto from = points.begin() + first, to = points.begin() + last;
   auto circle = limbs ? circleBetween(*limbs, from, to) : taubinFit(from, to);
   if (!circle) return std::nullopt;

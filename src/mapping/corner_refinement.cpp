@@ -9,7 +9,7 @@ namespace cca {
 namespace {
 
 /// Points by which a boundary may move in one sweep.
-constexpr int kReach = 5;
+constexpr int kCornerReach = 5;
 /// Longest line sought among loose points, and longest run that is shared out.
 constexpr int kLongestLoose = 8;
 /// nats, what it may cost that two lines meet at their boundary: half the 99 % quantile of
@@ -53,8 +53,9 @@ bool moveBoundaries(const ScanPoints& points, const RunFitter& fitter, Runs* run
     if (a.settled_with == b.last || (!a.is_line && !b.is_line)) continue;
     a.settled_with = b.last;
     if (!areNeighbours(points, a, b)) continue;
-    const int middle = bestParting(fitter, a.first, std::max(a.first, a.last - kReach),
-                                   std::min(b.last, a.last + kReach), b.last, a.price + b.price);
+    const int middle =
+        bestParting(fitter, a.first, std::max(a.first, a.last - kCornerReach),
+                    std::min(b.last, a.last + kCornerReach), b.last, a.price + b.price);
     if (middle < 0) continue;
     moved = true;
     const int last = b.last;
@@ -174,8 +175,8 @@ bool findEdgeBetween(const ScanPoints& points, const RunFitter& fitter, double l
                      FittedRun* a, FittedRun* edge, FittedRun* b) {
   const int first = a->first, low = a->last, high = b->first, last = b->last;
   if (high - low > kLongestLoose || points.breaksBetween(low - 1, high) > 0) return false;
-  const int from = std::max(first + kFewestPoints, low - kReach);
-  const int to = std::min(last - kFewestPoints, high + kReach);
+  const int from = std::max(first + kFewestPoints, low - kCornerReach);
+  const int to = std::min(last - kFewestPoints, high + kCornerReach);
   if (from > low || to < high) return false;
   double least = 0.5 * (a->chi_square + b->chi_square) + loose_price - fitter.vertexPrice();
   const auto leastOf = [&](int i, int j) { return i < j ? fitter.leastHalfChiSquare(i, j) : 0.0; };
@@ -219,8 +220,8 @@ void meetAtCorners(const ScanPoints& points, const RunFitter& fitter, Runs* runs
     FittedRun &a = (*runs)[k], &b = (*runs)[k + 1];
     if (!a.is_line || !b.is_line || !areNeighbours(points, a, b)) continue;
     if (meetAtBoundary(points, a, b)) continue;
-    const int first = a.first, last = b.last, from = std::max(first, a.last - kReach);
-    const int to = std::min(last, a.last + kReach);
+    const int first = a.first, last = b.last, from = std::max(first, a.last - kCornerReach);
+    const int to = std::min(last, a.last + kCornerReach);
     double least = a.price + b.price + kMeetingPrice;
     for (int middle = from; middle <= to; ++middle) {
       const double least_right = fitter.leastPrice(middle, last);

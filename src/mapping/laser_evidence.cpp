@@ -6,12 +6,12 @@
 #include <cmath>
 
 #include "cca_mrpt/mapping/cross.hpp"
+#include "cca_mrpt/mapping/range_noise.hpp"
 
 namespace cca {
 namespace {
 
 using Slot = Walls::Slot;
-constexpr double kGates = 3.0;
 constexpr double kLongestReturn = 100.0;  // m
 
 bool isUsable(double range) { return isReturn(range) && range <= kLongestReturn; }

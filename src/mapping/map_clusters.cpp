@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "cca_mrpt/mapping/map_similarity.hpp"
+#include "cca_mrpt/mapping/range_noise.hpp"
 #include "cca_mrpt/mapping/rank_order_clustering.hpp"
 
 namespace cca {
@@ -13,10 +14,9 @@ namespace {
 
 using Slot = Walls::Slot;
 
-constexpr double kReach = 0.4;      // m, beyond its ends a line is compared with what stands there
+constexpr double kEndReach = 0.4;   // m, beyond its ends a line is compared with what stands there
 constexpr double kNewLength = 0.1;  // m, two bins that no wall explains
 constexpr double kSteepest = 0.2;   // rad, deviation of orientation with which a wall is founded
-constexpr double kGates = 3.0;      // deviations within which a wall explains a return
 
 /// A new line and a wall that resemble each other.
 struct Resemblance {
@@ -159,7 +159,7 @@ std::vector<Resemblance> resemblances(const std::vector<NewLine>& lines, const A
   std::vector<Resemblance> all;
   std::vector<Slot> near;
   for (std::size_t i = 0; i < lines.size(); ++i) {
-    const Eigen::Vector2d reach = lines[i].segment.direction() * kReach;
+    const Eigen::Vector2d reach = lines[i].segment.direction() * kEndReach;
     walls.near(lines[i].segment.start - reach, lines[i].segment.end + reach, near);
     for (const Slot slot : near) {
       const double s = cut.similarity(mapMemberships(lines[i], walls[slot], noise));

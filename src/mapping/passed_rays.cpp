@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "cca_mrpt/mapping/laser_evidence.hpp"
+#include "cca_mrpt/mapping/range_noise.hpp"
 #include "cca_mrpt/mapping/swept_cells.hpp"
 
 namespace cca {
@@ -12,7 +13,6 @@ namespace {
 
 using Slot = Walls::Slot;
 using Beams = std::vector<Eigen::Vector2d>;
-constexpr double kGates = 3.0;
 constexpr double kLongestRay = 30.0;  // m; further out a beam is wider than a door
 constexpr double kClear = 0.1;        // m, two bins: the least that counts as "behind"
 constexpr double kBlind = 0.05;       // m, before the sensor

@@ -9,8 +9,6 @@
 namespace cca {
 namespace {
 
-constexpr double kMedianToSigma = 1.4826;                // of |x|, x normal
-constexpr double kSecondDifference = 2.449489742783178;  // sqrt(1 + 4 + 1)
 constexpr double kUniformToSigma = 0.28867513459481287;  // 1 / sqrt 12
 /// Deviation of a beam's bearing, in spacings: a beam lies somewhere in a quarter of its own
 /// sector.

@@ -10,15 +10,13 @@
 namespace cca {
 namespace {
 
-constexpr double kMedianToSigma = 1.4826;                // of |x|, x normal
-constexpr double kSecondDifference = 2.449489742783178;  // sqrt(1 + 4 + 1)
-constexpr std::size_t kHalf = 3;                         // neighbours to each side
-constexpr std::size_t kEnough = 100;                     // deviations, for a median to be told
-constexpr std::size_t kLeastAtOnce = 5;                  // in a scan: clutter looks slanted, too
-constexpr std::size_t kMemory = 50;                      // scans
-constexpr double kLeastSlant = 1.0;                      // tangent of the angle of incidence
-constexpr double kLeastSlope = 3.0;  // m: below, half a degree is less than 3 cm of range noise
-constexpr double kMostBend = 0.5;    // of the rise: an edge or a corner has all of it at one place
+constexpr std::size_t kHalf = 3;         // neighbours to each side
+constexpr std::size_t kEnough = 100;     // deviations, for a median to be told
+constexpr std::size_t kLeastAtOnce = 5;  // in a scan: clutter looks slanted, too
+constexpr std::size_t kScansKept = 50;   // scans
+constexpr double kLeastSlant = 1.0;      // tangent of the angle of incidence
+constexpr double kLeastSlope = 3.0;      // m: below, half a degree is less than 3 cm of range noise
+constexpr double kMostBend = 0.5;  // of the rise: an edge or a corner has all of it at one place
 
 double median(std::vector<double>* values) {
   const auto middle = values->begin() + static_cast<std::ptrdiff_t>(values->size() / 2);
@@ -35,7 +33,7 @@ double SensorNoise::variance(double range) const {
 
 void SensorNoise::add(const Scan& scan) {
   const double sigma = rangeNoise(scan).range_sigma;
-  scans_ = std::min(scans_ + 1, kMemory);
+  scans_ = std::min(scans_ + 1, kScansKept);
   range_sigma_ += (sigma - range_sigma_) / static_cast<double>(scans_);
   const std::vector<Deviation> found = slanted(scan);
   if (found.size() < kLeastAtOnce) return;

@@ -19,7 +19,7 @@ constexpr double kMostBeforeCheck = 100.0;
 /// return, and at least within so much [m].
 constexpr double kStretch = 2.4, kStretchLeast = 0.08;
 constexpr double kSideBySide = 0.97;  // cosine
-constexpr double kReach = 0.2;  // m, how far a wall's hits lie off its extent in another frame
+constexpr double kHitReach = 0.2;  // m, how far a wall's hits lie off its extent in another frame
 
 /// Where two walls that are not one run side by side all the same, the longer one takes it all.
 void shareOverlap(Slot a, Slot b, Walls& walls, const MapNoise& noise) {
@@ -28,7 +28,7 @@ void shareOverlap(Slot a, Slot b, Walls& walls, const MapNoise& noise) {
   const bool a_lesser = extentOf(walls[a]).length() < extentOf(walls[b]).length();
   const Slot lesser = a_lesser ? a : b, greater = a_lesser ? b : a;
   const Extent mine = extentOf(walls[greater]), theirs = extentOf(walls[lesser], walls[greater]);
-  if (mine.last < theirs.first - kReach || theirs.last < mine.first - kReach) return;
+  if (mine.last < theirs.first - kHitReach || theirs.last < mine.first - kHitReach) return;
   const double gate = std::max(kStretchLeast, kStretch * noise.lateralSigma());
   if (!yieldOverlap(walls[lesser], walls[greater], gate)) return;
   walls.touch(lesser);

@@ -7,8 +7,8 @@
 namespace cca {
 namespace {
 
-constexpr double kReach = 0.3;  // m, a wall is found from this far away
-constexpr int kSlack = 10;      // bins that a wall may grow before it is indexed anew
+constexpr double kFoundFrom = 0.3;  // m, a wall is found from this far away
+constexpr int kSlack = 10;          // bins that a wall may grow before it is indexed anew
 // Against what comes to stand where something was refuted: as many as do not refute it by
 // themselves, or no return of it would ever count.
 constexpr double kRaysOfFreed = 4.0;
@@ -51,7 +51,7 @@ void Walls::place(Slot slot) {
   wall.cells.clear();
   wall.indexed = {now.first - kSlack, now.last + kSlack};
   const double b = SupportProfile::kBinLength;
-  index_.insert(slot, wall.onLine(now.first * b - 0.2), wall.onLine(now.last * b + 0.2), kReach,
+  index_.insert(slot, wall.onLine(now.first * b - 0.2), wall.onLine(now.last * b + 0.2), kFoundFrom,
                 wall.cells);
 }
 

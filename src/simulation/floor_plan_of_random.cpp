@@ -10,12 +10,11 @@ namespace cca {
 
 namespace {
 
-constexpr double kOuter = 0.2, kInner = 0.1;  // m, thickness of walls
-constexpr double kSmallest = 3.0;             // m, side of a room
-constexpr double kLargest = 8.0;              // m, a longer side is always divided
-constexpr double kBesideDoor = 0.3;           // m, from a wall's end to a door
-constexpr double kPost = 0.05;                // m, side of a post in a door
-constexpr double kStartsFree = 0.5;           // m, around the robot's start
+constexpr double kSmallest = 3.0;    // m, side of a room
+constexpr double kLargest = 8.0;     // m, a longer side is always divided
+constexpr double kBesideDoor = 0.3;  // m, from a wall's end to a door
+constexpr double kPost = 0.05;       // m, side of a post in a door
+constexpr double kStartsFree = 0.5;  // m, around the robot's start
 
 /// Divides a floor by walls with a door each (or by a corridor with two), again and again: what
 /// was one region stays one.
@@ -24,8 +23,8 @@ class Divider {
   /// Doors are `narrowest` to `widest` m wide.
   Divider(FloorPlan& plan, Random& random, double narrowest, double widest)
       : plan_(plan), random_(random), narrowest_(narrowest), widest_(widest) {
-    divide(Box(Eigen::Vector2d(kOuter, kOuter),
-               Eigen::Vector2d(plan.width - kOuter, plan.height - kOuter)));
+    divide(Box(Eigen::Vector2d(kOuterWall, kOuterWall),
+               Eigen::Vector2d(plan.width - kOuterWall, plan.height - kOuterWall)));
   }
 
   const std::vector<Box>& rooms() const { return rooms_; }
@@ -37,7 +36,7 @@ class Divider {
     const double side = floor.sizes()[axis];
     const bool corridor = side > 3.0 * kSmallest && random_.uniform() < 0.5;
     const double wide = corridor ? onRaster(random_.uniform(1.5, 2.2)) : 0.0;
-    const double between = kInner * (corridor ? 2.0 : 1.0) + wide;
+    const double between = kInnerWall * (corridor ? 2.0 : 1.0) + wide;
     const double slack = side - between - 2.0 * kSmallest;
     const bool small = side < kLargest && random_.uniform() < 0.3;
     if (slack < 0.0 || small) {
@@ -50,8 +49,8 @@ class Divider {
       Box low = floor, high = floor;
       low.max()[axis] = at;
       high.min()[axis] = at + between;
-      addWall(floor, axis, at + 0.5 * kInner);
-      if (corridor) addWall(floor, axis, at + between - 0.5 * kInner);
+      addWall(floor, axis, at + 0.5 * kInnerWall);
+      if (corridor) addWall(floor, axis, at + between - 0.5 * kInnerWall);
       divide(low);
       divide(high);
       return;
@@ -64,8 +63,8 @@ class Divider {
     Box wall = floor;
     wall.min()[axis] = at - kBesideDoor;
     wall.max()[axis] = at + between + kBesideDoor;
-    wall.min()[1 - axis] -= kOuter;
-    wall.max()[1 - axis] += kOuter;
+    wall.min()[1 - axis] -= kOuterWall;
+    wall.max()[1 - axis] += kOuterWall;
     return std::none_of(doors_.begin(), doors_.end(),
                         [&wall](const Box& door) { return wall.intersects(door); });
   }
@@ -76,10 +75,10 @@ class Divider {
     const double length = floor.sizes()[1 - axis];
     const double wide = onRaster(random_.uniform(narrowest_, widest_));
     const double open = onRaster(random_.uniform(kBesideDoor, length - wide - kBesideDoor));
-    plan_.addWall(from, to, kInner, {{open, open + wide}});
+    plan_.addWall(from, to, kInnerWall, {{open, open + wide}});
     Box door;
-    door.min()[axis] = centre - 0.5 * kInner;
-    door.max()[axis] = centre + 0.5 * kInner;
+    door.min()[axis] = centre - 0.5 * kInnerWall;
+    door.max()[axis] = centre + 0.5 * kInnerWall;
     door.min()[1 - axis] = floor.min()[1 - axis] + open;
     door.max()[1 - axis] = door.min()[1 - axis] + wide;
     doors_.push_back(door);
@@ -97,7 +96,7 @@ FloorPlan emptyFloor(const Eigen::Vector2d& lowest, const Eigen::Vector2d& highe
   FloorPlan plan;
   plan.width = onRaster(random.uniform(lowest.x(), highest.x()));
   plan.height = onRaster(random.uniform(lowest.y(), highest.y()));
-  plan.addOuterWalls(kOuter);
+  plan.addOuterWalls(kOuterWall);
   return plan;
 }
 

@@ -7,7 +7,6 @@
 namespace cca {
 
 namespace {
-constexpr double kOuter = 0.2, kInner = 0.1;  // m, thickness of walls
 constexpr double kRadPerDeg = M_PI / 180.0;
 }  // namespace
 
@@ -17,14 +16,14 @@ FloorPlan warehouse(Random& random) {
   plan.width = 60.0;
   plan.height = 40.0;
   plan.start = {3.0, 3.0, 0.0};
-  plan.addOuterWalls(kOuter);
+  plan.addOuterWalls(kOuterWall);
   for (int row = 0; row < 6; ++row) {
     const double y = 6.0 + 4.5 * row;
     plan.addBox({6.0, y}, {28.0, y + 1.2});
     plan.addBox({31.0, y}, {53.0, y + 1.2});
   }
-  plan.addWall({45.0, 34.0}, {60.0, 34.0}, kInner, {{2.0, 3.2}});
-  plan.addWall({45.0, 34.0}, {45.0, 40.0}, kInner, {{2.0, 3.0}});
+  plan.addWall({45.0, 34.0}, {60.0, 34.0}, kInnerWall, {{2.0, 3.2}});
+  plan.addWall({45.0, 34.0}, {45.0, 40.0}, kInnerWall, {{2.0, 3.0}});
   const Box office_door(Eigen::Vector2d(47.0, 33.95), Eigen::Vector2d(48.2, 34.05));
   const Box side_door(Eigen::Vector2d(44.95, 36.0), Eigen::Vector2d(45.05, 37.0));
   furnish(
@@ -42,8 +41,8 @@ FloorPlan corridorLoop(Random&) {
   plan.width = 24.0;
   plan.height = 16.0;
   plan.start = {1.2, 1.2, 0.0};
-  plan.addOuterWalls(kOuter);
-  const double wide = 2.0 + kOuter;  // the core, less the niches
+  plan.addOuterWalls(kOuterWall);
+  const double wide = 2.0 + kOuterWall;  // the core, less the niches
   plan.addBox({wide, wide + 1.5}, {24.0 - wide - 1.5, 16.0 - wide - 1.5});
   plan.addBox({wide, wide}, {8.0, wide + 1.5});
   plan.addBox({11.0, wide}, {24.0 - wide, wide + 1.5});
@@ -60,7 +59,7 @@ FloorPlan pillarHall(Random& random) {
   plan.width = 24.0;
   plan.height = 18.0;
   plan.start = {3.0, 9.0, 0.0};
-  plan.addOuterWalls(kOuter);
+  plan.addOuterWalls(kOuterWall);
   plan.solids.push_back({{0.0, 0.0}, {3.5, 0.0}, {0.0, 4.0}});
   plan.solids.push_back({{24.0, 18.0}, {19.0, 18.0}, {24.0, 14.5}});
   plan.addWall({12.0, 0.0}, {14.5, 6.0}, 0.15);
@@ -85,7 +84,7 @@ FloorPlan gallery(Random&) {
   plan.width = 26.0;
   plan.height = 16.0;
   plan.start = {2.0, 8.0, 0.0};
-  plan.addOuterWalls(kOuter);
+  plan.addOuterWalls(kOuterWall);
   for (int quarter = 0; quarter < 4; ++quarter) {  // the rotunda has a door in each quarter
     const double door = 10.0 + 90.0 * quarter;
     plan.addArcWall({9.0, 8.0}, 4.0, (door + 20.0) * kRadPerDeg, (door + 90.0) * kRadPerDeg, 0.2);

@@ -8,14 +8,14 @@ namespace cca {
 
 namespace {
 
-constexpr double kOuter = 0.2, kInner = 0.1;  // m, thickness of walls
-
 /// The opening of a door in a wall along x (from x = 0) or along y.
 Box doorInWallAlongX(double x, double y, double wide) {
-  return Box(Eigen::Vector2d(x, y - 0.5 * kInner), Eigen::Vector2d(x + wide, y + 0.5 * kInner));
+  return Box(Eigen::Vector2d(x, y - 0.5 * kInnerWall),
+             Eigen::Vector2d(x + wide, y + 0.5 * kInnerWall));
 }
 Box doorInWallAlongY(double x, double y, double wide) {
-  return Box(Eigen::Vector2d(x - 0.5 * kInner, y), Eigen::Vector2d(x + 0.5 * kInner, y + wide));
+  return Box(Eigen::Vector2d(x - 0.5 * kInnerWall, y),
+             Eigen::Vector2d(x + 0.5 * kInnerWall, y + wide));
 }
 
 /// A row of rooms between y = low and y = high, with doors to a corridor at y = corridor_wall.
@@ -24,20 +24,20 @@ std::vector<Box> roomRow(FloorPlan& plan, double low, double high, double corrid
                          const std::vector<double>& dividers, Random& random) {
   std::vector<Opening> openings;
   std::vector<Box> doors;
-  double left = kOuter;
+  double left = kOuterWall;
   for (std::size_t i = 0; i <= dividers.size(); ++i) {
     const bool last = i == dividers.size();
-    const double right = last ? plan.width - kOuter : dividers[i] - 0.5 * kInner;
-    if (!last) plan.addWall({dividers[i], low}, {dividers[i], high}, kInner);
+    const double right = last ? plan.width - kOuterWall : dividers[i] - 0.5 * kInnerWall;
+    if (!last) plan.addWall({dividers[i], low}, {dividers[i], high}, kInnerWall);
     const double wide = onRaster(random.uniform(0.9, 1.2));
     const double door = onRaster(random.uniform(left + 0.5, right - 0.5 - wide));
     openings.emplace_back(door, door + wide);
     doors.push_back(doorInWallAlongX(door, corridor_wall, wide));
     const Room room{Box(Eigen::Vector2d(left, low), Eigen::Vector2d(right, high)), {doors.back()}};
     furnish(plan, room, random.integer(4, 8), random);
-    left = right + kInner;
+    left = right + kInnerWall;
   }
-  plan.addWall({0.0, corridor_wall}, {plan.width, corridor_wall}, kInner, openings);
+  plan.addWall({0.0, corridor_wall}, {plan.width, corridor_wall}, kInnerWall, openings);
   return doors;
 }
 
@@ -49,8 +49,8 @@ FloorPlan twoRooms(Random&) {
   plan.width = 10.0;
   plan.height = 6.0;
   plan.start = {2.0, 3.0, 0.0};
-  plan.addOuterWalls(kOuter);
-  plan.addWall({5.0, 0.0}, {5.0, 6.0}, kInner, {{2.5, 3.5}});
+  plan.addOuterWalls(kOuterWall);
+  plan.addWall({5.0, 0.0}, {5.0, 6.0}, kInnerWall, {{2.5, 3.5}});
   return plan;
 }
 
@@ -60,11 +60,13 @@ FloorPlan office(Random& random) {
   plan.width = 40.0;
   plan.height = 25.0;
   plan.start = {2.0, 12.5, 0.0};
-  plan.addOuterWalls(kOuter);
-  Room corridor{Box(Eigen::Vector2d(kOuter, 11.5), Eigen::Vector2d(40.0 - kOuter, 13.5)), {}};
-  corridor.doors = roomRow(plan, kOuter, 11.40, 11.45, {5.5, 11.0, 15.5, 22.5, 28.0, 34.0}, random);
+  plan.addOuterWalls(kOuterWall);
+  Room corridor{Box(Eigen::Vector2d(kOuterWall, 11.5), Eigen::Vector2d(40.0 - kOuterWall, 13.5)),
+                {}};
+  corridor.doors =
+      roomRow(plan, kOuterWall, 11.40, 11.45, {5.5, 11.0, 15.5, 22.5, 28.0, 34.0}, random);
   const auto upper =
-      roomRow(plan, 13.60, 25.0 - kOuter, 13.55, {6.5, 11.5, 18.0, 23.5, 28.5, 33.0}, random);
+      roomRow(plan, 13.60, 25.0 - kOuterWall, 13.55, {6.5, 11.5, 18.0, 23.5, 28.5, 33.0}, random);
   corridor.doors.insert(corridor.doors.end(), upper.begin(), upper.end());
   corridor.doors.emplace_back(plan.start.position(), plan.start.position());  // stays free, too
   furnish(plan, corridor, 4, random);
@@ -77,15 +79,15 @@ FloorPlan apartment(Random& random) {
   plan.width = 25.0;
   plan.height = 20.0;
   plan.start = {12.0, 9.5, 0.0};
-  plan.addOuterWalls(kOuter);
-  plan.addWall({0.0, 8.0}, {25.0, 8.0}, kInner, {{3.0, 3.9}, {11.0, 12.6}, {20.0, 21.0}});
-  plan.addWall({8.0, 0.0}, {8.0, 8.0}, kInner, {{5.0, 5.9}});
-  plan.addWall({16.0, 0.0}, {16.0, 8.0}, kInner);
-  plan.addWall({0.0, 11.0}, {17.0, 11.0}, kInner, {{2.0, 3.0}, {9.0, 10.4}, {14.0, 14.9}});
-  plan.addWall({6.0, 11.0}, {6.0, 20.0}, kInner);
-  plan.addWall({12.0, 11.0}, {12.0, 20.0}, kInner, {{6.0, 6.9}});
-  plan.addWall({17.0, 8.0}, {17.0, 20.0}, kInner, {{0.8, 2.2}, {8.0, 9.0}});
-  plan.addWall({17.0, 14.0}, {25.0, 14.0}, kInner, {{5.0, 5.9}});
+  plan.addOuterWalls(kOuterWall);
+  plan.addWall({0.0, 8.0}, {25.0, 8.0}, kInnerWall, {{3.0, 3.9}, {11.0, 12.6}, {20.0, 21.0}});
+  plan.addWall({8.0, 0.0}, {8.0, 8.0}, kInnerWall, {{5.0, 5.9}});
+  plan.addWall({16.0, 0.0}, {16.0, 8.0}, kInnerWall);
+  plan.addWall({0.0, 11.0}, {17.0, 11.0}, kInnerWall, {{2.0, 3.0}, {9.0, 10.4}, {14.0, 14.9}});
+  plan.addWall({6.0, 11.0}, {6.0, 20.0}, kInnerWall);
+  plan.addWall({12.0, 11.0}, {12.0, 20.0}, kInnerWall, {{6.0, 6.9}});
+  plan.addWall({17.0, 8.0}, {17.0, 20.0}, kInnerWall, {{0.8, 2.2}, {8.0, 9.0}});
+  plan.addWall({17.0, 14.0}, {25.0, 14.0}, kInnerWall, {{5.0, 5.9}});
   const Box w_low = doorInWallAlongX(3.0, 8.0, 0.9), m_low = doorInWallAlongX(11.0, 8.0, 1.6),
             e_low = doorInWallAlongX(20.0, 8.0, 1.0), low = doorInWallAlongY(8.0, 5.0, 0.9),
             w_up = doorInWallAlongX(2.0, 11.0, 1.0), m_up = doorInWallAlongX(9.0, 11.0, 1.4),

@@ -162,7 +162,7 @@ class PairEdge {
 }  // namespace
 
 void adjust(KeyFrames& frames, int rounds, const DoAll& do_all) {
-  constexpr double kFirstReach = 0.3, kShrink = 0.8, kLastReach = 0.1;
+  constexpr double kFirstReach = 0.3, kNarrows = 0.8, kLastReach = 0.1;
   constexpr int kAtOnce = 64;  // matches, so that sharing them out costs nothing
   std::vector<PairEdge> pairs;
   for (const auto& [a, b] : pairsInView(frames)) {
@@ -194,7 +194,7 @@ void adjust(KeyFrames& frames, int rounds, const DoAll& do_all) {
     for (int k = 0; k < frames.size(); ++k)
       frames.graph.place(k, poses[static_cast<std::size_t>(k)]);
     if (reach <= kLastReach && moved < 1e-3) break;
-    reach = std::max(kLastReach, kShrink * reach);
+    reach = std::max(kLastReach, kNarrows * reach);
   }
 }
 

@@ -56,7 +56,7 @@ void join(std::vector<int>& before, int a, int b) {
 }
 
 /// m; poses that a kernel however wide moves by less agree with their loops already.
-constexpr double kSettled = 0.05;
+constexpr double kAgreed = 0.05;
 /// m; after a step of less, what is left is its square.
 constexpr double kPrecise = 2e-3;
 constexpr int kMostIterations = 20;
@@ -308,8 +308,8 @@ bool Settlement::advance() {
   const std::optional<double> moved = s.solver->attempt();
   if (!moved) return false;
   --s.iterations;
-  s.is_settled = s.is_settled && *moved <= kSettled;
-  if (*moved > kSettled && s.iterations > 0) return false;
+  s.is_settled = s.is_settled && *moved <= kAgreed;
+  if (*moved > kAgreed && s.iterations > 0) return false;
   // A kernel that moves nothing leaves nothing to the narrower ones between it and the last.
   if (s.is_settled && s.kernels.size() > 1) s.kernels.resize(2);
   s.kernels.pop_back();

@@ -1,11 +1,10 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
 """own_robot.py WORLD.yaml X,Y,DEG REPORT.json [--latency S] [--localised] [--wrong-until S [--path]] [--speed N]
-             [--seed N]
-             [--two-lasers] [--bar X1,Y1,X2,Y2 --bar-seen-by points|range]
+             [--seed N] [--bend DEG] [--two-lasers] [--bar X1,Y1,X2,Y2 --bar-seen-by points|range]
 
 A robot that shares no code with the project: a disc on two wheels, whose base answers late and has limits,
-whose odometry is 2 % too long and turns one degree a metre, and whose laser sees 270 degrees, hangs off the
+whose odometry is 2 % too long and turns a degree a metre (or --bend), and whose laser sees 270 degrees, hangs off the
 centre, and errs by 1 cm. Gives /clock, scan, odom and tf, takes cmd_vel; --localised: also map -> odom, the
 truth, which it is WRONG by for the first --wrong-until seconds; --path: then it tells where the robot has been,
 as corrected_path. --two-lasers: one looks ahead, one back, 150 degrees each, as scan_front and scan_rear. --bar: lies
@@ -41,7 +40,7 @@ FRONT, REAR = (0.15, 0.0, 0.0), (-0.15, 0.0, math.pi)
 HALF_BEAMS, HALF_FIELD = 301, math.radians(150.0)
 SHORT_SIGHT, SHORT_FIELD = 0.8, math.radians(20.0)
 SHORT_BEARINGS = [math.radians(degrees) for degrees in (-80, -60, -40, -20, 0, 20, 40, 60, 80)]
-STRETCH, BEND = 1.02, math.radians(1.0)  # of the odometry: factor, rad/m
+STRETCH = 1.02  # of the odometry
 
 
 class World:
@@ -229,7 +228,7 @@ class OwnRobot:
         self.pose = compose(self.pose, step)
         self.way += abs(self.v) * TICK
         self.odometry = compose(self.odometry, (STRETCH * step[0], STRETCH * step[1],
-                                                step[2] + BEND * abs(self.v) * TICK))
+                                                step[2] + math.radians(self.options.bend) * abs(self.v) * TICK))
         self.time += TICK
 
     def tell_path(self):
@@ -323,6 +322,7 @@ def main():
     parser.add_argument("--latency", type=float, default=0.0)
     parser.add_argument("--speed", type=float, default=1.0)
     parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--bend", type=float, default=1.0)
     parser.add_argument("--localised", action="store_true")
     parser.add_argument("--wrong-until", type=float, default=0.0)
     parser.add_argument("--path", action="store_true")

@@ -12,6 +12,13 @@ namespace cca {
 /// No 2-D laser measures finer than this [m]; keeps noise-free simulations well posed.
 inline constexpr double kFinestSigma = 1e-3;
 
+/// Standard deviation over the median of |x|, x normal.
+inline constexpr double kMedianToSigma = 1.4826;
+/// Of a - 2 b + c, over that of each: sqrt(1 + 4 + 1).
+inline constexpr double kSecondDifference = 2.449489742783178;
+/// Deviations within which a line explains a return.
+inline constexpr double kGates = 3.0;
+
 /// Variances [m^2] of a point that stands for a place on a line.
 struct LineNoise {
   double across = 0.0;  ///< > 0, of its distance from the line

@@ -16,6 +16,9 @@ using Polygon = std::vector<Eigen::Vector2d>;                  ///< m, counter-c
 using WallFace = std::pair<Eigen::Vector2d, Eigen::Vector2d>;  ///< m, its two ends
 using Opening = std::pair<double, double>;                     ///< m along a wall, from its start
 
+/// m, thickness of the walls of generated buildings.
+inline constexpr double kOuterWall = 0.2, kInnerWall = 0.1;
+
 /// A building as vectors: solid polygons in a free rectangle from (0, 0) to (width, height). The
 /// lines that a perfect mapper would find follow from it exactly.
 struct FloorPlan {

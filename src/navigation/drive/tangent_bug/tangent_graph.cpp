@@ -8,7 +8,7 @@ namespace cca {
 namespace {
 
 // A chord of this arc dents a disc of 0.3 m by 18 mm.
-constexpr double kAround = 40.0 * M_PI / 180.0;
+constexpr double kDetour = 40.0 * M_PI / 180.0;
 
 Eigen::Vector2d onCircle(const Eigen::Vector2d& center, double radius, double angle) {
   return center + radius * Eigen::Vector2d(std::cos(angle), std::sin(angle));
@@ -40,7 +40,7 @@ std::vector<TangentNode> localTangentGraph(const LocalView& view, const Configur
       const double turn = free_on_the_left ? -1.0 : 1.0;
       const double opening = distance > radius ? std::acos(radius / distance) : 0.0;
       const double tangent = std::atan2(back.y(), back.x()) + turn * opening;
-      for (double around : {kAround, 0.5 * kAround, 0.0}) {
+      for (double around : {kDetour, 0.5 * kDetour, 0.0}) {
         const Eigen::Vector2d node = onCircle(edge_map, radius, tangent + turn * around);
         if (!space.isFree(x_map, node)) continue;
         nodes.push_back({node, edge_map, free_on_the_left});
