@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "cca_mrpt/navigation/place/hazard_memory.hpp"
+#include "cca_mrpt/navigation/drive/short_memory.hpp"
 #include "cca_mrpt/ros/transforms.hpp"
 
 namespace cca {

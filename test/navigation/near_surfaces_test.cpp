@@ -7,7 +7,7 @@
 #include <random>
 
 #include "box_world.hpp"
-#include "cca_mrpt/navigation/place/scan_smoothing.hpp"
+#include "cca_mrpt/mapping/range_noise.hpp"
 
 namespace cca::testing {
 namespace {

@@ -3,10 +3,64 @@
 
 #include <gtest/gtest.h>
 
+#include <random>
+
 #include "box_world.hpp"
 
 namespace cca::testing {
 namespace {
+
+ConfigurationSpace randomSpace(unsigned seed) {
+  std::mt19937 generator(seed);
+  std::uniform_real_distribution<double> uniform(-5.0, 5.0);
+  ConfigurationSpace space;
+  space.radius = 0.3;
+  while (space.obstacles.size() < 60) {
+    const Eigen::Vector2d p(uniform(generator), uniform(generator));
+    if (p.norm() > 0.31) space.obstacles.push_back(p);
+  }
+  return space;
+}
+
+TEST(ConfigurationSpace, StopsARadiusBeforeAPointAhead) {
+  const ConfigurationSpace space{{{2.0, 0.0}}, 0.3};
+  EXPECT_NEAR(space.freeDistance({0, 0}, {1, 0}, 10.0), 1.7, 1e-12);
+  EXPECT_DOUBLE_EQ(space.freeDistance({0, 0}, {-1, 0}, 10.0), 10.0);
+}
+
+TEST(ConfigurationSpace, PassesAPointAtTheTangentsBearing) {
+  const ConfigurationSpace space{{{2.0, 0.0}}, 0.3};
+  const double tangent = std::asin(0.3 / 2.0);
+  const auto towards = [](double a) { return Eigen::Vector2d(std::cos(a), std::sin(a)); };
+  EXPECT_DOUBLE_EQ(space.freeDistance({0, 0}, towards(tangent + 1e-6), 5.0), 5.0);
+  EXPECT_LT(space.freeDistance({0, 0}, towards(tangent - 1e-6), 5.0), 2.0);
+}
+
+TEST(ConfigurationSpace, AllBearingsAtOnceEqualEachOneAlone) {
+  for (unsigned seed = 0; seed < 20; ++seed) {
+    const ConfigurationSpace space = randomSpace(seed);
+    const auto ranges = space.freeRanges({0, 0}, 360, 4.0);
+    for (int k = 0; k < 360; ++k) {
+      const double a = 2.0 * M_PI * k / 360;
+      const double alone = space.freeDistance({0, 0}, {std::cos(a), std::sin(a)}, 4.0);
+      EXPECT_NEAR(ranges[static_cast<std::size_t>(k)].distance, alone, 1e-9);
+    }
+  }
+}
+
+TEST(ConfigurationSpace, ARobotInContactMayLeaveAndSlideButNotGoDeeper) {
+  const ConfigurationSpace space{{{0.25, 0.0}}, 0.3};
+  EXPECT_DOUBLE_EQ(space.freeDistance({0, 0}, {-1, 0}, 1.0), 1.0);
+  EXPECT_DOUBLE_EQ(space.freeDistance({0, 0}, {0, 1}, 1.0), 1.0);
+  EXPECT_NEAR(space.freeDistance({0, 0}, {1, 0}, 1.0), 0.01, 1e-9);
+}
+
+TEST(ConfigurationSpace, WithoutObstaclesAllIsFree) {
+  const ConfigurationSpace space{{}, 0.3};
+  EXPECT_TRUE(space.isFree({0, 0}, {100, 0}));
+  EXPECT_TRUE(space.isFree({0, 0}, {0, 0}));
+  EXPECT_TRUE(std::isinf(space.clearance({0, 0})));
+}
 
 constexpr double kRadius = 0.3;
 

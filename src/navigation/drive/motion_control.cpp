@@ -2,12 +2,119 @@
 #include "cca_mrpt/navigation/drive/motion_control.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
+
+#include "cca_mrpt/mapping/pose2.hpp"
 
 namespace cca {
 namespace {
+
 constexpr double kTurningGain = 2.5;  // 1/s; stable at 10 Hz with one period of delay
+
+constexpr double kStep = 0.05;   // s, of the predicted motion
+constexpr double kStill = 1e-9;  // m/s, rad/s
+// m, by which a hazard may come nearer that is inside the clearance, and inside the robot itself: a
+// robot that touches something only turns or leaves.
+constexpr double kDeeper = 1e-4, kRounding = 1e-9;
+constexpr double kAside = 0.5 * M_PI + 0.02;  // rad, from a hazard: past it
+
+double towards(double from, double to, double step) {
+  return from < to ? std::min(to, from + step) : std::max(to, from - step);
 }
+
+struct Predicted {
+  Eigen::Vector2d p_robot;
+  double time;
+};
+
+// The command for one period, then braking until it stands.
+std::vector<Predicted> stoppingPath(const OtherStart& start, const Velocity& command,
+                                    const Velocity& brakes, double period) {
+  std::vector<Predicted> path;
+  Pose2 pose = start.T_robot_other;
+  const Velocity& present = start.velocity;
+  Velocity velocity = present;
+  double time = start.time;
+  const auto advance = [&](const Velocity& next) {
+    const double w = 0.5 * (velocity.angular + next.angular);
+    const double v = 0.5 * (velocity.linear + next.linear);
+    const double heading = pose.theta + 0.5 * w * kStep;
+    pose.x += v * kStep * std::cos(heading);
+    pose.y += v * kStep * std::sin(heading);
+    pose.theta += w * kStep;
+    velocity = next;
+    time += kStep;
+    path.push_back({pose.position(), time});
+  };
+  // The command may act late by up to one period or at once: the faster of both is assumed.
+  const Velocity first{std::max(present.linear, command.linear), command.angular};
+  while (time < start.time + period - 1e-9) advance(first);
+  velocity = {std::max(present.linear, command.linear), command.angular};
+  while (velocity.linear > kStill || std::abs(velocity.angular) > kStill) {
+    advance({towards(velocity.linear, 0.0, brakes.linear * kStep),
+             towards(velocity.angular, 0.0, brakes.angular * kStep)});
+  }
+  return path;
+}
+
+bool isSafe(const std::vector<Predicted>& path, const std::vector<Hazard>& hazards, double radius,
+            double robot_radius) {
+  for (const Hazard& hazard : hazards) {
+    const double start = hazard.p_robot.norm();
+    const double keep =
+        std::min(radius - hazard.allowance, start) - (start < robot_radius ? kRounding : kDeeper);
+    for (const Predicted& at : path) {
+      const double distance = (hazard.p_robot - at.p_robot).norm();
+      if (distance - hazard.closing_speed * at.time < keep) return false;
+    }
+  }
+  return true;
+}
+
+double nearest(const std::vector<Predicted>& path, const Hazard& hazard) {
+  double least = std::numeric_limits<double>::infinity();
+  for (const Predicted& at : path) {
+    const double distance = (hazard.p_robot - at.p_robot).norm();
+    least = std::min(least, distance - hazard.closing_speed * at.time);
+  }
+  return least;
+}
+
+// Those that the robot could come near to before it stands.
+std::vector<Hazard> hazardsInReach(const std::vector<Hazard>& hazards, double speed, double radius,
+                                   double period, const Velocity& brakes,
+                                   const std::vector<OtherStart>& others) {
+  double v_max = std::max(speed, 0.0), off = 0.0, delay = 0.0;
+  for (const OtherStart& other : others) {
+    v_max = std::max(v_max, other.velocity.linear);
+    off = std::max(off, other.T_robot_other.position().norm());
+    delay = std::max(delay, other.time);
+  }
+  const double time = period + v_max / brakes.linear;
+  const double stopping = off + v_max * period + 0.5 * v_max * v_max / brakes.linear;
+  std::vector<Hazard> near;
+  for (const Hazard& hazard : hazards) {
+    const double reach = radius + stopping + hazard.closing_speed * (delay + time);
+    if (hazard.p_robot.squaredNorm() < reach * reach) near.push_back(hazard);
+  }
+  return near;
+}
+
+// How near braking from a start comes to each hazard, or what has to be kept where that is less.
+std::vector<double> nearestBraking(const OtherStart& start, const Velocity& braking,
+                                   const std::vector<Hazard>& hazards, double radius,
+                                   const Velocity& brakes, double period) {
+  const auto path = stoppingPath(start, braking, brakes, period);
+  std::vector<double> keep;
+  for (const Hazard& hazard : hazards) {
+    keep.push_back(std::min(radius - hazard.allowance, nearest(path, hazard)) - kDeeper);
+  }
+  return keep;
+}
+
+}  // namespace
 
 Velocity velocityTowards(const Eigen::Vector2d& target_robot, bool stop_at_target,
                          const RobotParameters& robot) {
@@ -31,6 +138,79 @@ Velocity velocityTowards(const Eigen::Vector2d& target_robot, bool stop_at_targe
         std::min(velocity.linear, std::sqrt(2.0 * 0.7 * robot.max_linear_acceleration * distance));
   }
   return velocity;
+}
+
+double bearingPast(const std::vector<Hazard>& hazards, double radius, double bearing) {
+  std::vector<double> bearings;  // of those that are too near
+  for (const Hazard& hazard : hazards) {
+    if (hazard.p_robot.norm() >= radius - hazard.allowance) continue;
+    bearings.push_back(std::atan2(hazard.p_robot.y(), hazard.p_robot.x()));
+  }
+  const auto isPast = [&](double direction) {
+    return std::all_of(bearings.begin(), bearings.end(), [&](double towards) {
+      return std::abs(wrapAngle(direction - towards)) > 0.5 * M_PI;
+    });
+  };
+  if (isPast(bearing)) return bearing;
+  double best = bearing, least = std::numeric_limits<double>::infinity();
+  for (const double towards : bearings) {
+    for (const double aside : {-kAside, kAside}) {
+      const double off = std::abs(wrapAngle(towards + aside - bearing));
+      if (off >= least || !isPast(towards + aside)) continue;
+      least = off;
+      best = towards + aside;
+    }
+  }
+  return best;
+}
+
+Velocity safeVelocity(const Velocity& wanted, const Velocity& present,
+                      const std::vector<Hazard>& hazards, const RobotParameters& robot,
+                      double radius, double period, const Velocity& brakes,
+                      const std::vector<OtherStart>& others) {
+  const double dv = robot.max_linear_acceleration * period;
+  const double dw = robot.max_angular_acceleration * period;
+  const auto reachable = [&](double v, double w) {
+    v = std::clamp(v, 0.0, robot.max_linear_velocity);
+    w = std::clamp(w, -robot.max_angular_velocity, robot.max_angular_velocity);
+    return Velocity{towards(present.linear, v, dv), towards(present.angular, w, dw)};
+  };
+  const auto near = hazardsInReach(hazards, present.linear + dv, radius, period, brakes, others);
+  const Velocity braking = reachable(0.0, 0.0);
+  std::vector<std::vector<double>> kept;
+  for (const OtherStart& other : others) {
+    kept.push_back(nearestBraking(other, braking, near, radius, brakes, period));
+  }
+  const auto isAllowed = [&](const Velocity& command) {
+    if (near.empty()) return true;
+    const auto path = stoppingPath({{}, present, 0.0}, command, brakes, period);
+    if (!isSafe(path, near, radius, robot.radius)) return false;
+    for (std::size_t i = 0; i < others.size(); ++i) {
+      const auto other_path = stoppingPath(others[i], command, brakes, period);
+      for (std::size_t k = 0; k < near.size(); ++k) {
+        if (nearest(other_path, near[k]) < kept[i][k]) return false;
+      }
+    }
+    return true;
+  };
+  const Velocity first = reachable(wanted.linear, wanted.angular);
+  if (isAllowed(first)) return first;
+  Velocity best = braking;
+  double least = std::numeric_limits<double>::infinity();
+  for (double speed : {1.0, 0.75, 0.5, 0.25, 0.1, 0.0}) {
+    for (double turn : {0.0, 0.25, -0.25, 0.5, -0.5, 1.0, -1.0}) {
+      const double w = speed == 0.0 && turn == 0.0
+                           ? wanted.angular
+                           : wanted.angular * speed + turn * robot.max_angular_velocity;
+      const Velocity candidate = reachable(first.linear * speed, w);
+      const double cost = std::abs(candidate.linear - first.linear) / robot.max_linear_velocity +
+                          std::abs(candidate.angular - wanted.angular) / robot.max_angular_velocity;
+      if (cost >= least || !isAllowed(candidate)) continue;
+      least = cost;
+      best = candidate;
+    }
+  }
+  return best;
 }
 
 }  // namespace cca

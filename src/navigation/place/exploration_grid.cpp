@@ -7,8 +7,8 @@
 #include <cmath>
 
 #include "cca_mrpt/mapping/cross.hpp"
+#include "cca_mrpt/mapping/range_noise.hpp"
 #include "cca_mrpt/navigation/place/beam.hpp"
-#include "cca_mrpt/navigation/place/scan_smoothing.hpp"
 
 namespace cca {
 namespace {

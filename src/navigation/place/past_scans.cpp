@@ -8,6 +8,9 @@
 #include <limits>
 #include <utility>
 
+#include "cca_mrpt/mapping/line_map.hpp"
+#include "cca_mrpt/mapping/scan_agreement.hpp"
+
 namespace cca {
 namespace {
 
@@ -26,6 +29,28 @@ void keep(std::vector<PastScans::Kept>& kept, const PastScans::Kept& candidate) 
   }
   kept.push_back(candidate);
 }
+
+// Of map -> odom, between two scans: more than localisations correct at a step, and than wheels
+// err on the way between the two.
+constexpr double kLeap = 0.1, kLeapTurn = 0.035, kWheels = 0.1;  // m, rad, of the way
+constexpr double kTurnWay = 0.3;                                 // m/rad: wheels turn for that, too
+constexpr double kWorthCorrecting = 0.02, kWorthCorrectingTurn = 0.01;  // m, rad
+constexpr double kSameTime = 0.05;                                      // s, of a pose and a scan
+// Returns, of the 90 that a scan is compared by: wheels that slipped by a tenth of a radian come to
+// 13, a localisation that was wrong by a metre to 65 and more.
+constexpr int kClearlyBetter = 30;
+constexpr std::size_t kMostCompared = 150;  // scans
+
+/// So much of a motion, in [0, 1].
+Pose2 part(const Pose2& T, double share) { return {share * T.x, share * T.y, share * T.theta}; }
+
+/// Between two motions, so much of the way from a to b, as a robot at `at` sees it.
+Pose2 between(const Pose2& a, const Pose2& b, double share, const Pose2& at) {
+  const Pose2 from = a * at, to = b * at;
+  return from * part(from.inverse() * to, share) * at.inverse();
+}
+
+double wayOf(const Pose2& step) { return step.position().norm() + kTurnWay * std::abs(step.theta); }
 
 }  // namespace
 
@@ -70,6 +95,158 @@ Pose2 PastScans::correctionAt(const Eigen::Vector2d& p_was) const {
 
 Pose2 PastScans::correctionHere() const {
   return kept_.empty() ? Pose2{} : kept_.back().T_map_robot * kept_.back().T_was_robot.inverse();
+}
+
+bool OuterCorrections::add(const Scan& scan, const Pose2& T_map_robot, const Pose2& T_odom_robot,
+                           double time) {
+  if (last_) past_.add(*last_, steps_.back().T_map_odom * steps_.back().T_odom_robot);
+  Step now{time, 0.0, T_odom_robot, T_map_robot * T_odom_robot.inverse()};
+  bool is_corrected = false;
+  if (!steps_.empty()) {
+    now.way = steps_.back().way + wayOf(steps_.back().T_odom_robot.inverse() * T_odom_robot);
+    const bool has_leapt = hasLeapt(now);
+    if (is_told_ ? is_path_new_ || has_leapt : has_leapt) {
+      if (const auto corrected = is_told_ ? afterPath(now) : afterLeap(now, scan)) {
+        place(*corrected);
+        is_corrected = true;
+      }
+    }
+    if (has_leapt && (is_told_ || is_corrected)) last_leap_ = steps_.size();
+    is_path_new_ = false;
+  }
+  steps_.push_back(now);
+  last_ = scan;
+  return is_corrected;
+}
+
+void OuterCorrections::addBeside(const Scan& scan, std::size_t sensor) {
+  if (steps_.empty()) return;
+  past_.addBeside(steps_.size() - 1, scan, steps_.back().T_map_odom * steps_.back().T_odom_robot,
+                  sensor);
+}
+
+std::vector<OuterCorrections::TimedPose> OuterCorrections::way() const {
+  std::vector<TimedPose> way;
+  for (const Step& step : steps_) way.push_back({step.time, step.T_map_odom * step.T_odom_robot});
+  return way;
+}
+
+void OuterCorrections::correct(std::vector<TimedPose> path) {
+  path.erase(std::remove_if(path.begin(), path.end(),
+                            [](const TimedPose& pose) {
+                              const Pose2& T = pose.T_map_robot;
+                              return !std::isfinite(pose.time + T.x + T.y + T.theta);
+                            }),
+             path.end());
+  path_ = std::move(path);
+  is_told_ = is_path_new_ = true;
+}
+
+bool OuterCorrections::hasLeapt(const Step& now) const {
+  const Step& before = steps_.back();
+  const Pose2 expected = before.T_map_odom * now.T_odom_robot;
+  const Pose2 off = expected.inverse() * (now.T_map_odom * now.T_odom_robot);
+  const double by_wheels = kWheels * (now.way - before.way);
+  return off.position().norm() > kLeap + by_wheels || std::abs(off.theta) > kLeapTurn + by_wheels;
+}
+
+/// The leap, from nothing at the step `since` to all of it now; of what lies before, all or none.
+OuterCorrections::Odometries OuterCorrections::spread(const Step& now, std::size_t since,
+                                                      bool moves_all) const {
+  const Pose2 T_now_was = now.T_map_odom * steps_.back().T_map_odom.inverse();
+  const double begin = steps_[since].way, length = now.way - begin;
+  Odometries T_map_odom;
+  for (std::size_t k = 0; k < steps_.size(); ++k) {
+    const Step& step = steps_[k];
+    double share = k < since ? 0.0 : length > 0.0 ? (step.way - begin) / length : 1.0;
+    if (moves_all) share = 1.0;
+    T_map_odom.push_back(
+        between(step.T_map_odom, T_now_was * step.T_map_odom, share, step.T_odom_robot));
+  }
+  return T_map_odom;
+}
+
+/// Nothing where the past is right as it is: wheels that slipped look like a localisation that was
+/// corrected, and only the scans tell the two apart.
+std::optional<OuterCorrections::Odometries> OuterCorrections::afterLeap(const Step& now,
+                                                                        const Scan& scan) const {
+  std::vector<Odometries> candidates{spread(now, 0, false)};
+  if (last_leap_ > 0 && last_leap_ < steps_.size()) {
+    candidates.push_back(spread(now, last_leap_, false));
+  }
+  candidates.push_back(spread(now, 0, true));
+  Odometries as_it_is;
+  for (const Step& step : steps_) as_it_is.push_back(step.T_map_odom);
+  int most = agreement(as_it_is, scan) + kClearlyBetter;
+  std::optional<Odometries> best;
+  for (Odometries& candidate : candidates) {
+    const int agreed = agreement(candidate, scan);
+    if (agreed <= most) continue;
+    most = agreed;
+    best = std::move(candidate);
+  }
+  return best;
+}
+
+std::optional<OuterCorrections::Odometries> OuterCorrections::afterPath(const Step& now) const {
+  std::vector<std::pair<double, Pose2>> known;  // T_map_odom at a time
+  for (const TimedPose& pose : path_) {
+    const auto after = std::lower_bound(
+        steps_.begin(), steps_.end(), pose.time,
+        [](const Step& step, double time) { return step.time < time - kSameTime; });
+    if (after == steps_.end() || after->time > pose.time + kSameTime) continue;
+    if (!known.empty() && after->time <= known.back().first) continue;
+    known.emplace_back(after->time, pose.T_map_robot * after->T_odom_robot.inverse());
+  }
+  if (known.empty()) return std::nullopt;
+  known.emplace_back(now.time, now.T_map_odom);
+  Odometries T_map_odom;
+  bool is_worth_it = false;
+  std::size_t next = 0;
+  for (const Step& step : steps_) {
+    while (next + 1 < known.size() && known[next].first < step.time) ++next;
+    const auto& [to, T_to] = known[next];
+    Pose2 T = T_to;
+    if (next > 0 && step.time < to) {
+      const auto& [from, T_from] = known[next - 1];
+      T = between(T_from, T_to, (step.time - from) / (to - from), step.T_odom_robot);
+    }
+    const Pose2 off = (step.T_map_odom * step.T_odom_robot).inverse() * (T * step.T_odom_robot);
+    is_worth_it = is_worth_it || off.position().norm() > kWorthCorrecting ||
+                  std::abs(off.theta) > kWorthCorrectingTurn;
+    T_map_odom.push_back(T);
+  }
+  if (!is_worth_it) return std::nullopt;
+  return T_map_odom;
+}
+
+/// Returns of the scan just taken that lie on a wall of the line map that those kept make, less the
+/// returns of all scans from behind a wall of those before. What the scans kept confirm is no
+/// evidence: each finds again what its neighbours saw, however the whole is bent.
+int OuterCorrections::agreement(const Odometries& T_map_odom, const Scan& scan) const {
+  const auto& kept = past_.kept();
+  const std::size_t every = 1 + kept.size() / kMostCompared;
+  LineMap map(mapping_);
+  int contradicted = 0;
+  for (std::size_t k = 0; k < kept.size(); k += every) {
+    Scan placed = kept[k].scan;
+    const Pose2 T_robot_sensor = kept[k].T_map_robot.inverse() * placed.T_map_sensor;
+    const std::size_t step = kept[k].step;
+    placed.T_map_sensor = T_map_odom[step] * steps_[step].T_odom_robot * T_robot_sensor;
+    contradicted += compareWithMap(placed, map.walls()).contradicted;
+    map.insert(placed);
+  }
+  const ScanVerdict verdict = compareWithMap(scan, map.walls());
+  return verdict.confirmed - verdict.contradicted - contradicted;
+}
+
+void OuterCorrections::place(const Odometries& T_map_odom) {
+  std::vector<Pose2> T_map_robot;
+  for (std::size_t k = 0; k < steps_.size(); ++k) {
+    steps_[k].T_map_odom = T_map_odom[k];
+    T_map_robot.push_back(T_map_odom[k] * steps_[k].T_odom_robot);
+  }
+  past_.correct(T_map_robot, std::vector<bool>(steps_.size(), true));
 }
 
 }  // namespace cca

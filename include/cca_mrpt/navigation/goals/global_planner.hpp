@@ -8,9 +8,9 @@
 
 #include "cca_mrpt/navigation/goals/aside_goals.hpp"
 #include "cca_mrpt/navigation/goals/frontier_views.hpp"
-#include "cca_mrpt/navigation/goals/goal_selection.hpp"
 #include "cca_mrpt/navigation/goals/last_look.hpp"
 #include "cca_mrpt/navigation/goals/unpaid_way.hpp"
+#include "cca_mrpt/navigation/goals/view_points.hpp"
 #include "cca_mrpt/navigation/goals/view_tour.hpp"
 #include "cca_mrpt/navigation/place/known_place.hpp"
 

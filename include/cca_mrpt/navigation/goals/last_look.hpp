@@ -8,7 +8,6 @@
 #include <string>
 #include <vector>
 
-#include "cca_mrpt/navigation/goals/goal_selection.hpp"
 #include "cca_mrpt/navigation/goals/view_points.hpp"
 #include "cca_mrpt/navigation/place/known_place.hpp"
 

@@ -7,15 +7,35 @@
 #include <utility>
 #include <vector>
 
+#include "cca_mrpt/mapping/scan.hpp"
 #include "cca_mrpt/navigation/place/barred_ways.hpp"
+#include "cca_mrpt/navigation/place/cell.hpp"
 #include "cca_mrpt/navigation/place/exploration_grid.hpp"
 #include "cca_mrpt/navigation/place/free_space.hpp"
 #include "cca_mrpt/navigation/place/frontier.hpp"
 #include "cca_mrpt/navigation/place/grid_paths.hpp"
 #include "cca_mrpt/navigation/place/past_scans.hpp"
-#include "cca_mrpt/navigation/place/scanned_places.hpp"
 
 namespace cca {
+
+/// The places from which all directions have been looked into, by blocks of the free space (0.2 m):
+/// nothing more is to be seen from there, so they are no goals.
+class ScannedPlaces {
+ public:
+  /// Takes the directions (map frame) that a scan looks into, in 32 sectors. Scans of a narrow
+  /// field of view add up.
+  void add(Cell robot, const Scan& scan);
+
+  /// All directions, wherever the laser has looked.
+  void addAll(Cell robot);
+
+  bool contains(Cell c) const;
+  bool containsBlock(Cell block) const { return done_.at(block) != 0; }
+
+ private:
+  TiledGrid<char> done_{0};
+  TiledGrid<std::uint32_t> looked_{0};  ///< the directions, a bit each, while some are missing
+};
 
 /// What is known of the place: what the laser has seen, where the robot can be, the shortest ways,
 /// the frontiers, and from where there is nothing more to see.

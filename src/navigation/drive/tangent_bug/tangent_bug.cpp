@@ -7,7 +7,6 @@
 
 #include "cca_mrpt/mapping/cross.hpp"
 #include "cca_mrpt/mapping/range_noise.hpp"
-#include "cca_mrpt/navigation/place/scan_smoothing.hpp"
 
 namespace cca {
 namespace {

@@ -2,15 +2,61 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <functional>
 #include <optional>
 #include <vector>
 
 #include "cca_mrpt/navigation/drive/local_view.hpp"
-#include "cca_mrpt/navigation/drive/tangent_bug/boundary_trace.hpp"
-#include "cca_mrpt/navigation/drive/tangent_bug/circling.hpp"
-#include "cca_mrpt/navigation/drive/tangent_bug/configuration_space.hpp"
+#include "cca_mrpt/navigation/drive/tangent_bug/tangent_graph.hpp"
 
 namespace cca {
+
+/// A place on the boundary of the configuration space.
+struct BoundaryPoint {
+  Eigen::Vector2d center_map;  ///< m, of the robot touching the obstacle
+  int obstacle = 0;            ///< that it touches
+  double length = 0.0;         ///< m, along the boundary from the trace's start
+  double heading = 0.0;        ///< rad, of the motion, unwrapped along the trace
+};
+
+/// Rolls the robot's disc along the obstacle points, from the place nearest to `start_map`.
+///
+/// The disc turns around the point that it touches until it touches another one, and so on: an
+/// exact walk along the union of discs, whatever order or spacing the points have. Headings count
+/// whole turns: +2 pi for a closed loop walked counter-clockwise.
+///
+/// @param on_the_right  the obstacle lies on the right of the motion.
+/// @param longest       m. @param goes_on  asked at each new place; false ends the trace before it.
+/// @return  points at most 20 degrees of arc apart; empty where there is no obstacle.
+/// Cost: O(touched points * obstacles).
+std::vector<BoundaryPoint> traceBoundary(
+    const ConfigurationSpace& space, const Eigen::Vector2d& start_map, bool on_the_right,
+    double longest, const std::function<bool(const Eigen::Vector2d&)>& goes_on);
+
+/// The proof that a boundary has been circled.
+///
+/// It is closed where the walk along it stands again where it stood before, a whole turn later. The
+/// winding is what tells a loop from the way back along the other side of a corridor; the length
+/// tells it from standing still. Once around any closed curve the heading turns by 2 pi, either
+/// way.
+class Circling {
+ public:
+  /// @param p_map    m, on the boundary. @param length  m, walked along it.
+  /// @param heading  rad, of the walk, unwrapped.
+  void add(const Eigen::Vector2d& p_map, double length, double heading);
+  void reset() { *this = {}; }
+
+  bool closed() const { return closed_; }
+
+ private:
+  struct Place {
+    Eigen::Vector2d p_map;
+    double length, heading;
+  };
+  std::vector<Place> places_;
+  double again_since_ = -1.0;  ///< m, where the walk came upon its own traces; below 0: it did not
+  bool closed_ = false;
+};
 
 /// Boundary following [Kamon, Rimon & Rivlin 1998, Sec. 3]: along the obstacle in one direction,
 /// by the shortest way that is in sight, keeping d_followed and the proof of having been all

@@ -6,7 +6,6 @@
 #include <optional>
 #include <vector>
 
-#include "cca_mrpt/navigation/drive/tangent_bug/configuration_space.hpp"
 #include "cca_mrpt/navigation/drive/tangent_bug/tangent_graph.hpp"
 
 namespace cca {

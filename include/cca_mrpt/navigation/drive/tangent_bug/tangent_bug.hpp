@@ -11,11 +11,10 @@
 #include "cca_mrpt/navigation/drive/moving_points.hpp"
 #include "cca_mrpt/navigation/drive/near_surfaces.hpp"
 #include "cca_mrpt/navigation/drive/robot.hpp"
+#include "cca_mrpt/navigation/drive/short_memory.hpp"
 #include "cca_mrpt/navigation/drive/tangent_bug/boundary_follower.hpp"
-#include "cca_mrpt/navigation/drive/tangent_bug/configuration_space.hpp"
 #include "cca_mrpt/navigation/drive/tangent_bug/motion_to_goal.hpp"
 #include "cca_mrpt/navigation/drive/tangent_bug/progress_watch.hpp"
-#include "cca_mrpt/navigation/drive/tangent_bug/short_memory.hpp"
 #include "cca_mrpt/navigation/drive/tangent_bug/tangent_graph.hpp"
 #include "cca_mrpt/navigation/drive/target_driver.hpp"
 

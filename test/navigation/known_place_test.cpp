@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "cca_mrpt/navigation/place/scanned_places.hpp"
+#include "cca_mrpt/navigation/place/known_place.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "cca_mrpt/navigation/place/scan_smoothing.hpp"
+#include "cca_mrpt/mapping/range_noise.hpp"
 
 #include <gtest/gtest.h>
 
 #include <random>
 
-#include "box_world.hpp"
+#include "../navigation/box_world.hpp"
 
 namespace cca::testing {
 namespace {
