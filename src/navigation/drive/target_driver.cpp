@@ -105,9 +105,12 @@ std::vector<Hazard> TargetDriver::hazards(const LocalView& view, const Onset& on
 }
 
 void TargetDriver::noteWhetherHeld(bool is_held, double time) {
-  if (!is_held) held_since_.reset();
-  if (is_held && !held_since_) held_since_ = time;
-  if (is_held && time - *held_since_ > kHeld) gets_away_until_ = time + kGettingAway;
+  if (is_held) {
+    held_.run(time);
+  } else {
+    held_.stop();
+  }
+  if (held_.isOver(kHeld, time)) gets_away_until_ = time + kGettingAway;
 }
 
 // Where ranges are noisy, one scan that reads far must not be enough to go a step nearer: a robot

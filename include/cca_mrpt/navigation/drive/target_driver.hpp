@@ -11,6 +11,7 @@
 #include "cca_mrpt/navigation/drive/local_view.hpp"
 #include "cca_mrpt/navigation/drive/motion_control.hpp"
 #include "cca_mrpt/navigation/drive/moving_points.hpp"
+#include "cca_mrpt/navigation/drive/progress.hpp"
 #include "cca_mrpt/navigation/drive/robot.hpp"
 
 namespace cca {
@@ -64,7 +65,7 @@ class TargetDriver {
   RobotParameters robot_;
   CommandedMotion motion_;
   std::deque<std::vector<Eigen::Vector2d>> lately_near_map_;  ///< by scan, where ranges are noisy
-  std::optional<double> held_since_;  ///< s: it stands, wants to drive, and that is not safe
+  ProgressClock held_;  ///< while it stands, wants to drive, and that is not safe
   double gets_away_until_ = -std::numeric_limits<double>::infinity();  ///< s
 };
 

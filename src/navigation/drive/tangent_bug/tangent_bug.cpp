@@ -40,7 +40,7 @@ void TangentBug::setGoal(const Eigen::Vector2d& goal_map) {
   shut_map_.clear();
   stuck_at_map_.reset();
   started_at_map_.reset();
-  lost_since_.reset();
+  lost_.stop();
   starts_ = 0;
   least_distance_ = std::numeric_limits<double>::infinity();
   progress_ = {};
@@ -71,7 +71,7 @@ Velocity TangentBug::step(const Scan& scan, const Pose2& T_map_robot, const Velo
   }
   const bool still =
       state_ == TangentBugState::kMotionToGoal || state_ == TangentBugState::kBoundaryFollowing;
-  if (still && progress_.stuck(T_map_robot.position(), follower_.length(), time, moverIsNear())) {
+  if (still && progress_.isStuck(T_map_robot.position(), follower_.length(), time, moverIsNear())) {
     shutWhatIsTooNarrow();
   }
   std::optional<DriveTarget> target;
@@ -217,13 +217,13 @@ std::optional<Eigen::Vector2d> TangentBug::followBoundary() {
     return std::nullopt;
   }
   if (target) {
-    lost_since_.reset();
+    lost_.stop();
     return target;
   }
   // Noise hides a boundary for a moment; what moved away takes it along.
-  if (!lost_since_) lost_since_ = time_;
-  if (time_ - *lost_since_ > kLost) {
-    lost_since_.reset();
+  lost_.run(time_);
+  if (lost_.isOver(kLost, time_)) {
+    lost_.stop();
     state_ = TangentBugState::kMotionToGoal;
     motion_to_goal_.start();
   }

@@ -10,11 +10,11 @@
 #include "cca_mrpt/navigation/drive/local_view.hpp"
 #include "cca_mrpt/navigation/drive/moving_points.hpp"
 #include "cca_mrpt/navigation/drive/near_surfaces.hpp"
+#include "cca_mrpt/navigation/drive/progress.hpp"
 #include "cca_mrpt/navigation/drive/robot.hpp"
 #include "cca_mrpt/navigation/drive/short_memory.hpp"
 #include "cca_mrpt/navigation/drive/tangent_bug/boundary_follower.hpp"
 #include "cca_mrpt/navigation/drive/tangent_bug/motion_to_goal.hpp"
-#include "cca_mrpt/navigation/drive/tangent_bug/progress_watch.hpp"
 #include "cca_mrpt/navigation/drive/tangent_bug/tangent_graph.hpp"
 #include "cca_mrpt/navigation/drive/target_driver.hpp"
 
@@ -89,14 +89,14 @@ class TangentBug {
   RobotParameters robot_;
   Eigen::Vector2d goal_map_ = Eigen::Vector2d::Zero();
   TangentBugState state_ = TangentBugState::kReached;
-  ProgressWatch progress_;
+  WalkProgress progress_;
   std::vector<Eigen::Vector2d> shut_map_;  ///< places in gaps that proved too narrow
   std::optional<Eigen::Vector2d> stuck_at_map_;
   int times_stuck_ = 0;
   double least_distance_ = 0.0;  ///< m, between the robot and the goal, so far
   int starts_ = 0;               ///< of boundary following, since the robot came nearer than ever
   std::optional<Eigen::Vector2d> started_at_map_;
-  std::optional<double> lost_since_;
+  ProgressClock lost_;  ///< while the boundary that it follows is out of sight
   double time_ = 0.0;
   MovingPoints moving_points_;
   NearSurfaces near_surfaces_;

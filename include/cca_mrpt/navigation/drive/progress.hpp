@@ -3,14 +3,31 @@
 
 #include <Eigen/Core>
 #include <limits>
+#include <optional>
 #include <vector>
 
 #include "cca_mrpt/navigation/drive/robot.hpp"
 
 namespace cca {
 
+/// The clock of progress: how long there has been none. Times are in seconds and never fall.
+class ProgressClock {
+ public:
+  /// There is progress now, or an excuse for none.
+  void restart(double time) { since_ = time; }
+  /// Progress is expected from now on, unless it is already.
+  void run(double time) { since_ = since_.value_or(time); }
+  /// None is expected.
+  void stop() { since_.reset(); }
+
+  /// Whether it has run for longer than that. @param patience  s.
+  bool isOver(double patience, double time) const { return since_ && time - *since_ > patience; }
+
+ private:
+  std::optional<double> since_;  ///< s
+};
+
 /// Tells whether the robot gets on along its ways: what is left of one should become shorter.
-/// Times are in seconds and never fall.
 class WayProgress {
  public:
   explicit WayProgress(const RobotParameters& robot) : robot_(robot) {}
@@ -45,8 +62,30 @@ class WayProgress {
   RobotParameters robot_;
   int goal_ = -1;
   std::vector<Eigen::Vector2d> shortest_;
-  double least_ = 0.0, last_ = 0.0;      ///< m: length of the shortest, and at the last step
-  double since_ = 0.0, deadline_ = 0.0;  ///< s
+  double least_ = 0.0, last_ = 0.0;  ///< m: length of the shortest, and at the last step
+  ProgressClock clock_;
+  double deadline_ = 0.0;  ///< s
+};
+
+/// Notices that the robot gets nowhere, whatever way it takes: it neither leaves a place nor walks
+/// on along a boundary.
+class WalkProgress {
+ public:
+  /// Another boundary is followed, or the same one the other way: its length begins at zero, and it
+  /// has the whole patience.
+  void startWalk(double time);
+
+  /// @param x_map   m, the robot. @param length  m, walked along the boundary so far.
+  /// @param excused whether the robot waits for somebody: that time does not count.
+  /// @return        true where there has been no progress for kPatience; then it starts anew.
+  bool isStuck(const Eigen::Vector2d& x_map, double length, double time, bool excused);
+
+  static constexpr double kPatience = 6.0;  ///< s; a whole turn on the spot takes 4.5 s
+
+ private:
+  std::optional<Eigen::Vector2d> x_map_;  ///< m, when it last got on
+  double length_ = 0.0;                   ///< m, likewise
+  ProgressClock clock_;
 };
 
 }  // namespace cca

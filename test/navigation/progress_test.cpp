@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "cca_mrpt/navigation/drive/way_progress.hpp"
+#include "cca_mrpt/navigation/drive/progress.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,6 +7,19 @@
 
 namespace cca {
 namespace {
+
+TEST(ProgressClock, RunsFromTheFirstTimeThatProgressIsExpected) {
+  ProgressClock clock;
+  EXPECT_FALSE(clock.isOver(0.0, 100.0)) << "none is expected yet";
+  clock.run(2.0);
+  clock.run(3.0);
+  EXPECT_FALSE(clock.isOver(5.0, 7.0));
+  EXPECT_TRUE(clock.isOver(5.0, 7.1));
+  clock.restart(7.0);
+  EXPECT_FALSE(clock.isOver(5.0, 12.0));
+  clock.stop();
+  EXPECT_FALSE(clock.isOver(5.0, 100.0));
+}
 
 constexpr double kPatience = 10.0 + 2.0 * 3.14159265358979323846 / 1.5;  // s, of the default robot
 
@@ -66,6 +79,59 @@ TEST(WayProgress, StandingStillByOrderIsExcused) {
   progress.note(2, {{0.0, 0.0}, {14.0, 0.0}}, 1040.0);
   progress.excuse(1041.0);
   EXPECT_FALSE(progress.isOverdue(1169.0)) << "what time it had is not taken away";
+}
+
+const Eigen::Vector2d kHere(1.0, 2.0);
+
+struct At {
+  Eigen::Vector2d x_map;
+  double length;
+};
+
+/// The first time (s) at which it is stuck, of steps of 0.1 s until `end`; `end` where it is not.
+double stuckAt(WalkProgress& watch, double start, double end, const std::function<At(double)>& at) {
+  for (double time = start; time < end; time += 0.1) {
+    if (watch.isStuck(at(time).x_map, at(time).length, time, false)) return time;
+  }
+  return end;
+}
+
+TEST(WalkProgress, WhoeverStandsIsStuckWhenThePatienceEnds) {
+  WalkProgress watch;
+  EXPECT_NEAR(stuckAt(watch, 0.0, 100.0,
+                      [](double) {
+                        return At{kHere, 0.0};
+                      }),
+              WalkProgress::kPatience, 0.2);
+}
+
+TEST(WalkProgress, WhoeverDrivesIsNotStuckWithOrWithoutABoundary) {
+  for (const double walked : {0.0, 1.0}) {
+    WalkProgress watch;
+    const auto at = [&](double time) {
+      return At{kHere + 0.2 * time * Eigen::Vector2d::UnitX(), walked * 0.2 * time};
+    };
+    EXPECT_EQ(stuckAt(watch, 0.0, 200.0, at), 200.0);
+  }
+}
+
+TEST(WalkProgress, ANewWalkHasTheWholePatienceAndALengthOfItsOwn) {
+  WalkProgress watch;
+  EXPECT_EQ(stuckAt(watch, 0.0, 5.0, [](double) { return At{kHere, 40.0}; }), 5.0);
+  watch.startWalk(5.0);
+  EXPECT_EQ(stuckAt(watch, 5.0, 20.0,
+                    [](double time) {
+                      return At{kHere, 0.1 * (time - 5.0)};
+                    }),
+            20.0);
+}
+
+TEST(WalkProgress, WaitingForSomebodyDoesNotCount) {
+  WalkProgress watch;
+  for (double time = 0.0; time < 60.0; time += 0.1) {
+    EXPECT_FALSE(watch.isStuck(kHere, 0.0, time, true));
+  }
+  EXPECT_NEAR(stuckAt(watch, 60.0, 100.0, [](double) { return At{kHere, 0.0}; }), 66.0, 0.3);
 }
 
 }  // namespace

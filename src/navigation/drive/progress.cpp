@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "cca_mrpt/navigation/drive/way_progress.hpp"
+#include "cca_mrpt/navigation/drive/progress.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -15,6 +15,9 @@ constexpr double kPatience = 10.0;   // s, and a whole turn
 constexpr double kSlowest = 0.2;     // of full speed
 constexpr double kGrace = 30.0;      // s
 
+constexpr double kMoved = 0.5;   // m, in any direction
+constexpr double kWalked = 0.2;  // m, along a boundary
+
 }  // namespace
 
 void WayProgress::note(int goal, const std::vector<Eigen::Vector2d>& way, double time) {
@@ -28,20 +31,37 @@ void WayProgress::note(int goal, const std::vector<Eigen::Vector2d>& way, double
   if (is_another_goal || left < least_ - kShorter || left > last_ + kAnotherWay) {
     shortest_ = way;
     least_ = left;
-    since_ = time;
+    clock_.restart(time);
   }
   last_ = left;
 }
 
 void WayProgress::excuse(double time) {
-  since_ = time;
+  clock_.restart(time);
   deadline_ = std::max(deadline_, time + kGrace);
 }
 
 bool WayProgress::isStuck(double time) {
-  if (time - since_ <= kPatience + 2.0 * M_PI / robot_.max_angular_velocity) return false;
-  since_ = time;
-  return true;
+  const bool is_over = clock_.isOver(kPatience + 2.0 * M_PI / robot_.max_angular_velocity, time);
+  if (is_over) clock_.restart(time);
+  return is_over;
+}
+
+void WalkProgress::startWalk(double time) {
+  length_ = 0.0;
+  clock_.restart(time);
+}
+
+bool WalkProgress::isStuck(const Eigen::Vector2d& x_map, double length, double time,
+                           bool excused) {
+  const bool has_moved = !x_map_ || (x_map - *x_map_).norm() > kMoved;
+  const bool is_stuck = !has_moved && clock_.isOver(kPatience, time);
+  if (has_moved || is_stuck || excused || length - length_ > kWalked) {
+    x_map_ = x_map;
+    length_ = length;
+    clock_.restart(time);
+  }
+  return is_stuck && !excused;
 }
 
 }  // namespace cca
