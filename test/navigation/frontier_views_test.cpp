@@ -18,14 +18,13 @@ const Eigen::Vector2d kMiddle{4.75, 2.0};
 
 struct View {
   KnownPlace place{0.27};
-  AsideGoals aside;
   FrontierViews views{0.1, 5};
 
   View() {
     place.observe(kRoomWithTwoDoors.scanFrom({kMiddle.x(), kMiddle.y(), 0.0}), kMiddle);
     place.findWays(kMiddle);
   }
-  void find() { views.find(place, aside, place.grid().cellOf(kMiddle)); }
+  void find() { views.find(place, place.grid().cellOf(kMiddle)); }
   double x(const ViewPoint& v) const { return place.grid().centreOf(v.target).x(); }
 };
 
@@ -69,7 +68,7 @@ TEST(FrontierViews, LeaveOutWhatWasSetAsideAndWhatIsDropped) {
   View view;
   view.find();
   const Cell target = view.views.viewPoints().front().target;
-  view.aside.add(target, view.place.grid().revealed());
+  view.place.noteFailure(target, Failure::kNotReached);
   view.find();
   const Cell other = view.views.viewPoints().front().target;
   view.views.drop(other);

@@ -43,13 +43,13 @@ bool FrontierViews::isWithinLimits(const KnownPlace& place, Cell c) const {
   return limits_.size() < 3 || isInside(limits_, place.grid().centreOf(c));
 }
 
-void FrontierViews::find(KnownPlace& place, const AsideGoals& aside, Cell here) {
+void FrontierViews::find(KnownPlace& place, Cell here) {
   view_points_.clear();
   entries_.clear();
   std::vector<ViewPoint> rests;
   for (const Frontier& frontier : nearestFrontiers(place, here)) {
     if (view_points_.size() + rests.size() >= kMostViewPoints) break;
-    const auto view_point = viewOf(place, aside, frontier);
+    const auto view_point = viewOf(place, frontier);
     if (!view_point) continue;
     if (frontier.cells.size() < kRest) {
       rests.push_back(*view_point);
@@ -98,12 +98,12 @@ std::optional<ViewPoint> FrontierViews::viewOf(const KnownPlace& place, Cell tar
 
 // What lies two metres behind a frontier may be inside a wall. Once that has been set aside, the
 // frontier gets another chance with a nearer target.
-std::optional<ViewPoint> FrontierViews::viewOf(const KnownPlace& place, const AsideGoals& aside,
+std::optional<ViewPoint> FrontierViews::viewOf(const KnownPlace& place,
                                                const Frontier& frontier) const {
   const ExplorationGrid& grid = place.grid();
   for (const double depth : {kBehindFrontier, 0.25 * kBehindFrontier, 0.0}) {
     const Cell target = cellBehind(grid, frontier, depth);
-    if (!isWithinLimits(place, target) || aside.contains(target, grid.revealed())) continue;
+    if (!isWithinLimits(place, target) || place.isAside(target)) continue;
     const double gain = unknownAreaInView(grid, target, kGainRange);
     if (gain < smallest_gain_) break;
     auto view_point = viewOf(place, target);

@@ -14,8 +14,7 @@ constexpr double kWorthEntering = 6.5;
 constexpr double kReconsiderAfter = 0.3;         // m driven
 constexpr std::size_t kWorthReconsidering = 20;  // cells newly seen
 constexpr double kPassed = 0.1;                  // m, of a corner
-constexpr double kSamePlace = 0.3;               // m
-constexpr int kMostGivenUpHere = 3;              // goals of the last look
+constexpr int kMostTimesHeld = 3;                // at one place, in the last look
 constexpr std::size_t kWorthAnotherLook = 200;   // cells newly seen: half a square metre
 constexpr double kLongestInVain = 100.0;         // m, and once around what is known
 
@@ -91,7 +90,7 @@ void GlobalPlanner::advance(const Eigen::Vector2d& robot_map) {
 void GlobalPlanner::replan(const Eigen::Vector2d& robot_map) {
   place_.findWays(robot_map, goal_->cell);
   if (!takeWayTo(goal_->cell, robot_map)) {
-    if (aside_.noteLostWay(goal_->target)) dropGoal();
+    if (place_.noteFailure(goal_->target, Failure::kWayLost)) goal_.reset();
     decide(robot_map);
   }
 }
@@ -112,7 +111,7 @@ bool GlobalPlanner::isTimeToReconsider(const Eigen::Vector2d& robot_map) const {
 
 void GlobalPlanner::decide(const Eigen::Vector2d& robot_map) {
   if (isGoalUnseen() && place_.scanned().contains(goal_->cell)) {
-    dropGoal();  // there, and nothing seen
+    dropGoal(Failure::kNothingSeen);
   }
   is_corrected_ = false;
   decided_at_ = robot_map;
@@ -154,7 +153,7 @@ std::string GlobalPlanner::whatIsLeft() {
     return "driving shows hardly anything new any more; " + std::to_string(left) +
            " frontiers are left";
   }
-  if (given_up_here_ >= kMostGivenUpHere)
+  if (place_.timesHeld() >= kMostTimesHeld)
     return "the robot does not get to what is left from where it stands";
   return place_.ways().isStarted() ? last_look_.whatIsLeft()
                                    : "the robot stands where nothing around it is known to be free";
@@ -168,7 +167,7 @@ bool GlobalPlanner::drivesTo(const ViewPoint& chosen, const Eigen::Vector2d& rob
   plan_.look_at = grid().centreOf(chosen.target);
   plan_.reason = reason;
   if (takeWayTo(chosen.cell, robot_map)) return true;
-  dropGoal();
+  dropGoal(Failure::kNotReached);
   return false;
 }
 
@@ -177,23 +176,23 @@ void GlobalPlanner::findViews() {
   const Cell here = grid().cellOf(decided_at_);
   const auto present = is_last_look_ ? std::nullopt : goal_;
   place_.findWays(decided_at_);
-  views_.find(place_, aside_, here);
+  views_.find(place_, here);
   goal_ = present;
   if (!isGoalUnseen() || !views_.keep(place_, *goal_)) goal_.reset();
   if (!views_.viewPoints().empty() || !place_.openAll()) return;
   place_.findWays(decided_at_);
-  views_.find(place_, aside_, here);
+  views_.find(place_, here);
 }
 
 // From all places, and again where much was seen since; then through passages that look too narrow.
 bool GlobalPlanner::lookLast(const Eigen::Vector2d& robot_map) {
   const auto is_open = [&](const ViewPoint& view) {
-    return !aside_.contains(view.target, grid().revealed()) &&
-           views_.isWithinLimits(place_, view.cell) && views_.isWithinLimits(place_, view.target);
+    return !place_.isAside(view.target) && views_.isWithinLimits(place_, view.cell) &&
+           views_.isWithinLimits(place_, view.target);
   };
   const Strategy strategy =
       parameters_.strategy == Strategy::kViewTour ? Strategy::kGainDistance : parameters_.strategy;
-  while (given_up_here_ < kMostGivenUpHere) {
+  while (place_.timesHeld() < kMostTimesHeld) {
     while (const auto chosen = last_look_.next(place_, strategy, is_open)) {
       is_last_look_ = true;
       if (drivesTo(*chosen, robot_map, "to see what is left")) return true;
@@ -235,10 +234,8 @@ std::optional<ViewPoint> GlobalPlanner::choose() {
 
 void GlobalPlanner::correct(const PastScans& past) {
   const CellMove moved = place_.correct(past);
-  aside_.move(moved, grid().revealed());
   if (goal_) goal_->cell = moved(goal_->cell);
   if (goal_) goal_->target = moved(goal_->target);
-  given_up_at_ = past.correctionAt(given_up_at_) * given_up_at_;
   view_tour_ = ViewTour(parameters_.tour);
   last_look_ =
       LastLook(parameters_.smallest_gain, parameters_.smallest_frontier, parameters_.worth);
@@ -247,16 +244,19 @@ void GlobalPlanner::correct(const PastScans& past) {
 }
 
 void GlobalPlanner::setGoalAside() {
-  if (goal_ && is_last_look_ && place_.lastPlace()) {
-    if ((*place_.lastPlace() - given_up_at_).norm() > kSamePlace) given_up_here_ = 0;
-    if (given_up_here_++ == 0) given_up_at_ = *place_.lastPlace();
-  }
-  dropGoal();
+  if (goal_) place_.noteFailure(goal_->target, Failure::kNotReached, heldAt());
+  goal_.reset();
 }
 
-void GlobalPlanner::dropGoal() {
-  if (goal_) aside_.add(goal_->target, grid().revealed());
+void GlobalPlanner::dropGoal(Failure failure) {
+  if (goal_) place_.noteFailure(goal_->target, failure);
   goal_.reset();
+}
+
+// Of the last look only: before it, each goal is tried from wherever the robot is.
+std::optional<Cell> GlobalPlanner::heldAt() const {
+  if (!is_last_look_ || !place_.lastPlace()) return {};
+  return grid().cellOf(*place_.lastPlace());
 }
 
 // Where there is no other way, the place stays open for the goals behind it: each is another try.
@@ -270,13 +270,12 @@ bool GlobalPlanner::goAround(const std::vector<Eigen::Vector2d>& way) {
     place_.openLast();
     return false;
   }
-  if (aside_.noteLostWay(goal_->target)) setGoalAside();
+  place_.noteFailure(goal_->target, Failure::kWayLost, heldAt());
   goal_.reset();
   return true;
 }
 
 void GlobalPlanner::noteArrival() {
-  given_up_here_ = 0;
   if (goal_) place_.noteScanned(goal_->cell);
 }
 

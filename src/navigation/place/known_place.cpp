@@ -111,8 +111,8 @@ CellMove KnownPlace::correct(const PastScans& past) {
     const Eigen::Vector2d p_was = grid.centreOf(c);
     return grid.cellOf(past.correctionAt(p_was) * p_was);
   };
-  anew.barred_ = std::move(barred_);
-  anew.barred_.move(moved, anew.space_);
+  anew.failed_ = std::move(failed_);
+  anew.failed_.move(moved, anew.grid_.revealed(), anew.space_);
   anew.has_narrow_passages_ = has_narrow_passages_;
   *this = std::move(anew);
   return moved;

@@ -7,7 +7,6 @@
 #include <utility>
 #include <vector>
 
-#include "cca_mrpt/navigation/goals/aside_goals.hpp"
 #include "cca_mrpt/navigation/goals/view_points.hpp"
 #include "cca_mrpt/navigation/place/known_place.hpp"
 
@@ -33,7 +32,7 @@ class FrontierViews {
   /// Looks at all frontiers anew, by the ways last found; the sixty nearest to `here` where there
   /// are more.
   /// Cost: O(frontier cells), and a bounded number of view points.
-  void find(KnownPlace& place, const AsideGoals& aside, Cell here);
+  void find(KnownPlace& place, Cell here);
 
   /// Where to see a target from, without its gain; empty where no reached place inside the limits
   /// sees it.
@@ -57,8 +56,7 @@ class FrontierViews {
 
  private:
   std::vector<Frontier> nearestFrontiers(KnownPlace& place, Cell here) const;
-  std::optional<ViewPoint> viewOf(const KnownPlace& place, const AsideGoals& aside,
-                                  const Frontier& frontier) const;
+  std::optional<ViewPoint> viewOf(const KnownPlace& place, const Frontier& frontier) const;
   std::optional<Cell> entryAt(const KnownPlace& place, Cell middle) const;
 
   double smallest_gain_;

@@ -6,10 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "cca_mrpt/navigation/goals/aside_goals.hpp"
 #include "cca_mrpt/navigation/goals/frontier_views.hpp"
 #include "cca_mrpt/navigation/goals/last_look.hpp"
-#include "cca_mrpt/navigation/goals/unpaid_way.hpp"
 #include "cca_mrpt/navigation/goals/view_points.hpp"
 #include "cca_mrpt/navigation/goals/view_tour.hpp"
 #include "cca_mrpt/navigation/place/known_place.hpp"
@@ -124,7 +122,8 @@ class GlobalPlanner {
   std::optional<ViewPoint> choose();
   void lookAround();
   bool lookLast(const Eigen::Vector2d& robot_map);
-  void dropGoal();
+  void dropGoal(Failure failure);
+  std::optional<Cell> heldAt() const;
   bool drivesInVain() const;
   std::string whatIsLeft();
   bool drivesTo(const ViewPoint& chosen, const Eigen::Vector2d& robot_map, const char* reason);
@@ -135,7 +134,6 @@ class GlobalPlanner {
   ViewTour view_tour_;
   LastLook last_look_;
   UnpaidWay unpaid_way_;
-  AsideGoals aside_;
   bool has_looked_around_ = false;  ///< from the start
   bool is_corrected_ = false;       ///< since the last decision
   std::optional<ViewPoint> goal_;
@@ -144,10 +142,6 @@ class GlobalPlanner {
   bool is_last_look_ = false;      ///< the goal is one of last_look_
   /// When last_look_ began.
   std::optional<std::size_t> revealed_at_last_look_;
-  /// Goals of the last look that were set aside one after the other while the robot was at the same
-  /// place: it is held there, and each further goal would take its time in vain.
-  int given_up_here_ = 0;
-  Eigen::Vector2d given_up_at_ = Eigen::Vector2d::Zero();  ///< m, map frame
   int goals_ = 0;
   Plan plan_;
 };

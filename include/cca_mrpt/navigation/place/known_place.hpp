@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "cca_mrpt/mapping/scan.hpp"
-#include "cca_mrpt/navigation/place/barred_ways.hpp"
 #include "cca_mrpt/navigation/place/cell.hpp"
 #include "cca_mrpt/navigation/place/exploration_grid.hpp"
+#include "cca_mrpt/navigation/place/failed_tries.hpp"
 #include "cca_mrpt/navigation/place/free_space.hpp"
 #include "cca_mrpt/navigation/place/frontier.hpp"
 #include "cca_mrpt/navigation/place/grid_paths.hpp"
@@ -62,14 +62,23 @@ class KnownPlace {
   /// Says that nothing more will be seen from a cell, wherever the laser has looked.
   void noteScanned(Cell c) { scanned_.addAll(c); }
 
-  /// Shuts the beginning of a way (m, map frame) that could not be driven, see BarredWays.
+  /// Shuts the beginning of a way (m, map frame) that could not be driven, see FailedTries.
   void bar(const std::vector<Eigen::Vector2d>& way) {
-    barred_.bar(way, grid_.resolution(), space_);
+    failed_.bar(way, grid_.resolution(), space_);
   }
   /// Opens what was barred last.
-  void openLast() { barred_.openLast(space_); }
+  void openLast() { failed_.openLast(space_); }
   /// Opens all that was barred. @return whether there was any.
-  bool openAll() { return barred_.openAll(space_); }
+  bool openAll() { return failed_.openAll(space_); }
+
+  /// Notes that what was to show a target failed, see FailedTries::add().
+  bool noteFailure(Cell target, Failure failure, std::optional<Cell> held_at = {}) {
+    return failed_.add(target, failure, grid_.revealed(), held_at);
+  }
+  /// Whether a target was set aside, and may not be tried again yet.
+  bool isAside(Cell target) const { return failed_.isAside(target, grid_.revealed()); }
+  /// See FailedTries.
+  int timesHeld() const { return failed_.timesHeld(); }
 
   /// Takes a cell for open from now on where the robot fits in at any point of it, not only at its
   /// centre: passages of just the robot's width are worth a try when there is no other way.
@@ -118,7 +127,7 @@ class KnownPlace {
   FrontierCells frontier_cells_;
   ScannedPlaces scanned_;
   std::vector<std::pair<std::vector<Cell>, CellState>> seeds_;  ///< stay where they are
-  BarredWays barred_;
+  FailedTries failed_;
   DistanceField ways_;
   std::optional<Eigen::Vector2d> last_place_;
   double laser_range_ = 1.0;

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include "cca_mrpt/navigation/place/free_space.hpp"
+
+namespace cca {
+
+/// How a try to see something failed.
+enum class Failure {
+  kWayLost,      ///< half-way there: somebody in the way, or a passage that looks open from afar
+  kNothingSeen,  ///< it was reached, and what it was to show was not seen
+  kNotReached,   ///< in its time, or by proof
+};
+
+/// The one memory of what was tried in vain.
+///
+/// Of targets: one that failed is set aside until the map has changed. The first lost way alone is
+/// no failure yet. Targets within 15 cm of each other are one. How much of the map has changed is
+/// told by `revealed`, the number of cells that the grid has ever come to know.
+///
+/// Of ways: stretches that look free and that the robot could not drive, passages of about its own
+/// width, where the grid and Tangent Bug disagree by a centimetre, or somebody who stands there.
+/// They are shut, and further ways lead around them. Without that, every goal behind such a passage
+/// was tried in turn.
+class FailedTries {
+ public:
+  /// Notes a failure. @param held_at  where the robot got no farther, where that is what failed.
+  /// @return whether the target is set aside by it. Cost: O(tries), as of all that follows.
+  bool add(Cell target, Failure failure, std::size_t revealed, std::optional<Cell> held_at = {});
+
+  /// Whether it was set aside, and less than 10 m^2 have been seen since then.
+  bool isAside(Cell target, std::size_t revealed) const;
+
+  /// How many tries in a row ended with the robot held at the same place, within 30 cm: each
+  /// further one would take its time in vain.
+  int timesHeld() const;
+
+  /// Bars the first 60 cm of a way, 25 cm wide; cells that the robot has been in stay open.
+  /// @param way  corners, m, map frame, from where the robot got no farther.
+  /// Cost: O(1).
+  void bar(const std::vector<Eigen::Vector2d>& way, double resolution, FreeSpace& space);
+
+  /// Opens what was barred last. Cost: O(cells barred).
+  void openLast(FreeSpace& space);
+
+  /// Opens all. @return whether there were any. Cost: O(cells barred).
+  bool openAll(FreeSpace& space);
+
+  /// The map has been made anew, and as much of it is revealed now: bars in its space what was
+  /// barred before.
+  void move(const CellMove& moved, std::size_t revealed, FreeSpace& space);
+
+ private:
+  struct Try {
+    Cell target;
+    Failure failure;
+    bool is_aside;
+    std::size_t revealed_then;
+    std::optional<Cell> held_at;
+  };
+
+  std::vector<Try> tries_;
+  std::vector<std::vector<Cell>> barred_;
+};
+
+}  // namespace cca

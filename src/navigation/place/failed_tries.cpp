@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "cca_mrpt/navigation/place/failed_tries.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <utility>
+
+#include "cca_mrpt/navigation/place/beam.hpp"
+
+namespace cca {
+namespace {
+
+constexpr std::size_t kRetryAfter = 4000;  // cells newly seen: 10 m^2
+constexpr int kSameTarget = 3;             // cells
+constexpr double kSamePlace = 6.0;         // cells, that a robot is held at
+constexpr double kAhead = 0.6;             // m, of a way that is barred
+constexpr int kAside = 2;                  // cells, to both sides of it
+
+bool isSameTarget(Cell a, Cell b) {
+  return std::max(std::abs(a.x - b.x), std::abs(a.y - b.y)) <= kSameTarget;
+}
+
+bool isSamePlace(Cell a, Cell b) { return std::hypot(a.x - b.x, a.y - b.y) <= kSamePlace; }
+
+/// The cells that the beginning of a way crosses.
+std::vector<Cell> cellsAhead(const std::vector<Eigen::Vector2d>& way, double resolution) {
+  std::vector<Cell> cells;
+  double left = kAhead / resolution;
+  for (std::size_t i = 1; i < way.size() && left > 0.0; ++i) {
+    const Eigen::Vector2d from = way[i - 1] / resolution, step = way[i] / resolution - from;
+    const double length = step.norm();
+    if (length == 0.0) continue;
+    walkBeam(from, step / length, std::min(length, left), [&](Cell c, double) {
+      cells.push_back(c);
+      return true;
+    });
+    left -= length;
+  }
+  return cells;
+}
+
+}  // namespace
+
+bool FailedTries::add(Cell target, Failure failure, std::size_t revealed,
+                      std::optional<Cell> held_at) {
+  const bool is_aside =
+      failure != Failure::kWayLost || std::any_of(tries_.begin(), tries_.end(), [&](const Try& t) {
+        return t.failure == Failure::kWayLost && isSameTarget(t.target, target);
+      });
+  if (!is_aside) held_at.reset();
+  tries_.push_back({target, failure, is_aside, revealed, held_at});
+  return is_aside;
+}
+
+bool FailedTries::isAside(Cell target, std::size_t revealed) const {
+  return std::any_of(tries_.begin(), tries_.end(), [&](const Try& t) {
+    return t.is_aside && isSameTarget(t.target, target) && revealed < t.revealed_then + kRetryAfter;
+  });
+}
+
+int FailedTries::timesHeld() const {
+  int times = 0;
+  std::optional<Cell> place;
+  for (auto t = tries_.rbegin(); t != tries_.rend(); ++t) {
+    if (t->failure == Failure::kNothingSeen) break;  // it got away
+    if (!t->held_at) continue;
+    if (place && !isSamePlace(*place, *t->held_at)) break;
+    place = t->held_at;
+    ++times;
+  }
+  return times;
+}
+
+void FailedTries::bar(const std::vector<Eigen::Vector2d>& way, double resolution,
+                      FreeSpace& space) {
+  std::vector<Cell> cells;
+  for (const Cell c : cellsAhead(way, resolution)) {
+    for (int y = -kAside; y <= kAside; ++y) {
+      for (int x = -kAside; x <= kAside; ++x) cells.push_back(c + Cell{x, y});
+    }
+  }
+  for (const Cell c : cells) space.bar(c, true);
+  barred_.push_back(std::move(cells));
+}
+
+void FailedTries::openLast(FreeSpace& space) {
+  if (barred_.empty()) return;
+  for (const Cell c : barred_.back()) space.bar(c, false);
+  barred_.pop_back();
+  // A cell may have been barred twice.
+  for (const auto& cells : barred_) {
+    for (const Cell c : cells) space.bar(c, true);
+  }
+}
+
+bool FailedTries::openAll(FreeSpace& space) {
+  for (const auto& cells : barred_) {
+    for (const Cell c : cells) space.bar(c, false);
+  }
+  const bool any = !barred_.empty();
+  barred_.clear();
+  return any;
+}
+
+void FailedTries::move(const CellMove& moved, std::size_t revealed, FreeSpace& space) {
+  for (Try& t : tries_) {
+    t.target = moved(t.target);
+    t.revealed_then = std::min(t.revealed_then, revealed);
+    if (t.held_at) t.held_at = moved(*t.held_at);
+  }
+  for (auto& cells : barred_) {
+    for (Cell& c : cells) {
+      c = moved(c);
+      space.bar(c, true);
+    }
+  }
+}
+
+}  // namespace cca
