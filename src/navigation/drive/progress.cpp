@@ -52,8 +52,7 @@ void WalkProgress::startWalk(double time) {
   clock_.restart(time);
 }
 
-bool WalkProgress::isStuck(const Eigen::Vector2d& x_map, double length, double time,
-                           bool excused) {
+bool WalkProgress::isStuck(const Eigen::Vector2d& x_map, double length, double time, bool excused) {
   const bool has_moved = !x_map_ || (x_map - *x_map_).norm() > kMoved;
   const bool is_stuck = !has_moved && clock_.isOver(kPatience, time);
   if (has_moved || is_stuck || excused || length - length_ > kWalked) {

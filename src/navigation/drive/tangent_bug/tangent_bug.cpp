@@ -22,11 +22,12 @@ constexpr double kSlack = 1.0 - RobotParameters::kLeastMargin;
 constexpr double kTraceSlack = 0.3;       // of the margin, given up along a boundary
 constexpr double kOnTheBoundary = 0.001;  // m
 constexpr double kSameArea = 1.0;         // m
-constexpr int kMostTimesStuck = 8;        // there, before it gives up
 constexpr double kLost = 1.0;             // s
-constexpr int kMostStarts = 10;           // of following, without coming nearer to the goal
-constexpr double kWaitFor = 2.5;          // m
-constexpr double kNear = 0.15;            // m, beyond the radius
+// Boundaries followed and gaps shut, without coming nearer to the goal. The proof needs fewer;
+// noise and moving obstacles break it, and then this is the end.
+constexpr int kMostTries = 10;
+constexpr double kWaitFor = 2.5;  // m
+constexpr double kNear = 0.15;    // m, beyond the radius
 constexpr int kBearings = 360;
 
 }  // namespace
@@ -38,10 +39,9 @@ void TangentBug::setGoal(const Eigen::Vector2d& goal_map) {
   motion_to_goal_.start();
   in_vain_.clear();
   shut_map_.clear();
-  stuck_at_map_.reset();
   started_at_map_.reset();
   lost_.stop();
-  starts_ = 0;
+  tries_ = 0;
   least_distance_ = std::numeric_limits<double>::infinity();
   progress_ = {};
 }
@@ -54,7 +54,7 @@ Velocity TangentBug::step(const Scan& scan, const Pose2& T_map_robot, const Velo
   const double distance = (goal_map_ - T_map_robot.position()).norm();
   if (distance < least_distance_ - kLeave) {
     least_distance_ = distance;
-    starts_ = 0;
+    tries_ = 0;
   }
   const bool under_way =
       state_ == TangentBugState::kMotionToGoal || state_ == TangentBugState::kBoundaryFollowing;
@@ -88,10 +88,7 @@ bool TangentBug::moverIsNear() const {
 
 // A gap as wide as the robot may look open from afar and shut from nearby: it is shut for good.
 void TangentBug::shutWhatIsTooNarrow() {
-  const Eigen::Vector2d x = view_.T_map_robot.position();
-  times_stuck_ = stuck_at_map_ && (x - *stuck_at_map_).norm() < kSameArea ? times_stuck_ + 1 : 1;
-  if (times_stuck_ == 1) stuck_at_map_ = x;
-  if (times_stuck_ > kMostTimesStuck) {
+  if (++tries_ > kMostTries) {
     state_ = TangentBugState::kUnreachable;
   } else if (state_ == TangentBugState::kBoundaryFollowing) {
     if (const auto place = follower_.takeNarrowPlace()) shut_map_.push_back(*place);
@@ -192,7 +189,7 @@ std::optional<Eigen::Vector2d> TangentBug::startFollowing() {
   const bool on_the_right = cross(towards_goal, last) > 0.0;
   if (!started_at_map_ || (x - *started_at_map_).norm() > kSameArea) {
     started_at_map_ = x;
-    ++starts_;
+    ++tries_;
   }
   follower_.start(hit, on_the_right, goal_map_, view_, trace_space_);
   if (follower_.trace().empty()) {  // out of sight: the boundary beside the robot then
@@ -212,7 +209,7 @@ std::optional<Eigen::Vector2d> TangentBug::followBoundary() {
     motion_to_goal_.startFromBoundary(reach_map_, farthest, follower_.onTheRight());
     return reach_map_;
   }
-  if (follower_.circled() || starts_ > kMostStarts) {
+  if (follower_.circled() || tries_ > kMostTries) {
     state_ = TangentBugState::kUnreachable;
     return std::nullopt;
   }

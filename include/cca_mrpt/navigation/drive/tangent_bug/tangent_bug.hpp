@@ -91,10 +91,8 @@ class TangentBug {
   TangentBugState state_ = TangentBugState::kReached;
   WalkProgress progress_;
   std::vector<Eigen::Vector2d> shut_map_;  ///< places in gaps that proved too narrow
-  std::optional<Eigen::Vector2d> stuck_at_map_;
-  int times_stuck_ = 0;
-  double least_distance_ = 0.0;  ///< m, between the robot and the goal, so far
-  int starts_ = 0;               ///< of boundary following, since the robot came nearer than ever
+  double least_distance_ = 0.0;            ///< m, between the robot and the goal, so far
+  int tries_ = 0;  ///< boundaries and gaps, since the robot came nearer than ever
   std::optional<Eigen::Vector2d> started_at_map_;
   ProgressClock lost_;  ///< while the boundary that it follows is out of sight
   double time_ = 0.0;
