@@ -13,11 +13,11 @@ namespace {
 
 constexpr double kTurningGain = 2.5;  // 1/s; stable at 10 Hz with one period of delay
 
-constexpr double kStep = 0.05;   // s, of the predicted motion
-constexpr double kStill = 1e-9;  // m/s, rad/s
+constexpr double kStep = 0.05;      // s, of the predicted motion
+constexpr double kNoMotion = 1e-9;  // m/s, rad/s
 // m, by which a hazard may come nearer that is inside the clearance, and inside the robot itself: a
 // robot that touches something only turns or leaves.
-constexpr double kDeeper = 1e-4, kRounding = 1e-9;
+constexpr double kDeeper = 1e-4, kSlack = 1e-9;
 constexpr double kAside = 0.5 * M_PI + 0.02;  // rad, from a hazard: past it
 
 double towards(double from, double to, double step) {
@@ -52,7 +52,7 @@ std::vector<Predicted> stoppingPath(const OtherStart& start, const Velocity& com
   const Velocity first{std::max(present.linear, command.linear), command.angular};
   while (time < start.time + period - 1e-9) advance(first);
   velocity = {std::max(present.linear, command.linear), command.angular};
-  while (velocity.linear > kStill || std::abs(velocity.angular) > kStill) {
+  while (velocity.linear > kNoMotion || std::abs(velocity.angular) > kNoMotion) {
     advance({towards(velocity.linear, 0.0, brakes.linear * kStep),
              towards(velocity.angular, 0.0, brakes.angular * kStep)});
   }
@@ -64,7 +64,7 @@ bool isSafe(const std::vector<Predicted>& path, const std::vector<Hazard>& hazar
   for (const Hazard& hazard : hazards) {
     const double start = hazard.p_robot.norm();
     const double keep =
-        std::min(radius - hazard.allowance, start) - (start < robot_radius ? kRounding : kDeeper);
+        std::min(radius - hazard.allowance, start) - (start < robot_radius ? kSlack : kDeeper);
     for (const Predicted& at : path) {
       const double distance = (hazard.p_robot - at.p_robot).norm();
       if (distance - hazard.closing_speed * at.time < keep) return false;

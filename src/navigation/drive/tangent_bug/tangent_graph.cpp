@@ -8,8 +8,8 @@
 namespace cca {
 namespace {
 
-constexpr double kSlide = 0.01;     // m, how much deeper a slide along a disc may lead
-constexpr double kRounding = 1e-9;  // m
+constexpr double kSlide = 0.01;  // m, how much deeper a slide along a disc may lead
+constexpr double kTouch = 1e-9;  // m
 
 // The radius of a disc as seen from a place at this distance from its centre.
 double discRadius(double radius, double distance) {
@@ -64,7 +64,7 @@ std::vector<FreeRange> ConfigurationSpace::freeRanges(const Eigen::Vector2d& fro
     const int last = static_cast<int>(std::floor((bearing + half) / step));
     for (int k = static_cast<int>(std::ceil((bearing - half) / step)); k <= last; ++k) {
       FreeRange& range = ranges[static_cast<std::size_t>((k % bearings + bearings) % bearings)];
-      if (range.distance < distance - disc - kRounding) continue;  // nearer than the whole disc
+      if (range.distance < distance - disc - kTouch) continue;  // nearer than the whole disc
       const double off = k * step - bearing;
       const double aside = distance * std::sin(off);
       const double inside = disc * disc - aside * aside;
