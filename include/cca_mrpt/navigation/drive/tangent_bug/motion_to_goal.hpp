@@ -46,13 +46,12 @@ class MotionToGoal {
 
   /// Map frame, towards the last node chosen, not of unit length; none before the first one.
   std::optional<Eigen::Vector2d> lastDirection() const { return last_direction_; }
-  double heuristic() const { return heuristic_; }  ///< m, the least so far
 
  private:
   std::optional<Eigen::Vector2d> reach_map_;
   bool in_vain_ = false, changed_side_ = false;
   double farthest_ = std::numeric_limits<double>::infinity();   ///< m, allowed from the goal
-  double heuristic_ = std::numeric_limits<double>::infinity();  ///< m
+  double heuristic_ = std::numeric_limits<double>::infinity();  ///< m, the least so far
   std::optional<bool> on_the_right_;  ///< the side of the obstacle that is passed
   std::optional<Eigen::Vector2d> last_direction_;
 };

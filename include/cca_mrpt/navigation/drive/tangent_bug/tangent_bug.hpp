@@ -70,10 +70,8 @@ class TangentBug {
 
   TangentBugState state() const { return state_; }
   /// What the last step saw and chose, for pictures, markers and tests.
-  const LocalView& localView() const { return view_; }
   const std::vector<TangentNode>& tangentGraph() const { return nodes_; }
   const std::optional<Eigen::Vector2d>& target() const { return target_; }
-  const BoundaryFollower& boundaryFollower() const { return follower_; }
   double reachDistance() const { return d_reach_; }  ///< d_reach, m
 
  private:
