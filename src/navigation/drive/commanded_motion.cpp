@@ -24,7 +24,7 @@ constexpr double kForget = 0.99;                       // of the sums, an observ
 constexpr double kLongestPending = 0.7;                // s, longer than any latency that is learned
 constexpr double kUnbraked = 0.5, kHardBraking = 0.6;  // of the brakes, before the robot has braked
 
-constexpr double kSameTime = 0.05;  // s: half a control period, which safeVelocity() allows for
+constexpr double kSameLatency = 0.05;  // s: half a control period, which safeVelocity() allows for
 
 }  // namespace
 
@@ -207,7 +207,7 @@ Onset CommandedMotion::after(double latency) const {
 std::vector<Onset> CommandedMotion::otherwise() const {
   std::vector<Onset> onsets;
   for (const double latency : {shown_.earliest(), std::max(robot_.latency, shown_.latest())}) {
-    if (std::abs(latency - this->latency()) > kSameTime) onsets.push_back(after(latency));
+    if (std::abs(latency - this->latency()) > kSameLatency) onsets.push_back(after(latency));
   }
   return onsets;
 }

@@ -31,8 +31,6 @@ bool isInside(const std::vector<Eigen::Vector2d>& polygon, const Eigen::Vector2d
   return inside;
 }
 
-double apart(Cell a, Cell b) { return std::hypot(a.x - b.x, a.y - b.y); }
-
 }  // namespace
 
 double FrontierViews::reach(const KnownPlace& place) const {
@@ -77,7 +75,7 @@ std::vector<Frontier> FrontierViews::nearestFrontiers(KnownPlace& place, Cell he
   for (Frontier& frontier : place.frontiers()) {
     if (frontier.cells.size() < smallest_frontier_) continue;
     const double known_way = place.ways().distanceTo(frontier.middle);
-    const double line = apart(frontier.middle, here) * place.grid().resolution();
+    const double line = distanceBetween(frontier.middle, here) * place.grid().resolution();
     const double distance = known_way < DistanceField::kUnreached ? known_way : line;
     candidates.push_back({distance, std::move(frontier)});
   }
@@ -135,7 +133,7 @@ bool FrontierViews::keep(const KnownPlace& place, const ViewPoint& goal) {
   double nearest = kMuchTheSame;
   ViewPoint* same = nullptr;
   for (ViewPoint& v : view_points_) {
-    const double off = apart(v.target, goal.target);
+    const double off = distanceBetween(v.target, goal.target);
     if (off >= nearest) continue;
     nearest = off;
     same = &v;

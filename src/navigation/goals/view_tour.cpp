@@ -86,8 +86,6 @@ bool improve(const Eigen::MatrixXd& distance, const TourObjective& objective, To
 constexpr std::uint32_t kFieldLife = 30;  // choices: known space grows, so ways get shorter
 constexpr std::size_t kMostFields = 32;
 
-double apart(Cell a, Cell b) { return std::hypot(a.x - b.x, a.y - b.y); }
-
 /// Per view point, the view points whose targets it sees; its own always.
 std::vector<std::vector<std::size_t>> visibility(const ExplorationGrid& grid,
                                                  const std::vector<ViewPoint>& view_points,
@@ -96,7 +94,8 @@ std::vector<std::vector<std::size_t>> visibility(const ExplorationGrid& grid,
   for (std::size_t a = 0; a < view_points.size(); ++a) {
     for (std::size_t b = 0; b < view_points.size(); ++b) {
       const Cell from = view_points[a].cell, to = view_points[b].target;
-      if (a == b || (apart(from, to) * grid.resolution() < reach && isInView(grid, from, to)))
+      if (a == b ||
+          (distanceBetween(from, to) * grid.resolution() < reach && isInView(grid, from, to)))
         sees[a].push_back(b);
     }
   }
@@ -240,7 +239,7 @@ Eigen::MatrixXd ViewTour::distances(const ExplorationGrid& grid, const FreeSpace
       // robot's place.
       if (way == DistanceField::kUnreached) {
         way = 0.5 * (view(i).distance + view(j).distance +
-                     apart(view(i).cell, view(j).cell) * grid.resolution());
+                     distanceBetween(view(i).cell, view(j).cell) * grid.resolution());
       }
       distance(i, j) = distance(j, i) = way;
     }

@@ -11,13 +11,13 @@ namespace cca {
 namespace {
 
 constexpr int kSectors = 32;
-constexpr std::uint32_t kAll = 0xFFFFFFFF;
+constexpr std::uint32_t kAllAround = 0xFFFFFFFF;
 
 std::uint32_t directionsOf(const Scan& scan) {
   constexpr double kSector = 2.0 * M_PI / kSectors;
   const double span = static_cast<double>(scan.size()) * std::abs(scan.angle_increment);
   if (scan.size() == 0 || !std::isfinite(span)) return 0;
-  if (span >= 2.0 * M_PI - 0.5 * std::abs(scan.angle_increment)) return kAll;
+  if (span >= 2.0 * M_PI - 0.5 * std::abs(scan.angle_increment)) return kAllAround;
   const double last = scan.bearing(scan.size() - 1);
   const double from = scan.T_map_sensor.theta + std::min(scan.angle_min, last);
   if (!std::isfinite(from)) return 0;
@@ -40,7 +40,7 @@ void ScannedPlaces::add(Cell robot, const Scan& scan) {
   if (containsBlock(block)) return;
   std::uint32_t& looked = looked_[block];
   looked |= directionsOf(scan);
-  if (looked == kAll) done_[block] = 1;
+  if (looked == kAllAround) done_[block] = 1;
 }
 
 void ScannedPlaces::addAll(Cell robot) { done_[FreeSpace::blockOf(robot)] = 1; }

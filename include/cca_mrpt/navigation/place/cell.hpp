@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <functional>
 #include <vector>
@@ -18,6 +19,8 @@ struct Cell {
 inline bool operator==(Cell a, Cell b) { return a.x == b.x && a.y == b.y; }
 inline bool operator!=(Cell a, Cell b) { return !(a == b); }
 inline Cell operator+(Cell a, Cell b) { return {a.x + b.x, a.y + b.y}; }
+/// Between their centres, in cells.
+inline double distanceBetween(Cell a, Cell b) { return std::hypot(a.x - b.x, a.y - b.y); }
 
 /// Where a cell of a map got to when that was corrected.
 using CellMove = std::function<Cell(Cell)>;
