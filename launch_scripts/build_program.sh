@@ -16,12 +16,12 @@ export PATH=/usr/bin:/bin:/usr/sbin:/sbin:$PATH MAKEFLAGS=--no-print-directory
 "$here/launch_scripts/install_dependencies.sh" >&2
 
 build="$here/build-explore"
-evidence=""
-[ -e "$build/CMakeCache.txt" ] || evidence=-DCCA_WITH_EVIDENCE=OFF
+new="" evidence=""
+[ -e "$build/CMakeCache.txt" ] || new="-G Ninja" evidence=-DCCA_WITH_EVIDENCE=OFF
 [ "${1:-}" != --evidence ] || evidence=-DCCA_WITH_EVIDENCE=ON
 mkdir -p "$build"
 cmake -S "$here" -B "$build" -DCMAKE_BUILD_TYPE=Release \
-  -DCCA_WITH_ROS=OFF $evidence -DCCA_BUILD_TESTS=OFF -DCCA_BUILD_BENCHMARKS=OFF >"$build/configure.log" 2>&1 ||
+  $new -DCCA_WITH_ROS=OFF $evidence -DCCA_BUILD_TESTS=OFF -DCCA_BUILD_BENCHMARKS=OFF >"$build/configure.log" 2>&1 ||
   { cat "$build/configure.log" >&2; exit 1; }
 cmake --build "$build" --target cca-mrpt -j"$(nproc)" |
   { grep -E '[0-9]+[]%].* Building|error|warning' || true; } >&2

@@ -5,7 +5,7 @@
 set -eu
 
 packages="build-essential ca-certificates cmake libboost-dev libcairo2-dev libcli11-dev libeigen3-dev libmrpt-dev
-  libnanoflann-dev mrpt-common nlohmann-json3-dev pkg-config zlib1g-dev"
+  libnanoflann-dev mrpt-common ninja-build nlohmann-json3-dev pkg-config zlib1g-dev"
 ros="catkin libactionlib-dev libdiagnostic-updater-dev libdynamic-reconfigure-config-init-mutex-dev libgeometry-msgs-dev
   libmove-base-msgs-dev libnav-msgs-dev
   librosbag-dev libroscpp-dev libroslib-dev libsensor-msgs-dev libstd-msgs-dev libstd-srvs-dev libtf2-dev libtf2-msgs-dev
@@ -15,7 +15,7 @@ ros="catkin libactionlib-dev libdiagnostic-updater-dev libdynamic-reconfigure-co
 tests="catkin-lint chromium clang clang-format ffmpeg gdal-bin git imagemagick libbenchmark-dev libclang-rt-14-dev
   libgl1-mesa-dri libgmock-dev libgtest-dev librostest-dev mrpt-apps python3-actionlib python3-dev
   python3-dynamic-reconfigure python3-matplotlib python3-move-base-msgs python3-numpy python3-pandas python3-rostest
-  python3-statsmodels python3-venv x11-utils xauth xvfb"
+  python3-scipy python3-statsmodels python3-venv x11-utils xauth xvfb"
 case "${1:-}" in
   --ros) packages="$packages $ros" ;;
   --tests) packages="$packages $ros $tests" ;;

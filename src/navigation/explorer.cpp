@@ -167,7 +167,7 @@ Action Explorer::explore(const Observation& observation) {
   heedOutcome(observation.T_map_robot.position());
   const Plan& plan =
       planner_.update(observation.scan, observation.T_map_robot.position(), observation.is_placed);
-  if (plan.finished) {
+  if (plan.isFinished()) {
     why_finished_ = plan.reason;
     if (parameters_.return_to_start) {
       is_returning_ = was_returning_ = true;
@@ -175,9 +175,9 @@ Action Explorer::explore(const Observation& observation) {
     }
     return {{}, {}, ExplorationStatus::kFinished, plan.reason};
   }
-  if (plan.look_around) return lookAround(observation);
+  if (plan.phase == PlanPhase::kLookingAround) return lookAround(observation);
   T_map_turned_.reset();
-  if (plan.path.empty()) {
+  if (plan.phase == PlanPhase::kUndecided) {
     const std::string why = plan.reason.empty() ? "waiting for a scan" : plan.reason;
     return {{}, {}, ExplorationStatus::kExploring, why};
   }
@@ -307,7 +307,7 @@ Velocity Explorer::driveTo(const Eigen::Vector2d& way_point_map, const Observati
 bool Explorer::leavesMuch() const {
   const double side = grid().resolution();
   const double seen = static_cast<double>(grid().revealed()) * side * side;
-  return planner_.plan().finished &&
+  return planner_.plan().isFinished() &&
          planner_.plan().unreached > std::max(kMuchUnreached, kMuchOfAll * seen);
 }
 

@@ -20,7 +20,7 @@ const KnownWorld kTwoRooms{{"####################", "#........#.........#", "#..
 /// A step with a scan; calls until it is found out what is left to see.
 const Plan& update(GlobalPlanner& planner, const Scan& scan, const Eigen::Vector2d& robot) {
   const Plan* plan = &planner.update(scan, robot);
-  for (int k = 0; k < 100 && plan->path.empty() && !plan->finished; ++k)
+  for (int k = 0; k < 100 && plan->path.empty() && !plan->isFinished(); ++k)
     plan = &planner.update(scan, robot);
   return *plan;
 }
@@ -37,7 +37,7 @@ Drive drive(GlobalPlanner& planner, const KnownWorld& world, Eigen::Vector2d rob
   Drive drive;
   while (drive.distance < longest) {
     drive.last = update(planner, world.scanFrom({robot.x(), robot.y(), 0.0}, 4.0), robot);
-    if (drive.last.finished) break;
+    if (drive.last.isFinished()) break;
     if (drive.last.path.size() < 2) {
       ADD_FAILURE() << "neither a path nor finished";
       break;
@@ -58,7 +58,7 @@ TEST_P(EveryStrategy, SeesTwoRoomsToTheLastSquareAndFinishes) {
   parameters.strategy = strategyNamed(GetParam());
   GlobalPlanner planner(parameters);
   const Drive d = drive(planner, kTwoRooms, {1.0, 1.0});
-  EXPECT_TRUE(d.last.finished);
+  EXPECT_TRUE(d.last.isFinished());
   EXPECT_EQ(d.last.reason, "no reachable frontier of useful size is left");
   EXPECT_LT(d.last.unreached, 0.1);
   int unseen = 0;
@@ -99,7 +99,7 @@ TEST(GlobalPlanner, LooksAtLastAsFarAsItCanWhereItCannotGo) {
                            "#....#...........#", "##################"},
                           11};
   GlobalPlanner planner;
-  EXPECT_TRUE(drive(planner, window, {1.7, 1.375}).last.finished);
+  EXPECT_TRUE(drive(planner, window, {1.7, 1.375}).last.isFinished());
   EXPECT_EQ(planner.grid().at(planner.grid().cellOf({6.3, 1.376})), CellState::kFree);
   EXPECT_GT(planner.plan().unreached, 0.5);
 }
@@ -110,7 +110,7 @@ TEST(GlobalPlanner, EndsWhereDrivingShowsNothingNewForLong) {
   GlobalPlanner planner;
   const Eigen::Vector2d ends[] = {{10.0, 10.0}, {10.3, 10.0}};
   int steps = 0;
-  for (; steps < 2000 && !planner.plan().finished; ++steps) {
+  for (; steps < 2000 && !planner.plan().isFinished(); ++steps) {
     const Eigen::Vector2d robot = ends[steps % 2];
     planner.update(hall.scanFrom({robot.x(), robot.y(), 0.0}, 4.0), robot);
   }
@@ -128,11 +128,11 @@ TEST(GlobalPlanner, WhereItIsHeldGivesUpTheLastLookAfterThreeGoals) {
   GlobalPlanner planner;
   const Scan scan = window.scanFrom({robot.x(), robot.y(), 0.0}, 8.0);
   int given_up = 0;
-  for (int k = 0; k < 100 && !update(planner, scan, robot).finished; ++k) {
+  for (int k = 0; k < 100 && !update(planner, scan, robot).isFinished(); ++k) {
     given_up += planner.plan().reason == "to see what is left";
     planner.setGoalAside();
   }
-  EXPECT_TRUE(planner.plan().finished);
+  EXPECT_TRUE(planner.plan().isFinished());
   EXPECT_EQ(given_up, 3);
   EXPECT_NE(planner.plan().reason.find("does not get to what is left"), std::string::npos);
 }
@@ -155,7 +155,7 @@ TEST(GlobalPlanner, TriesAPassageOfItsOwnWidthWhenNothingElseIsLeft) {
   update(planner, kNarrowPassage.scanFrom({start.x(), start.y(), 0.0}, 4.0), start);
   EXPECT_FALSE(planner.space().isTraversable(planner.grid().cellOf({3.5, 1.4})));
   const Drive d = drive(planner, kNarrowPassage, start);
-  EXPECT_TRUE(d.last.finished);
+  EXPECT_TRUE(d.last.isFinished());
   double farthest = 0.0;
   for (const Eigen::Vector2d& goal : d.goals) farthest = std::max(farthest, goal.x());
   EXPECT_GT(farthest, 3.75) << "beyond the passage";
@@ -169,12 +169,12 @@ TEST(GlobalPlanner, ANarrowLaserLooksAroundBeforeItFirstDrives) {
   scan.ranges.resize(scan.ranges.size() / 4);
   const std::size_t looks = 5;  // an eighth of a turn each
   for (std::size_t k = 0; k < looks; ++k) {
-    EXPECT_TRUE(planner.update(scan, {1.0, 1.0}).look_around) << k;
+    EXPECT_EQ(planner.update(scan, {1.0, 1.0}).phase, PlanPhase::kLookingAround) << k;
     scan = kTwoRooms.scanFrom({1.0, 1.0, 0.25 * M_PI * static_cast<double>(k + 1)}, 4.0);
     scan.ranges.resize(scan.ranges.size() / 4);
   }
   planner.update(kTwoRooms.scanFrom({1.0, 1.0, M_PI}, 4.0), {1.0, 1.0});
-  EXPECT_FALSE(planner.plan().look_around);
+  EXPECT_NE(planner.plan().phase, PlanPhase::kLookingAround);
   EXPECT_FALSE(planner.plan().path.empty());
 }
 
@@ -182,14 +182,14 @@ TEST(GlobalPlanner, SaysSoWhereTheRobotIsShutIn) {
   const KnownWorld cell{{"###", "#.#", "###"}, 8};  // 0.4 m wide
   GlobalPlanner planner;
   const Drive d = drive(planner, cell, {0.6, 0.6});
-  EXPECT_TRUE(d.last.finished);
+  EXPECT_TRUE(d.last.isFinished());
   EXPECT_EQ(d.last.reason, "the robot stands where nothing around it is known to be free");
 }
 
 TEST(GlobalPlanner, WaitsForAFirstScanAndAPose) {
   GlobalPlanner planner;
-  EXPECT_FALSE(planner.update(Scan{}, {0.0, 0.0}).finished);
-  EXPECT_FALSE(planner.update(kTwoRooms.scanFrom({1.0, 1.0, 0.0}), {kNaN, 0.0}).finished);
+  EXPECT_FALSE(planner.update(Scan{}, {0.0, 0.0}).isFinished());
+  EXPECT_FALSE(planner.update(kTwoRooms.scanFrom({1.0, 1.0, 0.0}), {kNaN, 0.0}).isFinished());
   EXPECT_TRUE(planner.plan().path.empty());
   EXPECT_FALSE(planner.update(kTwoRooms.scanFrom({1.0, 1.0, 0.0}), {1.0, 1.0}).path.empty());
 }
@@ -199,11 +199,11 @@ TEST(GlobalPlanner, GoalsThatItGetsStuckOnTheWayToRunOut) {
     GlobalPlanner planner;
     const Scan scan = kTwoRooms.scanFrom({1.0, 1.0, 0.0}, 4.0);
     std::vector<Eigen::Vector2d> goals;
-    for (int i = 0; i < 100 && !update(planner, scan, {1.0, 1.0}).finished; ++i) {
+    for (int i = 0; i < 100 && !update(planner, scan, {1.0, 1.0}).isFinished(); ++i) {
       goals.push_back(planner.plan().path.back());
       if (!goes_around || !planner.goAround(planner.plan().path)) planner.setGoalAside();
     }
-    EXPECT_TRUE(planner.plan().finished);
+    EXPECT_TRUE(planner.plan().isFinished());
     EXPECT_GE(goals.size(), 1u);
   }
 }
@@ -257,7 +257,7 @@ TEST(GlobalPlanner, LeavesAGoalWhoseWayIsLostTwice) {
   const Scan scan = kTwoRooms.scanFrom({robot.x(), robot.y(), 0.0}, 4.0);
   GlobalPlanner planner;
   int goals = 0;
-  for (; goals < 100 && !update(planner, scan, robot).finished; ++goals) {
+  for (; goals < 100 && !update(planner, scan, robot).isFinished(); ++goals) {
     const Eigen::Vector2d goal_map = planner.plan().path.back();
     if ((goal_map - robot).norm() < 0.6) {  // shut, it would shut in the robot
       planner.noteArrival();
@@ -275,7 +275,7 @@ TEST(GlobalPlanner, LeavesAGoalWhoseWayIsLostTwice) {
     planner.update(scan, robot);
     planner.seed(shut, CellState::kFree);
   }
-  EXPECT_TRUE(planner.plan().finished);
+  EXPECT_TRUE(planner.plan().isFinished());
   EXPECT_GT(goals, 0);
 }
 
@@ -283,7 +283,7 @@ TEST(GlobalPlanner, KeepsItsGoalsWithinItsLimits) {
   GlobalPlanner planner;
   planner.limitTo({{0.0, 0.0}, {4.6, 0.0}, {4.6, 4.5}, {0.0, 4.5}});  // the left room
   const Drive limited = drive(planner, kTwoRooms, {1.0, 1.0});
-  EXPECT_TRUE(limited.last.finished);
+  EXPECT_TRUE(limited.last.isFinished());
   for (const auto& goal : limited.goals) EXPECT_LT(goal.x(), 4.6);
 }
 
@@ -296,7 +296,7 @@ TEST(GlobalPlanner, HasNothingToDoInAPlaceKnownFromASavedMap) {
   }
   planner.seed(free, CellState::kFree);
   planner.seed(occupied, CellState::kOccupied);
-  EXPECT_TRUE(update(planner, kTwoRooms.scanFrom({1.0, 1.0, 0.0}, 4.0), {1.0, 1.0}).finished);
+  EXPECT_TRUE(update(planner, kTwoRooms.scanFrom({1.0, 1.0, 0.0}, 4.0), {1.0, 1.0}).isFinished());
 }
 
 TEST(GlobalPlanner, IsDeterministic) {

@@ -98,7 +98,8 @@ void GlobalPlanner::replan(const Eigen::Vector2d& robot_map) {
 bool GlobalPlanner::takeWayTo(Cell goal, const Eigen::Vector2d& robot_map) {
   plan_.path = place_.wayTo(goal);
   if (plan_.path.size() == 1) plan_.path.insert(plan_.path.begin(), robot_map);
-  return !plan_.path.empty();
+  plan_.phase = plan_.path.empty() ? PlanPhase::kUndecided : PlanPhase::kDriving;
+  return plan_.phase == PlanPhase::kDriving;
 }
 
 // A decision is made again only after something new was seen: what was the best stays the best
@@ -131,7 +132,7 @@ void GlobalPlanner::decide(const Eigen::Vector2d& robot_map) {
     lookAround();
     return;
   }
-  plan_.finished = true;
+  plan_.phase = PlanPhase::kFinished;
   place_.findWays(robot_map);
   plan_.unreached = place_.unreached();
   plan_.reason = whatIsLeft();
@@ -214,7 +215,7 @@ bool GlobalPlanner::lookLast(const Eigen::Vector2d& robot_map) {
 
 void GlobalPlanner::lookAround() {
   plan_ = {};
-  plan_.look_around = true;
+  plan_.phase = PlanPhase::kLookingAround;
   plan_.reason = "to look around";
 }
 

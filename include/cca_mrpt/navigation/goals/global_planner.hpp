@@ -23,20 +23,29 @@ struct GlobalPlannerParameters {
   ViewTourParameters tour;
 };
 
-/// Where to go next, and how.
-struct Plan {
-  bool finished = false;
-  /// m, map frame, from the robot to the goal: corner points, two at least. Empty where finished,
-  /// before the first scan that shows something, and where it takes some more calls to find out
+enum class PlanPhase {
+  /// Before the first scan that shows something, and where it takes some more calls to find out
   /// what is left to see.
-  std::vector<Eigen::Vector2d> path;
-  Eigen::Vector2d look_at = Eigen::Vector2d::Zero();  ///< m, map frame: what the goal is to show
+  kUndecided,
+  kDriving,
   /// At the start, and where no goal is known, not all directions have been looked into from here
   /// (a laser of less than 360 degrees): the robot shall turn on the spot.
-  bool look_around = false;
+  kLookingAround,
+  kFinished,
+};
+
+/// Where to go next, and how.
+struct Plan {
+  PlanPhase phase = PlanPhase::kUndecided;
+  /// m, map frame, from the robot to the goal: corner points, two at least. Empty but where
+  /// driving.
+  std::vector<Eigen::Vector2d> path;
+  Eigen::Vector2d look_at = Eigen::Vector2d::Zero();  ///< m, map frame: what the goal is to show
   std::string reason;
   /// m^2, where finished: places in view at which the robot could stand, had it found a way there.
   double unreached = 0.0;
+
+  bool isFinished() const { return phase == PlanPhase::kFinished; }
 };
 
 /// The paper's global planner (Step 0): keeps what is known of the place, and sets one goal after
