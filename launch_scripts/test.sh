@@ -7,7 +7,7 @@
 #   launch_scripts/test.sh --all         also the long ones: random places, real logs, MRPT's programs,
 #                                        rviz and the installed package, the Python package, benchmarks that
 #                                        must build, the unit tests under sanitizers in a build without ROS
-#   launch_scripts/test.sh --all fuzz    the fuzzers, in the sanitizers' build; they run only when named
+#   launch_scripts/test.sh --all fuzz    the fuzzers, by a build of their own; they run only when named
 #   launch_scripts/test.sh [--all] NAME  of these, the parts whose name holds NAME (see the end)
 set -u
 cd "$(dirname "$0")/.."
@@ -55,20 +55,20 @@ tests() { (cd build && ctest -j$((2 * jobs)) --output-on-failure --no-tests=erro
 
 # Also the proof that everything but the nodes builds where ROS is absent, and by clang, which is the
 # quicker one here.
-sanitized() {  # TARGET
-  configure_and_build build-sanitize "$1" -DCMAKE_CXX_COMPILER=clang++ -DCMAKE_BUILD_TYPE=None \
-    -DCMAKE_CXX_FLAGS=-O1 -DCCA_SANITIZE=ON -DCCA_WITH_ROS=OFF -DCCA_BUILD_BENCHMARKS=OFF
+sanitized() {  # DIR TARGET OPTIONS...
+  configure_and_build "$@" -DCMAKE_CXX_COMPILER=clang++ -DCMAKE_BUILD_TYPE=None -DCMAKE_CXX_FLAGS=-O1 \
+    -DCCA_SANITIZE=ON -DCCA_WITH_ROS=OFF -DCCA_BUILD_BENCHMARKS=OFF
 }
 
 sanitizers() {
-  sanitized unit_tests || return 1
+  sanitized build-sanitize unit_tests || return 1
   (cd build-sanitize && LSAN_OPTIONS="suppressions=$PWD/../test/checks/leaks.supp:print_suppressions=0" \
     ctest -j"$jobs" --output-on-failure --no-tests=error -L unit)
 }
 
 fuzzers() {
-  sanitized fuzzers || return 1
-  (cd build-sanitize && ctest -j"$jobs" --output-on-failure --no-tests=error -L fuzz)
+  sanitized build-fuzz fuzzers -DCCA_BUILD_FUZZERS=ON -DCCA_WITH_EVIDENCE=OFF || return 1
+  (cd build-fuzz && ctest -j"$jobs" --output-on-failure --no-tests=error -L fuzz)
 }
 
 part dependencies ./launch_scripts/install_dependencies.sh --tests
