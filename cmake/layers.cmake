@@ -60,7 +60,6 @@ function(cca_options target)
     target_compile_options(${target} PRIVATE -fsanitize=address,undefined -fno-sanitize-recover=undefined
                            -fno-omit-frame-pointer)
     target_link_options(${target} PUBLIC -fsanitize=address,undefined)
-    target_compile_definitions(${target} PRIVATE CCA_SANITIZE)
     if(CCA_BUILD_FUZZERS)
       target_compile_options(${target} PRIVATE -fsanitize=fuzzer-no-link)
     endif()

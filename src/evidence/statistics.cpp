@@ -10,7 +10,7 @@
 namespace cca::evidence {
 namespace {
 
-constexpr int kDraws = 1000;
+constexpr int kResamples = 1000;
 constexpr double kTail = 0.025;
 
 double mean(std::vector<double> values) {
@@ -23,7 +23,7 @@ Estimate bootstrap(const std::vector<double>& values, std::uint64_t seed, Statis
   const int last = static_cast<int>(values.size()) - 1;
   Random random(seed);
   std::vector<double> found, resample(values.size());
-  for (int k = 0; k < kDraws; ++k) {
+  for (int k = 0; k < kResamples; ++k) {
     for (double& value : resample)
       value = values[static_cast<std::size_t>(random.integer(0, last))];
     found.push_back(statistic(resample));

@@ -20,8 +20,8 @@ namespace fs = std::filesystem;
 constexpr const char* kFormat = "cca_mrpt memory 1";
 /// A day of driving is a tenth of this.
 constexpr std::size_t kLargest = std::size_t{1} << 30;
-constexpr std::size_t kMostCompressed = 1100;  // times, by deflate
-constexpr std::size_t kMostRemembered = 100000;
+constexpr std::size_t kMostCompressed = 1100;    // times, by deflate
+constexpr std::size_t kMostRemembered = 100000;  // beams of a scan
 
 json asJson(const Pose2& pose) { return {pose.x, pose.y, pose.theta}; }
 

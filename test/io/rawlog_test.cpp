@@ -209,7 +209,7 @@ std::string logThatClaims(std::uint32_t beams) {
 }
 
 TEST(Rawlog, AnObjectThatClaimsGigabytesIsRefusedBeforeItTakesThem) {
-#ifdef CCA_SANITIZE
+#ifdef __SANITIZE_ADDRESS__
   GTEST_SKIP() << "the sanitizer ends a program that asks for too much";
 #endif
   const TemporaryFolder folder;

@@ -244,13 +244,10 @@ void GlobalPlanner::correct(const PastScans& past) {
   is_corrected_ = true;
 }
 
-void GlobalPlanner::setGoalAside() {
-  if (goal_) place_.noteFailure(goal_->target, Failure::kNotReached, heldAt());
-  goal_.reset();
-}
+void GlobalPlanner::setGoalAside() { dropGoal(Failure::kNotReached, heldAt()); }
 
-void GlobalPlanner::dropGoal(Failure failure) {
-  if (goal_) place_.noteFailure(goal_->target, failure);
+void GlobalPlanner::dropGoal(Failure failure, std::optional<Cell> held_at) {
+  if (goal_) place_.noteFailure(goal_->target, failure, held_at);
   goal_.reset();
 }
 
@@ -271,8 +268,7 @@ bool GlobalPlanner::goAround(const std::vector<Eigen::Vector2d>& way) {
     place_.openLast();
     return false;
   }
-  place_.noteFailure(goal_->target, Failure::kWayLost, heldAt());
-  goal_.reset();
+  dropGoal(Failure::kWayLost, heldAt());
   return true;
 }
 

@@ -2,7 +2,6 @@
 #include "cca_mrpt/navigation/place/failed_tries.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <cstdlib>
 #include <utility>
 
@@ -20,8 +19,6 @@ constexpr int kAside = 2;                  // cells, to both sides of it
 bool isSameTarget(Cell a, Cell b) {
   return std::max(std::abs(a.x - b.x), std::abs(a.y - b.y)) <= kSameTarget;
 }
-
-bool isSamePlace(Cell a, Cell b) { return std::hypot(a.x - b.x, a.y - b.y) <= kSamePlace; }
 
 /// The cells that the beginning of a way crosses.
 std::vector<Cell> cellsAhead(const std::vector<Eigen::Vector2d>& way, double resolution) {
@@ -65,7 +62,7 @@ int FailedTries::timesHeld() const {
   for (auto t = tries_.rbegin(); t != tries_.rend(); ++t) {
     if (t->failure == Failure::kNothingSeen) break;  // it got away
     if (!t->held_at) continue;
-    if (place && !isSamePlace(*place, *t->held_at)) break;
+    if (place && distanceBetween(*place, *t->held_at) > kSamePlace) break;
     place = t->held_at;
     ++times;
   }

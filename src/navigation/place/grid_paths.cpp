@@ -112,8 +112,7 @@ std::vector<Cell> pulled(const FreeSpace& space, const std::vector<Cell>& path) 
 
 double lengthOf(const std::vector<Cell>& path) {
   double length = 0.0;
-  for (std::size_t i = 1; i < path.size(); ++i)
-    length += std::hypot(path[i].x - path[i - 1].x, path[i].y - path[i - 1].y);
+  for (std::size_t i = 1; i < path.size(); ++i) length += distanceBetween(path[i - 1], path[i]);
   return length;
 }
 

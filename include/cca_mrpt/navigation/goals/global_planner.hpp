@@ -131,7 +131,7 @@ class GlobalPlanner {
   std::optional<ViewPoint> choose();
   void lookAround();
   bool lookLast(const Eigen::Vector2d& robot_map);
-  void dropGoal(Failure failure);
+  void dropGoal(Failure failure, std::optional<Cell> held_at = {});
   std::optional<Cell> heldAt() const;
   bool drivesInVain() const;
   std::string whatIsLeft();
