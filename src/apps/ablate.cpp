@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "cca_mrpt/evaluation/log_score.hpp"
@@ -52,18 +54,33 @@ struct AblationOptions {
   std::vector<std::string> logs;
   TuningDesign design;
   int shakes = 2;
+  std::vector<std::string> only;
+
+  /// The parts whose meaning holds one of `only`; all where that is empty.
+  std::vector<LeftOut> parts() const {
+    std::vector<LeftOut> asked;
+    for (const LeftOut& part : kParts) {
+      const bool named = std::any_of(only.begin(), only.end(), [&](const std::string& word) {
+        return std::string_view(part.meaning).find(word) != std::string_view::npos;
+      });
+      if (named || only.empty()) asked.push_back(part);
+    }
+    return asked;
+  }
 };
 
 /// What the whole algorithm reaches in each case, and by how much it falls without each part.
 struct Figure {
-  explicit Figure(const char* title) : name(title), losses(std::size(kParts)) {}
+  Figure(const char* title, std::size_t parts) : name(title), losses(parts) {}
   const char* name;
   std::vector<double> whole;
   std::vector<std::vector<double>> losses;
 };
 
 struct Study {
-  Figure scans{"scans, F1"}, worlds{"maps of worlds, F1"}, logs{"maps of logs, F"};
+  std::vector<LeftOut> parts;
+  Figure scans{"scans, F1", parts.size()}, worlds{"maps of worlds, F1", parts.size()},
+      logs{"maps of logs, F", parts.size()};
 };
 
 CcaParameters without(Part part) {
@@ -80,8 +97,8 @@ void studyWorlds(const AblationOptions& options, Progress& progress, Study& stud
     const TuningRow whole = runJob(job, scene);
     study.scans.whole.push_back(whole.scan_f1);
     study.worlds.whole.push_back(whole.map_f1);
-    for (std::size_t p = 0; p < std::size(kParts); ++p) {
-      job.parameters.without = Ablation(kParts[p].part);
+    for (std::size_t p = 0; p < study.parts.size(); ++p) {
+      job.parameters.without = Ablation(study.parts[p].part);
       const TuningRow row = runJob(job, scene);
       study.scans.losses[p].push_back(whole.scan_f1 - row.scan_f1);
       study.worlds.losses[p].push_back(whole.map_f1 - row.map_f1);
@@ -127,8 +144,8 @@ void studyLogs(const AblationOptions& options, Progress& progress, Study& study)
       shake(shaken, seed);
       const double whole = scoreOfMap(shaken, {});
       study.logs.whole.push_back(whole);
-      for (std::size_t p = 0; p < std::size(kParts); ++p) {
-        study.logs.losses[p].push_back(whole - scoreOfMap(shaken, without(kParts[p].part)));
+      for (std::size_t p = 0; p < study.parts.size(); ++p) {
+        study.logs.losses[p].push_back(whole - scoreOfMap(shaken, without(study.parts[p].part)));
       }
       const double all = static_cast<double>(options.logs.size()) * options.shakes;
       progress.show(++done / all, std::filesystem::path(path).filename().string());
@@ -153,8 +170,8 @@ void print(const Study& study) {
   for (const Figure* f : figures) std::printf(" %s (%zu) |", f->name, f->whole.size());
   std::printf("\n|---|---|---|---|\n| nothing: what is reached |");
   for (const Figure* f : figures) printCell(f->whole);
-  for (std::size_t p = 0; p < std::size(kParts); ++p) {
-    std::printf("\n| %s |", kParts[p].meaning);
+  for (std::size_t p = 0; p < study.parts.size(); ++p) {
+    std::printf("\n| %s |", study.parts[p].meaning);
     for (const Figure* f : figures) printCell(f->losses[p]);
   }
   std::printf("\n");
@@ -164,7 +181,8 @@ void ablate(const AblationOptions& options) {
   if (options.design.worlds.empty() && options.logs.empty()) {
     throw CLI::ValidationError("WORLD", "name at least one world or --log");
   }
-  Study study;
+  Study study{options.parts()};
+  if (study.parts.empty()) throw CLI::ValidationError("--only", "names no part");
   Progress progress("ablate");
   studyWorlds(options, progress, study);
   studyLogs(options, progress, study);
@@ -185,6 +203,7 @@ void addAblateCommand(CLI::App& program) {
   design.noises = {0.01, 0.03, 0.1};
   command->add_option("WORLD", design.worlds, "worlds (.yaml, true segments beside them)");
   command->add_option("--log", options->logs, "logs with corrected poses");
+  command->add_option("--only", options->only, "parts whose names hold one of these words");
   const auto count = [command](const char* name, int& value, const char* meaning) {
     command->add_option(name, value, meaning)->check(CLI::Range(1, 1000000))->capture_default_str();
   };

@@ -4,68 +4,16 @@
 #include <algorithm>
 
 #include "cca_mrpt/mapping/cross.hpp"
+#include "cca_mrpt/mapping/k_means.hpp"
 
 namespace cca {
 namespace {
 
-/// Points by which a boundary may move in one sweep.
-constexpr int kCornerReach = 5;
 /// Longest line sought among loose points, and longest run that is shared out.
 constexpr int kLongestLoose = 8;
 /// nats, what it may cost that two lines meet at their boundary: half the 99 % quantile of
 /// chi-square with the one degree of freedom that this takes.
 constexpr double kMeetingPrice = 3.32;
-/// nats, below any real gain: keeps rounding from moving a boundary to and fro.
-constexpr double kNoGain = 1e-6;
-
-bool areNeighbours(const ScanPoints& points, const FittedRun& a, const FittedRun& b) {
-  return points.breaksBetween(a.last - 1, b.first) == 0;
-}
-
-/// The best middle in [low, high] to part first..last at; -1 where none is cheaper than `price`.
-int bestParting(const RunFitter& fitter, int first, int low, int high, int last, double price) {
-  int best = -1;
-  double least = price - kNoGain;
-  for (int middle = low; middle <= high; ++middle) {
-    const double least_after = fitter.leastPrice(middle, last);
-    if (fitter.leastPrice(first, middle) + least_after >= least) continue;
-    const double before = fitter.price(first, middle);
-    if (before + least_after >= least) continue;
-    const double parted = before + fitter.price(middle, last);
-    if (parted < least) {
-      least = parted;
-      best = middle;
-    }
-  }
-  return best;
-}
-
-void dropEmpty(Runs* runs) {
-  runs->erase(
-      std::remove_if(runs->begin(), runs->end(), [](const FittedRun& r) { return r.size() == 0; }),
-      runs->end());
-}
-
-bool moveBoundaries(const ScanPoints& points, const RunFitter& fitter, Runs* runs) {
-  bool moved = false;
-  for (std::size_t k = 0; k + 1 < runs->size(); ++k) {
-    FittedRun &a = (*runs)[k], &b = (*runs)[k + 1];
-    if (a.settled_with == b.last || (!a.is_line && !b.is_line)) continue;
-    a.settled_with = b.last;
-    if (!areNeighbours(points, a, b)) continue;
-    const int middle =
-        bestParting(fitter, a.first, std::max(a.first, a.last - kCornerReach),
-                    std::min(b.last, a.last + kCornerReach), b.last, a.price + b.price);
-    if (middle < 0) continue;
-    moved = true;
-    const int last = b.last;
-    a = fitter.fit(a.first, middle);
-    b = fitter.fit(middle, last);
-    if (k > 0) (*runs)[k - 1].settled_with = -1;
-  }
-  dropEmpty(runs);
-  return moved;
-}
 
 bool shareOut(const ScanPoints& points, const RunFitter& fitter, Runs* runs) {
   bool shared = false;
@@ -77,7 +25,7 @@ bool shareOut(const ScanPoints& points, const RunFitter& fitter, Runs* runs) {
     b.kept_to = c.last;
     if (!areNeighbours(points, a, b) || !areNeighbours(points, b, c)) continue;
     const int middle =
-        bestParting(fitter, a.first, b.first, b.last, c.last, a.price + b.price + c.price);
+        twoMeans(fitter, a.first, b.first, b.last, c.last, a.price + b.price + c.price);
     if (middle < 0) continue;
     shared = true;
     b = fitter.fit(a.first, middle);
@@ -96,7 +44,7 @@ bool splitLines(const RunFitter& fitter, Runs* runs) {
     const bool may_gain =
         !run.is_searched && (!run.is_line || 0.5 * run.chi_square > fitter.linePrice());
     const int middle =
-        may_gain ? bestParting(fitter, first, first + 1, last - 1, last, run.price) : -1;
+        may_gain ? twoMeans(fitter, first, first + 1, last - 1, last, run.price) : -1;
     if (run.is_line) run.is_searched = true;
     if (middle < 0) continue;
     run = fitter.fit(first, middle);
@@ -175,8 +123,8 @@ bool findEdgeBetween(const ScanPoints& points, const RunFitter& fitter, double l
                      FittedRun* a, FittedRun* edge, FittedRun* b) {
   const int first = a->first, low = a->last, high = b->first, last = b->last;
   if (high - low > kLongestLoose || points.breaksBetween(low - 1, high) > 0) return false;
-  const int from = std::max(first + kFewestPoints, low - kCornerReach);
-  const int to = std::min(last - kFewestPoints, high + kCornerReach);
+  const int from = std::max(first + kFewestPoints, low - kBoundaryReach);
+  const int to = std::min(last - kFewestPoints, high + kBoundaryReach);
   if (from > low || to < high) return false;
   double least = 0.5 * (a->chi_square + b->chi_square) + loose_price - fitter.vertexPrice();
   const auto leastOf = [&](int i, int j) { return i < j ? fitter.leastHalfChiSquare(i, j) : 0.0; };
@@ -206,9 +154,9 @@ bool findEdgeBetween(const ScanPoints& points, const RunFitter& fitter, double l
 
 }  // namespace
 
-bool refineCorners(const ScanPoints& points, const RunFitter& fitter, Runs* runs) {
-  bool changed = false;
-  while (moveBoundaries(points, fitter, runs)) changed = true;
+bool refineCorners(const ScanPoints& points, const RunFitter& fitter, Runs* runs,
+                   const Ablation& without) {
+  bool changed = !without(Part::kKMeans) && kMeans(points, fitter, runs);
   if (splitLines(fitter, runs)) changed = true;
   if (tellLoosePoints(points, fitter, runs)) changed = true;
   if (shareOut(points, fitter, runs)) changed = true;
@@ -220,8 +168,8 @@ void meetAtCorners(const ScanPoints& points, const RunFitter& fitter, Runs* runs
     FittedRun &a = (*runs)[k], &b = (*runs)[k + 1];
     if (!a.is_line || !b.is_line || !areNeighbours(points, a, b)) continue;
     if (meetAtBoundary(points, a, b)) continue;
-    const int first = a.first, last = b.last, from = std::max(first, a.last - kCornerReach);
-    const int to = std::min(last, a.last + kCornerReach);
+    const int first = a.first, last = b.last, from = std::max(first, a.last - kBoundaryReach);
+    const int to = std::min(last, a.last + kBoundaryReach);
     double least = a.price + b.price + kMeetingPrice;
     for (int middle = from; middle <= to; ++middle) {
       const double least_right = fitter.leastPrice(middle, last);

@@ -71,7 +71,7 @@ ClusteredScan cluster(const Scan& scan, const CcaParameters& parameters) {
       if (without(Part::kRounds)) break;
     }
     if (without(Part::kCorners)) continue;
-    if (refineCorners(points, fitter, &runs)) changed = true;
+    if (refineCorners(points, fitter, &runs, without)) changed = true;
     if (round > 0 || !points.closed || runs.size() < 3) continue;
     // The circle was cut before its walls were known: it is opened on the far side of the scan, so
     // that the old seam is refined like any other place.

@@ -11,9 +11,6 @@
 namespace cca {
 namespace {
 
-/// K-means serves as a first cut that later steps refine: it need not have converged.
-constexpr int kLloydSweeps = 2;
-
 bool isLinear(const ScanPoints& points, const FittedRun& run) {
   if (run.size() <= 2) return true;
   const double gate_sq = kNormalGate * kNormalGate * run.variance;
@@ -42,7 +39,7 @@ int splitByTwoMeans(const PrefixMoments& prefix, int first, int last) {
 }
 
 void prune(const ScanPoints& points, const RunFitter& fitter, int first, int last,
-           const Ablation& without, std::vector<FittedRun>* kept) {
+           const Ablation& without, Runs* kept) {
   const FittedRun run = fitter.fit(first, last);
   if (without(Part::kPruning) || isLinear(points, run)) {
     kept->push_back(run);
@@ -55,21 +52,20 @@ void prune(const ScanPoints& points, const RunFitter& fitter, int first, int las
 
 }  // namespace
 
-std::vector<FittedRun> pointClusters(const ScanPoints& points, const RunFitter& fitter,
-                                     const Ablation& without) {
+Runs pointClusters(const ScanPoints& points, const RunFitter& fitter, const Ablation& without) {
   const int n = static_cast<int>(points.size());
   const int clusters = std::max(1, (n + kPointsPerCluster / 2) / kPointsPerCluster);
-  const int sweeps = without(Part::kKMeans) ? 0 : kLloydSweeps;
-  const std::vector<int> cluster = kMeansInOrder(points, clusters, sweeps);
-  std::vector<FittedRun> runs;
+  const auto share = [&](int i) { return static_cast<int>((i + 0.5) * clusters / n); };
+  Runs runs;
   runs.reserve(2 * static_cast<std::size_t>(clusters));
   for (int first = 0; first < n;) {
     int last = first + 1;
-    while (last < n && cluster[last] == cluster[first] && points.breaksBetween(last - 1, last) == 0)
+    while (last < n && share(last) == share(first) && points.breaksBetween(last - 1, last) == 0)
       ++last;
     prune(points, fitter, first, last, without, &runs);
     first = last;
   }
+  if (!without(Part::kKMeans)) kMeans(points, fitter, &runs);
   return runs;
 }
 

@@ -74,10 +74,13 @@ void RangeNoise(benchmark::State& state) {
   state.SetComplexityN(state.range(0));
 }
 
-void KMeansInOrder(benchmark::State& state) {
+void KMeans(benchmark::State& state) {
   const Stage s(beamsOf(state));
+  const Runs shares = pointClusters(s.points, s.fitter, Ablation(Part::kKMeans));
   for (auto _ : state) {
-    benchmark::DoNotOptimize(kMeansInOrder(s.points, beamsOf(state) / kPointsPerCluster, 3));
+    Runs runs = shares;
+    kMeans(s.points, s.fitter, &runs);
+    benchmark::DoNotOptimize(runs);
   }
   state.SetComplexityN(state.range(0));
 }
@@ -156,7 +159,7 @@ void RankOrderClustering(benchmark::State& state) {
   BENCHMARK(step)->RangeMultiplier(2)->Range(90, 11520)->Unit(benchmark::kMicrosecond)->Complexity()
 AGAINST_BEAMS(ScanToPoints);
 AGAINST_BEAMS(RangeNoise);
-AGAINST_BEAMS(KMeansInOrder);
+AGAINST_BEAMS(KMeans);
 AGAINST_BEAMS(PointClusters);
 AGAINST_BEAMS(SimilarityRankOrderMerge);
 AGAINST_BEAMS(RefineCorners);

@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "cca_mrpt/mapping/line_merging.hpp"
 #include "polygon_room.hpp"
 
 namespace cca {

@@ -5,77 +5,110 @@
 
 #include <random>
 
+#include "cca_mrpt/mapping/point_clusters.hpp"
 #include "polygon_room.hpp"
 
 namespace cca {
 namespace {
 
-using Points = std::vector<Eigen::Vector2d>;
+struct ClusteredRoom {
+  ScanPoints points;
+  PointNoise noise{0.03, 0.001, 0.0};
+  RunFitter fitter{points.positions, noise};
+  Runs shares;
 
-/// Lloyd's algorithm as it is written: every point against every centroid.
-std::vector<int> fullLloyd(const Points& points, Points centroids, int sweeps) {
-  std::vector<int> cluster(points.size(), -1);
-  for (int sweep = 0; sweep < sweeps; ++sweep) {
-    bool moved = false;
-    for (std::size_t i = 0; i < points.size(); ++i) {
-      int best = 0;
-      for (std::size_t k = 1; k < centroids.size(); ++k) {
-        if ((points[i] - centroids[k]).squaredNorm() <
-            (points[i] - centroids[best]).squaredNorm()) {
-          best = static_cast<int>(k);
-        }
+  ClusteredRoom(unsigned seed, bool with_a_crate) {
+    std::mt19937 random(seed);
+    Scan scan = turnIn(rectangle(-1.0 - seed % 5, -2.0, 5.0, 0.5 + seed % 3), 0.03, &random);
+    for (std::size_t i = 40; with_a_crate && i < 90; ++i) scan.ranges[i] *= 0.4;
+    points = scanPoints(scan, 0.03);
+    fitter = RunFitter(points.positions, noise);
+    shares = pointClusters(points, fitter, Ablation(Part::kKMeans));
+  }
+};
+
+double price(const Runs& runs) {
+  double sum = 0.0;
+  for (const FittedRun& run : runs) sum += run.price;
+  return sum;
+}
+
+TEST(KMeans, EndsWhereNoBoundaryTellsMoreBrieflyElsewhere) {
+  for (unsigned seed = 1; seed <= 20; ++seed) {
+    const ClusteredRoom room(seed, true);
+    Runs runs = room.shares;
+    ASSERT_TRUE(kMeans(room.points, room.fitter, &runs)) << seed;
+    EXPECT_LT(price(runs), price(room.shares)) << seed;
+    for (std::size_t k = 0; k + 1 < runs.size(); ++k) {
+      const FittedRun &a = runs[k], &b = runs[k + 1];
+      ASSERT_EQ(a.last, b.first);
+      if (!areNeighbours(room.points, a, b) || (!a.is_line && !b.is_line)) continue;
+      for (int move = -kBoundaryReach; move <= kBoundaryReach; ++move) {
+        const int middle = a.last + move;
+        if (middle < a.first || middle > b.last) continue;
+        const double moved = room.fitter.price(a.first, middle) + room.fitter.price(middle, b.last);
+        EXPECT_GE(moved, a.price + b.price - kWorthMoving - kNoGain)
+            << seed << ", boundary at " << a.last;
       }
-      moved = moved || best != cluster[i];
-      cluster[i] = best;
     }
-    if (!moved) break;
-    for (std::size_t k = 0; k < centroids.size(); ++k) {
-      Eigen::Vector2d sum = Eigen::Vector2d::Zero();
-      int count = 0;
-      for (std::size_t i = 0; i < points.size(); ++i) {
-        if (cluster[i] != static_cast<int>(k)) continue;
-        sum += points[i];
-        ++count;
+    EXPECT_FALSE(kMeans(room.points, room.fitter, &runs)) << seed;
+  }
+}
+
+TEST(KMeans, LetsNoPointCrossAStepInDepth) {
+  for (unsigned seed = 1; seed <= 20; ++seed) {
+    const ClusteredRoom room(seed, true);
+    Runs runs = room.shares;
+    kMeans(room.points, room.fitter, &runs);
+    for (const FittedRun& run : runs) {
+      EXPECT_EQ(room.points.breaksBetween(run.first, run.last - 1), 0) << seed;
+    }
+  }
+}
+
+TEST(KMeans, BringsABoundaryToTheCornerFromAfar) {
+  constexpr double kFirst = 0.3, kSpacing = 0.01;  // rad; the corner lies at pi / 4
+  for (unsigned seed = 1; seed <= 20; ++seed) {
+    std::mt19937 random(seed);
+    const PolygonRoom walls = rectangle(-5.0, -5.0, 3.0, 3.0);
+    const ScanPoints points = scanPoints(scanOf(walls, kFirst, kSpacing, 100, 0.03, &random), 0.03);
+    const RunFitter fitter(points.positions, {0.03, 0.001, 0.0});
+    for (const int wrong : {35, 42, 55, 62}) {
+      Runs runs = {fitter.fit(0, wrong), fitter.fit(wrong, 100)};
+      EXPECT_TRUE(kMeans(points, fitter, &runs));
+      ASSERT_EQ(runs.size(), 2U) << seed;
+      EXPECT_NEAR(runs[0].last, (M_PI / 4.0 - kFirst) / kSpacing, 4.0) << seed << ", " << wrong;
+    }
+  }
+}
+
+TEST(TwoMeans, AreTheBestOfAllPartings) {
+  for (unsigned seed = 1; seed <= 20; ++seed) {
+    const ClusteredRoom room(seed, true);
+    for (int first = 0; first + 30 <= 360; first += 15) {
+      double least = room.fitter.price(first, first + 30);
+      int best = -1;
+      for (int middle = first + 1; middle < first + 30; ++middle) {
+        const double parted =
+            room.fitter.price(first, middle) + room.fitter.price(middle, first + 30);
+        if (parted >= least - kNoGain) continue;
+        least = parted;
+        best = middle;
       }
-      if (count > 0) centroids[k] = sum / count;
-    }
-  }
-  return cluster;
-}
-
-Points evenSeeds(const Points& points, int k) {
-  Points seeds;
-  for (int i = 0; i < k; ++i) {
-    seeds.push_back(points[static_cast<std::size_t>((i + 0.5) * points.size() / k)]);
-  }
-  return seeds;
-}
-
-TEST(KMeansInOrder, EqualsFullLloydOnTheSameSeedsInRooms) {
-  std::mt19937 random(7);
-  for (int trial = 0; trial < 20; ++trial) {
-    Scan scan = turnIn(rectangle(-1.0 - trial % 5, -2.0, 5.0, 0.5 + trial % 3), 0.03, &random);
-    for (std::size_t i = 40; i < 90; ++i) scan.ranges[i] *= 0.4;  // something stands in the room
-    const ScanPoints points = scanPoints(scan);
-    for (const int k : {1, 7, 40, 72, 180}) {
-      EXPECT_EQ(kMeansInOrder(points, k, 20),
-                fullLloyd(points.positions, evenSeeds(points.positions, k), 20));
+      EXPECT_EQ(twoMeans(room.fitter, first, first + 1, first + 29, first + 30,
+                         room.fitter.price(first, first + 30)),
+                best);
     }
   }
 }
 
-TEST(KMeansInOrder, EqualsFullLloydWhereDepthAlternatesFromBeamToBeam) {
-  std::mt19937 random(8);
-  std::uniform_real_distribution<double> range(0.5, 8.0);
-  Scan scan;
-  scan.angle_min = -2.0;
-  scan.angle_increment = 4.0 / 200.0;
-  for (int i = 0; i < 200; ++i) scan.ranges.push_back(range(random));
-  const ScanPoints points = scanPoints(scan);
-  for (const int k : {3, 40, 100}) {
-    EXPECT_EQ(kMeansInOrder(points, k, 20),
-              fullLloyd(points.positions, evenSeeds(points.positions, k), 20));
-  }
+TEST(KMeans, OfNothingAndOfOneClusterMovesNothing) {
+  const ClusteredRoom room(1, false);
+  Runs none, one{room.fitter.fit(0, 30)};
+  EXPECT_FALSE(kMeans(room.points, room.fitter, &none));
+  EXPECT_FALSE(kMeans(room.points, room.fitter, &one));
+  EXPECT_TRUE(none.empty());
+  EXPECT_EQ(one.size(), 1U);
 }
 
 }  // namespace

@@ -15,17 +15,17 @@ enum class Part : std::uint8_t {
   kOverlap,          ///< mu_5
   kRankOrder,        ///< King's sorts: groups are grown in the order that the lines came in
   kCompleteLinkage,  ///< one member alike is enough: chains of likenesses
-  kKMeans,           ///< equal shares of the points in their place
-  kPruning,          ///< clusters stay as K-means made them
-  kRounds,           ///< one round of clustering in a scan, not until nothing is alike
-  kCorners,          ///< boundaries stay where clusters ended
-  kInterrupted,      ///< pieces of a wall that something hides stay apart
-  kScanNoise,        ///< a range noise of 3 cm instead of the scan's own
-  kPoseNoise,        ///< a pose error of 3 cm and 0.01 rad instead of what the map has learned
-  kWallsToWalls,     ///< walls are not clustered again
-  kYielding,         ///< stretches side by side stay with both walls
-  kBends,            ///< walls are not cut
-  kRays,             ///< rays that went through say nothing
+  kKMeans,        ///< boundaries of clusters stay where they are, at first and among merged lines
+  kPruning,       ///< K-means begins with equal shares as they are
+  kRounds,        ///< one round of clustering in a scan, not until nothing is alike
+  kCorners,       ///< K-means once, before lines are merged, and with that K
+  kInterrupted,   ///< pieces of a wall that something hides stay apart
+  kScanNoise,     ///< a range noise of 3 cm instead of the scan's own
+  kPoseNoise,     ///< a pose error of 3 cm and 0.01 rad instead of what the map has learned
+  kWallsToWalls,  ///< walls are not clustered again
+  kYielding,      ///< stretches side by side stay with both walls
+  kBends,         ///< walls are not cut
+  kRays,          ///< rays that went through say nothing
 };
 
 /// The parts that are left out: none.

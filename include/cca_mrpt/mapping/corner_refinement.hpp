@@ -1,18 +1,20 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "cca_mrpt/mapping/line_merging.hpp"
+#include "cca_mrpt/mapping/ablation.hpp"
+#include "cca_mrpt/mapping/description_length.hpp"
+#include "cca_mrpt/mapping/scan.hpp"
 
 namespace cca {
 
-/// Re-assigns the points around corners until nothing moves; each step lowers the description
-/// length of the scan, so that it ends.
+/// K-means again, of lines that have been merged, and with another K where that tells the scan more
+/// briefly; each step lowers the description length of the scan, so that it ends.
 ///
-/// Clusters end where K-means put them, not where walls do. So, in turn: the boundary between two
-/// neighbours moves to its best place; a run is shared out between its two neighbours; a line falls
-/// apart at its best corner; loose points in a row form the lines that hide among them.
+/// In turn: kMeans() moves the boundaries; a line falls apart at its best corner; loose points in a
+/// row form the lines that hide among them; a run is shared out between its two neighbours.
 /// @return  true where a point changed its run.
-bool refineCorners(const ScanPoints& points, const RunFitter& fitter, Runs* runs);
+bool refineCorners(const ScanPoints& points, const RunFitter& fitter, Runs* runs,
+                   const Ablation& without = {});
 
 /// Moves each boundary of two neighbouring lines to the best place near by at which they meet.
 ///

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <algorithm>
 #include <vector>
 
 #include "cca_mrpt/mapping/line_segment.hpp"
@@ -22,6 +23,8 @@ namespace cca {
 inline double linePrice(double vertex_price) { return 4.0 * vertex_price / 3.0; }
 /// Price of a point on no line: a residual of sqrt(2 * 9) = 4.2 deviations, one in 45 000 points.
 inline constexpr double kPointPrice = 9.0;
+/// nats, below any real gain: keeps rounding from moving a boundary to and fro.
+inline constexpr double kNoGain = 1e-6;
 /// Two points always fit a line: three are the fewest that can speak against it.
 inline constexpr int kFewestPoints = 3;
 
@@ -89,6 +92,14 @@ struct FittedRun : FittedSegment {
       : FittedSegment(segment), first(from), last(to) {}
   int size() const { return last - first; }
 };
+
+/// Runs of one wall each, in scan order, covering all points of a scan.
+using Runs = std::vector<FittedRun>;
+
+inline void dropEmpty(Runs* runs) {
+  const auto is_empty = [](const FittedRun& run) { return run.size() == 0; };
+  runs->erase(std::remove_if(runs->begin(), runs->end(), is_empty), runs->end());
+}
 
 /// Fits any run of a scan in O(1).
 class RunFitter {

@@ -1,24 +1,38 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <vector>
-
+#include "cca_mrpt/mapping/description_length.hpp"
 #include "cca_mrpt/mapping/scan.hpp"
 
 namespace cca {
 
-/// K-means [Lloyd 1982] of points that are seen in order of bearing.
+/// Points by which a boundary may move in one sweep.
+inline constexpr int kBoundaryReach = 5;
+/// nats that a move must save: by chance alone the best of those places is about so much better.
+inline constexpr double kWorthMoving = 2.0;
+
+/// No beam without return and no step in depth lies between the two.
+inline bool areNeighbours(const ScanPoints& points, const FittedRun& a, const FittedRun& b) {
+  return points.breaksBetween(a.last - 1, b.first) == 0;
+}
+
+/// K-means with K = 2 of a run of points, exactly: where to part first..last between low and high,
+/// both included, so that two means tell its points most briefly; either is a line or, where that
+/// is cheaper, its points as they are.
+/// @param price  nats; -1 is returned where no parting costs less.
+/// Cost: O(high - low).
+int twoMeans(const RunFitter& fitter, int first, int low, int high, int last, double price);
+
+/// K-means [Lloyd 1982] whose means are lines [k-plane clustering: Bradley & Mangasarian 2000], of
+/// points that are seen in order of bearing.
 ///
-/// Seeds are the middle points of K equal shares of the sequence. The distance between a point and
-/// a centroid is at least r sin(difference of bearing): the search for the nearest centroid walks
-/// from the point's own bearing both ways and stops where this bound passes the best distance, so
-/// the assignment is that of the full Lloyd sweep over all K, at a cost that does not grow with K.
-///
-/// @param clusters  K, > 0.
-/// @param sweeps    largest number of assignments; fewer where nothing moves any more; with 0 the
-///                  shares stay as they are.
-/// @return          the cluster of each point, in 0..K-1; clusters may run empty.
-/// Cost: O(N + K log K) a sweep, for scenes whose depth does not alternate from beam to beam.
-std::vector<int> kMeansInOrder(const ScanPoints& points, int clusters, int sweeps);
+/// The clusters of points in order are runs, and to assign points is to move the boundaries between
+/// them: each in turn goes to where the two means beside it, fitted anew, tell the points of both
+/// most briefly, by kBoundaryReach points at most; and again, until none moves. Each step lowers
+/// the description length of the scan, so that it ends. No point crosses a beam without return or a
+/// step in depth.
+/// @return  true where a point changed its cluster; clusters that run empty are gone.
+/// Cost: O(1) for each boundary of which a cluster has changed since it was last asked.
+bool kMeans(const ScanPoints& points, const RunFitter& fitter, Runs* runs);
 
 }  // namespace cca

@@ -9,9 +9,6 @@
 
 namespace cca {
 
-/// Runs of one wall each, in scan order, covering all points of a scan.
-using Runs = std::vector<FittedRun>;
-
 /// One round of SIM, ROC and merging among runs that follow one another.
 /// @return     true where something merged.
 /// Cost: O(n) memberships, n = runs.
