@@ -18,6 +18,8 @@ constexpr double kGapOfLine = 0.4, kGapOfWall = 1.0;
 /// within two deviations of either.
 constexpr double kOneFront = 3.0 * M_SQRT2, kOneFrontLeast = 0.10;
 constexpr double kTwoFronts = 4.0, kTwoFrontsLeast = 0.06;
+/// The same of a place that one wall holds, and the line of another.
+constexpr double kPlace = 2.4, kPlaceLeast = 0.08;
 /// Deviations of a return from the common line, as the mean over all that one of the two holds.
 constexpr double kFitGate = 3.3;
 /// Cosine beyond which lines are compared: the frame of one shows the other as d(t).
@@ -124,36 +126,36 @@ Memberships mapMemberships(const Wall& wall, const Wall& other, const MapNoise& 
   const BinSums &a = wall.profile.sums(), b = sumsInFrameOf(wall, other);
   if (a.w <= 0.0 || b.w <= 0.0) return {};
   const double sigma = noise.lateralSigma(), variance = sigma * sigma;
-  Difference apart = difference(lateralLine(a, variance), lateralLine(b, variance));
+  const Difference apart = difference(lateralLine(a, variance), lateralLine(b, variance));
+  const bool one_front = cosine > 0.0 || wall.two_sided || other.two_sided;
   const double overlap = overlapOf(mine, theirs);
   const bool within = overlap > 0.5 * std::min(mine.length(), theirs.length());
-  const bool beside = within && standSideBySide(wall, other);
-  const double one = std::max(kOneFrontLeast, kOneFront * sigma);
-  const bool one_front = cosine > 0.0 || wall.two_sided || other.two_sided;
   Memberships mu;
-  mu.overlap = one_front ? 1.0 : 0.0;
-  if (beside) {
-    // Parallels h apart let the residuals grow by h^2 w_a w_b / (w_a + w_b).
-    const double weight = a.w * b.w / (a.w + b.w);
-    const double faces = variance * (apart.angle + apart.offset) / weight;
-    const double two = std::max(kTwoFrontsLeast, kTwoFronts * sigma);
-    if (!one_front) mu.overlap = bell(faces, two * two);
-    // The error that parts them is common to all of their bins.
-    const double common = std::max(1.0, one * one * weight / (kChiSquareGate1 * variance));
-    apart.angle /= common;
-    apart.offset /= common;
+  mu.gap = bell(square(std::max(0.0, -overlap)), square(kGapOfWall));
+  if (within && standSideBySide(wall, other)) {
+    // The error that parts them is common to all of their bins: it is neither turn nor shift that
+    // bins could tell. Parallels h apart let the residuals grow by h^2 w_a w_b / (w_a + w_b).
+    const double apart_sq = variance * (apart.angle + apart.offset) * (a.w + b.w) / (a.w * b.w);
+    mu.overlap = bell(apart_sq, square(one_front ? std::max(kOneFrontLeast, kOneFront * sigma)
+                                                 : std::max(kTwoFrontsLeast, kTwoFronts * sigma)));
+    mu.orientation = mu.offset = mu.fit = 1.0;
+    return mu;
   }
   // A stretch in another's gap, such as the niche of a door, has a bend at either end.
-  const double gate = (within && !beside ? 2.0 : 1.0) * kChiSquareGate1;
+  const double gate = (within ? 2.0 : 1.0) * kChiSquareGate1;
   mu.orientation = bell(apart.angle, gate);
   mu.offset = bell(apart.offset, gate);
-  mu.gap = bell(square(std::max(0.0, -overlap)), square(kGapOfWall));
   BinSums joint = a;
   joint.add(b);
   const LateralFit line = joint.fit();
   const double off = std::max(meanSquareOff(a, line), meanSquareOff(b, line));
-  mu.fit = bell(off, square(beside ? one : kFitGate * sigma));
+  mu.fit = bell(off, square(kFitGate * sigma));
+  mu.overlap = one_front ? 1.0 : 0.0;
   return mu;
+}
+
+double overlapOfPlace(double off, const MapNoise& noise) {
+  return bell(square(off), square(std::max(kPlaceLeast, kPlace * noise.lateralSigma())));
 }
 
 }  // namespace cca

@@ -2,33 +2,9 @@
 #include "cca_mrpt/mapping/similarity.hpp"
 
 #include <algorithm>
-#include <cmath>
-
-#include "cca_mrpt/mapping/cross.hpp"
-#include "cca_mrpt/mapping/gates.hpp"
 
 namespace cca {
 namespace {
-
-/// z^2 of the distance of b's centroid from a's line, extended that far; in units of the variance
-/// of one point.
-/// @param centroids  variances of the two centroids, likewise.
-double offsetStatistic(const FittedSegment& a, const FittedSegment& b, double centroids) {
-  const Eigen::Vector2d between = b.line.centroid - a.line.centroid;
-  const Eigen::Vector2d& u = a.line.direction;
-  const double along = u.dot(between), across = cross(u, between);
-  if (a.line.spread_sum_sq <= 0.0) return 0.0;  // a has no direction at all
-  return across * across / (centroids + along * along / a.line.spread_sum_sq);
-}
-
-/// z^2 of the angle between the two, likewise.
-double orientationStatistic(const FittedSegment& a, const FittedSegment& b) {
-  const double spread_a = a.line.spread_sum_sq, spread_b = b.line.spread_sum_sq;
-  if (spread_a <= 0.0 || spread_b <= 0.0) return 0.0;
-  const Eigen::Vector2d &u = a.line.direction, &v = b.line.direction;
-  const double sine = cross(u, v);
-  return sine * sine * spread_a * spread_b / (spread_a + spread_b);
-}
 
 /// m^2, of what is told by lines.
 double residuals(const FittedSegment& a, const FittedSegment& b) {
@@ -73,16 +49,10 @@ double fitMembership(const FittedSegment& a, const FittedSegment& b, const Joint
 
 Memberships memberships(const FittedSegment& a, const FittedSegment& b, const JointFit& joint,
                         double gap_evidence, double line_price) {
-  const double line_gate = 2.0 * line_price;  // twice a price in nats is a chi-square
   Memberships mu;
-  mu.fit = fitMembership(a, b, joint, line_price);
-  const double centroids = 1.0 / a.moments.weight + 1.0 / b.moments.weight;
-  const double offset =
-      std::max(offsetStatistic(a, b, centroids), offsetStatistic(b, a, centroids)) / joint.variance;
-  mu.orientation = bell(orientationStatistic(a, b) / joint.variance, line_gate);
-  mu.offset = bell(offset, line_gate);
   mu.gap = bell(gap_evidence, kGapGate);
-  mu.overlap = 1.0;  // from one place no two runs are seen side by side
+  mu.fit = fitMembership(a, b, joint, line_price);
+  mu.orientation = mu.offset = mu.overlap = 1.0;
   return mu;
 }
 

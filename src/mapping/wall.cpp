@@ -150,7 +150,7 @@ void absorb(Wall& wall, const Wall& other) {
   }
 }
 
-bool yieldOverlap(Wall& lesser, Wall& greater, double gate) {
+bool yieldOverlap(Wall& lesser, Wall& greater, const std::function<bool(double)>& alike) {
   const FrameChange change(greater, lesser);
   bool moved = false;
   for (int i = lesser.profile.first(); i < lesser.profile.last(); ++i) {
@@ -158,7 +158,7 @@ bool yieldOverlap(Wall& lesser, Wall& greater, double gate) {
     if (bin.hits <= 0.0) continue;
     const Eigen::Vector2d p = lesser.toMap(bin.t / bin.hits, bin.d / bin.hits);
     const Eigen::Vector2d td = greater.toWall(p);
-    if (!greater.hitNear(p) || std::abs(greater.offLine(td)) > gate) continue;
+    if (!greater.hitNear(p) || !alike(greater.offLine(td))) continue;
     greater.profile.add(change(lesser.profile.take(i)));
     moved = true;
   }

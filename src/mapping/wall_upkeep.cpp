@@ -15,22 +15,21 @@ using Slot = Walls::Slot;
 
 /// Returns after which a wall is compared with its neighbours again, however many it has.
 constexpr double kMostBeforeCheck = 100.0;
-/// Two walls that are not one share out what lies side by side within so many deviations of a
-/// return, and at least within so much [m].
-constexpr double kStretch = 2.4, kStretchLeast = 0.08;
 constexpr double kSideBySide = 0.97;  // cosine
 constexpr double kHitReach = 0.2;  // m, how far a wall's hits lie off its extent in another frame
 
 /// Where two walls that are not one run side by side all the same, the longer one takes it all.
-void shareOverlap(Slot a, Slot b, Walls& walls, const MapNoise& noise) {
+void shareOverlap(Slot a, Slot b, Walls& walls, const MapNoise& noise, const AlphaCut& cut) {
   const double cosine = walls[a].fittedDirection().dot(walls[b].fittedDirection());
   if (cosine < kSideBySide) return;
   const bool a_lesser = extentOf(walls[a]).length() < extentOf(walls[b]).length();
   const Slot lesser = a_lesser ? a : b, greater = a_lesser ? b : a;
   const Extent mine = extentOf(walls[greater]), theirs = extentOf(walls[lesser], walls[greater]);
   if (mine.last < theirs.first - kHitReach || theirs.last < mine.first - kHitReach) return;
-  const double gate = std::max(kStretchLeast, kStretch * noise.lateralSigma());
-  if (!yieldOverlap(walls[lesser], walls[greater], gate)) return;
+  const auto lie_on_each_other = [&](double off) {
+    return cut.similarity({1.0, 1.0, 1.0, 1.0, overlapOfPlace(off, noise)}) >= cut.value;
+  };
+  if (!yieldOverlap(walls[lesser], walls[greater], lie_on_each_other)) return;
   walls.touch(lesser);
   walls.touch(greater);
 }
@@ -98,7 +97,7 @@ void mergeWithNeighbours(Slot slot, Walls& walls, const MapNoise& noise, const A
   if (cut.without(Part::kYielding)) return;
   for (const Slot other : near) {
     if (other == slot || walls[other].profile.empty()) continue;
-    shareOverlap(slot, other, walls, noise);
+    shareOverlap(slot, other, walls, noise, cut);
     if (walls[slot].profile.sums().w <= 0.0) return;
   }
 }

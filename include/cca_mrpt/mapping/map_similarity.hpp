@@ -43,4 +43,7 @@ Memberships mapMemberships(const NewLine& line, const Wall& wall, const MapNoise
 /// Cost: O(1), and O(bins) where the two lie side by side.
 Memberships mapMemberships(const Wall& a, const Wall& b, const MapNoise& noise);
 
+/// mu_5 of a place that one wall holds beside hits of another, `off` [m] from the other's line.
+double overlapOfPlace(double off, const MapNoise& noise);
+
 }  // namespace cca

@@ -17,19 +17,22 @@ inline constexpr double kGapGate = 1.0;
 /// @param evidence  at least 0. @param gate  positive.
 inline double bell(double evidence, double gate) { return gate / (gate + evidence); }
 
-/// How far two segments are of one wall: five fuzzy memberships, each in [0, 1].
+/// How far two lines are of one wall: five fuzzy memberships, each in [0, 1].
 ///
 /// Each is a bell(), 1 for a perfect match and 1/2 where the evidence against one wall equals what
-/// one line less saves: at similarity_cut = 1/2 two segments are alike where
-/// one line tells them more briefly than two. No width is set: all come from the noise of this
-/// scan.
+/// one line less saves, or what chance explains: at similarity_cut = 1/2 two are alike where one
+/// line tells them better. No width is set: all come from the noise of the scan and of the map.
+///
+/// One line in the place of two lets the residuals grow. In a scan, whose beams err each by itself,
+/// fit asks for the whole growth. In the map, whose scans err in their poses, it parts: orientation
+/// and offset ask for the shares that turn and shift explain, each by its own variance.
 struct Memberships {
   double orientation = 0.0;  ///< mu_1: the angle between them, against its standard deviation
   double offset = 0.0;       ///< mu_2: centroids off the other's extended line, likewise
-  double gap = 0.0;          ///< mu_3: rays that speak against a wall between the two
-  double fit = 0.0;          ///< mu_4: growth of the residuals when one line replaces the two
-  double overlap = 0.0;      ///< mu_5: where they lie side by side, they lie on each other: the
-                             ///< two faces of a thin wall stay two
+  double gap = 0.0;          ///< mu_3: rays that speak against a wall between the two, its length
+  double fit = 0.0;          ///< mu_4: what their points lie off the common line
+  double overlap = 0.0;  ///< mu_5: where they lie side by side, they lie on each other: parallel
+                         ///< walls and the two faces of a thin one stay two
 
   /// The t-norm of the five, min.
   double similarity() const;
@@ -56,7 +59,8 @@ double fitMembership(const FittedSegment& a, const FittedSegment& b, const Joint
 double mostFitMembership(const FittedSegment& a, const FittedSegment& b, double least_residual,
                          double most_variance, double line_price);
 
-/// All five; mu_5 is 1, for from one place no two runs are seen side by side.
+/// Of two pieces of a scan. Orientation and offset are 1, for what they would ask is in the fit; so
+/// is overlap, for from one place no two are seen side by side.
 /// @param joint        fit of the points of both.
 /// @param gap_evidence rays, >= 0: that pass where the joint line is, or end before it unexplained.
 Memberships memberships(const FittedSegment& a, const FittedSegment& b, const JointFit& joint,

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 #include "cca_mrpt/mapping/cross.hpp"
@@ -65,9 +66,9 @@ inline constexpr double kLongestWall = 20.0;
 
 /// Adds the other wall's bins, turned into this wall's frame.
 void absorb(Wall& wall, const Wall& other);
-/// Moves the bins of `lesser` that lie beside bins of `greater`, within `gate` [m] of its line,
-/// over to it. True where something moved.
-bool yieldOverlap(Wall& lesser, Wall& greater, double gate);
+/// Moves the bins of `lesser` that lie beside hits of `greater` over to it where they are alike: a
+/// question of their distance [m] from its line. True where something moved.
+bool yieldOverlap(Wall& lesser, Wall& greater, const std::function<bool(double)>& alike);
 /// The other wall's bin sums in this wall's frame.
 BinSums sumsInFrameOf(const Wall& wall, const Wall& other);
 /// Fits the line, and moves the frame onto it where the two have drifted apart.
