@@ -5,8 +5,6 @@
 
 #include <cmath>
 #include <filesystem>
-#include <fstream>
-#include <sstream>
 
 #include "cca_mrpt/io/map_products.hpp"
 #include "cca_mrpt/io/occupancy_files.hpp"
@@ -74,12 +72,6 @@ TEST(StrayPlaces, AreTheFewBeyondAWideGapAndAllThatAreFartherThanAPictureShows) 
   EXPECT_TRUE(findStrays(std::vector<Pose2>{}).empty());
 }
 
-std::string read(const std::string& path) {
-  std::ostringstream text;
-  text << std::ifstream(path, std::ios::binary).rdbuf();
-  return text.str();
-}
-
 /// A wall at x = 3 of the products' frame.
 MapProducts wallSeenFrom(const Eigen::Vector2d& origin) {
   MapProducts products;
@@ -103,16 +95,17 @@ TEST(MapFolder, IsRightToTheDigitFarFromTheOrigin) {
   const TemporaryFolder folder;
   writeMapFolder(folder / "near", wallSeenFrom({0, 0}));
   writeMapFolder(folder / "far", wallSeenFrom({1e7, -1e7}));
-  const std::string lines = read(folder / "far/lines.csv");
+  const std::string lines = bytesOf(folder / "far/lines.csv");
   EXPECT_NE(lines.find("10000003.0000,-10000001.2345,10000003.0000,-9999999.0000"),
             std::string::npos)
       << lines;
-  EXPECT_EQ(read(folder / "near/map.pgm"), read(folder / "far/map.pgm"));
-  EXPECT_EQ(read(folder / "near/map.png"), read(folder / "far/map.png"));
-  EXPECT_NE(read(folder / "far/map.yaml").find("origin: [9999995.000000, -10000005.000000, 0.0]"),
-            std::string::npos)
-      << read(folder / "far/map.yaml");
-  EXPECT_NE(read(folder / "far/summary.json").find("frame_origin_m"), std::string::npos);
+  EXPECT_EQ(bytesOf(folder / "near/map.pgm"), bytesOf(folder / "far/map.pgm"));
+  EXPECT_EQ(bytesOf(folder / "near/map.png"), bytesOf(folder / "far/map.png"));
+  EXPECT_NE(
+      bytesOf(folder / "far/map.yaml").find("origin: [9999995.000000, -10000005.000000, 0.0]"),
+      std::string::npos)
+      << bytesOf(folder / "far/map.yaml");
+  EXPECT_NE(bytesOf(folder / "far/summary.json").find("frame_origin_m"), std::string::npos);
   const auto back = readOccupancyMap(folder / "far/map.yaml", {1e7, -1e7});
   ASSERT_TRUE(back);
   EXPECT_LT(back->getPos(3.02F, 0.02F), 0.2F);

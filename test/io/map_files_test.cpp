@@ -8,7 +8,6 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
-#include <sstream>
 
 #include "cca_mrpt/io/atomic_file.hpp"
 #include "cca_mrpt/io/line_formats.hpp"
@@ -63,12 +62,6 @@ Scan wallAhead() {
     scan.ranges.push_back(3.0 / std::cos(scan.bearing(static_cast<std::size_t>(beam))));
   }
   return scan;
-}
-
-std::string read(const std::string& path) {
-  std::ostringstream text;
-  text << std::ifstream(path, std::ios::binary).rdbuf();
-  return text.str();
 }
 
 TEST(LinesCsv, ReadsBackWhatItWrote) {
@@ -195,7 +188,7 @@ TEST(MapFolder, HoldsEveryFileAndNothingElse) {
                                                    "lines.svg", "lines.dxf", "map.png", "map.pgm",
                                                    "map.yaml", "map.gridmap.gz", "map.linemap.gz",
                                                    "scene.3Dscene", "summary.json"));
-  const auto summary = nlohmann::json::parse(read(folder / "map/summary.json"));
+  const auto summary = nlohmann::json::parse(bytesOf(folder / "map/summary.json"));
   EXPECT_EQ(summary["finished"], true);
   EXPECT_EQ(summary["map_lines"], 3);
   EXPECT_EQ(summary["map_length_m"], 11.0);
@@ -226,7 +219,7 @@ TEST(MapFolder, FailedWriteLeavesTheOldFile) {
     AtomicFile file(folder / "a.txt");
     std::ofstream(file.temporary()) << "half of the n";
   }
-  EXPECT_EQ(read(folder / "a.txt"), "old");
+  EXPECT_EQ(bytesOf(folder / "a.txt"), "old");
   EXPECT_EQ(std::distance(fs::directory_iterator(folder.path()), {}), 1);
 }
 
@@ -265,7 +258,7 @@ TEST(MapFolder, TakesNamesThatAreNotUtf8) {
   products.title = "caf\xE9.log";
   products.summary["log"] = products.title;
   writeMapFolder(folder.path(), products);
-  EXPECT_TRUE(nlohmann::json::accept(read(folder / "summary.json")));
+  EXPECT_TRUE(nlohmann::json::accept(bytesOf(folder / "summary.json")));
 }
 
 TEST(AtomicFile, WritesWhatALinkLeadsTo) {
@@ -274,7 +267,7 @@ TEST(AtomicFile, WritesWhatALinkLeadsTo) {
   fs::create_symlink("a.txt", folder / "link.txt");
   writeFile(folder / "link.txt", "new");
   EXPECT_TRUE(fs::is_symlink(folder / "link.txt"));
-  EXPECT_EQ(read(folder / "a.txt"), "new");
+  EXPECT_EQ(bytesOf(folder / "a.txt"), "new");
 }
 
 TEST(AtomicFile, TakesTheNameOfNoDeviceAndNoFolder) {

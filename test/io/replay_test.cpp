@@ -11,7 +11,7 @@
 #include <nlohmann/json.hpp>
 #include <numeric>
 
-namespace cca {
+namespace cca::replay_test {
 namespace {
 
 Scan wallAhead(const Pose2& T_map_sensor) {
@@ -141,4 +141,4 @@ TEST(ReplayPage, OfSomethingElseIsToldApart) {
 }
 
 }  // namespace
-}  // namespace cca
+}  // namespace cca::replay_test

@@ -5,8 +5,6 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <vector>
 
 #include "cca_mrpt/simulation/world_generator.hpp"
@@ -14,12 +12,6 @@
 
 namespace cca {
 namespace {
-
-std::string bytesOf(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  EXPECT_TRUE(file) << path;
-  return {std::istreambuf_iterator<char>(file), {}};
-}
 
 class Shipped : public testing::TestWithParam<std::string> {};
 

@@ -8,7 +8,7 @@
 #include "cca_mrpt/mapping/line_merging.hpp"
 #include "polygon_room.hpp"
 
-namespace cca {
+namespace cca::corner_refinement_test {
 namespace {
 
 double price(const Runs& runs) {
@@ -212,4 +212,4 @@ TEST(TellEdgesBetween, LeavesTwoPointsWhoseLineMissesAWall) {
 }
 
 }  // namespace
-}  // namespace cca
+}  // namespace cca::corner_refinement_test

@@ -5,7 +5,7 @@
 
 #include <limits>
 
-namespace cca {
+namespace cca::missing_returns_test {
 namespace {
 
 constexpr double kInf = std::numeric_limits<double>::infinity();
@@ -47,4 +47,4 @@ TEST(MissingReturns, OfAScanThatSeesNothingAtAllTellNothing) {
 }
 
 }  // namespace
-}  // namespace cca
+}  // namespace cca::missing_returns_test

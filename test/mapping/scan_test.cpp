@@ -5,7 +5,7 @@
 
 #include "polygon_room.hpp"
 
-namespace cca {
+namespace cca::scan_test {
 namespace {
 
 constexpr double kInf = std::numeric_limits<double>::infinity();
@@ -139,4 +139,4 @@ TEST(ScanPoints, AreEmptyForScansThatCannotBeRead) {
 }
 
 }  // namespace
-}  // namespace cca
+}  // namespace cca::scan_test

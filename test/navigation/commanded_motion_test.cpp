@@ -9,7 +9,7 @@
 
 #include "box_world.hpp"
 
-namespace cca::testing {
+namespace cca::testing::commanded_motion_test {
 namespace {
 
 constexpr double kPeriod = 0.1;
@@ -179,4 +179,4 @@ TEST(SentCommands, KnowNothingBeforeTheFirstAndAfterAGap) {
 }
 
 }  // namespace
-}  // namespace cca::testing
+}  // namespace cca::testing::commanded_motion_test

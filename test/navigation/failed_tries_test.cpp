@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace cca {
+namespace cca::failed_tries_test {
 namespace {
 
 TEST(FailedTries, ATargetIsAsideUntilTenSquareMetresHaveBeenSeen) {
@@ -51,7 +51,7 @@ TEST(FailedTries, CountHowOftenInARowTheRobotWasHeldAtOnePlace) {
 constexpr double kResolution = 0.05;
 
 /// 4 x 4 m, all free.
-struct OpenFloor : testing::Test {
+struct OpenFloor : ::testing::Test {
   OpenFloor() {
     for (int y = 0; y < 80; ++y) {
       for (int x = 0; x < 80; ++x) grid.set({x, y}, CellState::kFree);
@@ -135,4 +135,4 @@ TEST_F(OpenFloor, AllOfItGoesAlongWhereTheMapIsMadeAnew) {
 }
 
 }  // namespace
-}  // namespace cca
+}  // namespace cca::failed_tries_test

@@ -51,7 +51,7 @@ Drive drive(GlobalPlanner& planner, const KnownWorld& world, Eigen::Vector2d rob
   return drive;
 }
 
-class EveryStrategy : public testing::TestWithParam<const char*> {};
+class EveryStrategy : public ::testing::TestWithParam<const char*> {};
 
 TEST_P(EveryStrategy, SeesTwoRoomsToTheLastSquareAndFinishes) {
   GlobalPlannerParameters parameters;
@@ -74,8 +74,8 @@ TEST_P(EveryStrategy, SeesTwoRoomsToTheLastSquareAndFinishes) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Strategies, EveryStrategy,
-                         testing::Values("view_tour", "greedy", "nearest_frontier", "gain_distance",
-                                         "information"));
+                         ::testing::Values("view_tour", "greedy", "nearest_frontier",
+                                           "gain_distance", "information"));
 
 TEST(GlobalPlanner, FinishesAtOnceWhereAllIsInSight) {
   const KnownWorld room{{"######", "#....#", "#....#", "#....#", "######"}, 10};

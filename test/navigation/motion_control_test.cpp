@@ -9,7 +9,7 @@
 
 #include "box_world.hpp"
 
-namespace cca::testing {
+namespace cca::testing::motion_control_test {
 namespace {
 
 const RobotParameters kRobot;
@@ -197,4 +197,4 @@ TEST(BearingPast, LeadsAwayFromWhatIsTooNear) {
 }
 
 }  // namespace
-}  // namespace cca::testing
+}  // namespace cca::testing::motion_control_test

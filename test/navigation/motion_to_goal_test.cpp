@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace cca {
+namespace cca::motion_to_goal_test {
 namespace {
 
 // A wall of points between the robot at the origin and the goal at (4, 0).
@@ -103,4 +103,4 @@ TEST(MotionToGoal, AtTheGoalStaysThere) {
 }
 
 }  // namespace
-}  // namespace cca
+}  // namespace cca::motion_to_goal_test

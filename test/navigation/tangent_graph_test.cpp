@@ -7,7 +7,7 @@
 
 #include "box_world.hpp"
 
-namespace cca::testing {
+namespace cca::testing::tangent_graph_test {
 namespace {
 
 ConfigurationSpace randomSpace(unsigned seed) {
@@ -111,4 +111,4 @@ TEST(TangentGraph, SeesACornerThatHidesItsOwnSecondFaceOnceGrown) {
 }
 
 }  // namespace
-}  // namespace cca::testing
+}  // namespace cca::testing::tangent_graph_test

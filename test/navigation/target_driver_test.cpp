@@ -5,7 +5,7 @@
 
 #include "box_world.hpp"
 
-namespace cca::testing {
+namespace cca::testing::target_driver_test {
 namespace {
 
 constexpr double kPeriod = 0.1;
@@ -80,4 +80,4 @@ TEST(TargetDriver, GetsAwayFromWhatHoldsIt) {
 }
 
 }  // namespace
-}  // namespace cca::testing
+}  // namespace cca::testing::target_driver_test

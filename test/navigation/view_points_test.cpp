@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-namespace cca {
+namespace cca::view_points_test {
 namespace {
 
 constexpr double kRange = 4.0;
@@ -66,4 +66,4 @@ TEST(EachBlockInView, FindsThePlacesThatAnOpeningIsSeenFrom) {
 }
 
 }  // namespace
-}  // namespace cca
+}  // namespace cca::view_points_test

@@ -9,7 +9,7 @@
 
 #include "known_world.hpp"
 
-namespace cca {
+namespace cca::view_tour_test {
 namespace {
 
 double costOf(const Eigen::MatrixXd& distance, const TourObjective& objective,
@@ -231,4 +231,4 @@ TEST(ViewTour, WhatIsPreparedIsNotEstimated) {
 }
 
 }  // namespace
-}  // namespace cca
+}  // namespace cca::view_tour_test

@@ -8,7 +8,7 @@
 #include <limits>
 #include <stdexcept>
 
-namespace cca {
+namespace cca::hazard_message_test {
 namespace {
 
 constexpr float kInf = std::numeric_limits<float>::infinity();
@@ -99,4 +99,4 @@ TEST(HazardMessage, RangesWithoutLimitsAreRefused) {
 }
 
 }  // namespace
-}  // namespace cca
+}  // namespace cca::hazard_message_test

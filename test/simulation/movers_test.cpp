@@ -8,7 +8,7 @@
 
 #include "cca_mrpt/simulation/simulation.hpp"
 
-namespace cca {
+namespace cca::movers_test {
 namespace {
 
 World room() {
@@ -176,4 +176,4 @@ TEST(MoversFile, ErrorsNameTheMoverTheKeyAndWhatIsAllowed) {
 }
 
 }  // namespace
-}  // namespace cca
+}  // namespace cca::movers_test

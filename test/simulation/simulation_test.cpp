@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace cca {
+namespace cca::simulation_test {
 namespace {
 
 /// A room of 6 x 4 m with a wall one cell thick in its middle, open at one end.
@@ -118,4 +118,4 @@ TEST(Simulation, RefusesToStartInAWallOrOutside) {
 }
 
 }  // namespace
-}  // namespace cca
+}  // namespace cca::simulation_test
