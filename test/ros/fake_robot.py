@@ -26,6 +26,7 @@ class FakeRobot:
         self.leap = self.delay = 0.0
         self.spoil = lambda scan: None
         self.commands = []  # (time of arrival [s], linear [m/s], angular [rad/s])
+        self.scans = []  # times at which they were sent [s]
         self._scan = rospy.Publisher("scan", LaserScan, queue_size=10)
         self._tf = rospy.Publisher("/tf", TFMessage, queue_size=10)
         self._tf_static = rospy.Publisher("/tf_static", TFMessage, queue_size=1, latch=True)
@@ -109,4 +110,5 @@ class FakeRobot:
         ranges[ranges > RANGE] = math.inf
         scan.ranges = ranges.tolist()
         self.spoil(scan)
+        self.scans.append(time.time())
         self._scan.publish(scan)
