@@ -17,7 +17,7 @@ from own_robot import LASER, compose, transform
 from segments import cast, distance_to, read_segments, samples
 
 WORLD = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "maps", "two_rooms.truth.csv")
-SPEEDS = 1, 10, 40
+SPEEDS = 5, 40
 BEGIN, SECONDS = 1000.0, 20.0
 
 
