@@ -26,7 +26,7 @@ struct NewLine {
 //   offset       a wall and its parallel: a niche, a step, the next face on the same side
 //   gap          two walls of one line, a room or a door apart
 //   fit          what lies on the line that a short line promises, but off what both have shown
-//   overlap      the two faces of a thin wall, which lie side by side and look opposite ways
+//   overlap      what is seen side by side: parallels, and the two faces of a thin wall
 //
 // The growth of the residuals by a common line parts exactly into one share of the angle and one of
 // the offset at the place where the two are uncorrelated: these are the first two, in units of
@@ -38,7 +38,8 @@ struct NewLine {
 Memberships mapMemberships(const NewLine& line, const Wall& wall, const MapNoise& noise);
 
 /// Two walls. What they hold has been seen often, each time at its own pose error: bins are
-/// independent, but of two fronts side by side only one can be seen, whatever part them.
+/// independent, but of two fronts side by side only one can be seen: what parts them is one error,
+/// and the overlap is asked alone. Else it asks whether they look the same way.
 /// @return  all 0 where one wall would be longer than kLongestWall.
 /// Cost: O(1), and O(bins) where the two lie side by side.
 Memberships mapMemberships(const Wall& a, const Wall& b, const MapNoise& noise);
