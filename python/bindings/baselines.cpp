@@ -9,8 +9,8 @@
 namespace cca::python {
 namespace {
 
-nb::object extract(const baselines::Baseline& baseline, nb::handle ranges, double angle_min,
-                   double angle_increment, bool tuned) {
+nb::object extractBy(const baselines::Baseline& baseline, nb::handle ranges, double angle_min,
+                     double angle_increment, bool tuned) {
   Scan scan;
   readScan(ranges, angle_min, angle_increment, scan);
   std::vector<LineSegment> lines;
@@ -27,7 +27,7 @@ void addBaselines(nb::module_& module) {
   nb::class_<baselines::Baseline>(module, "Baseline", "A classical line extractor.")
       .def_ro("name", &baselines::Baseline::name)
       .def_ro("paper", &baselines::Baseline::paper, "Where it was published.")
-      .def("extract_lines", &extract, nb::arg("ranges").none(), nb::arg("angle_min"),
+      .def("extract_lines", &extractBy, nb::arg("ranges").none(), nb::arg("angle_min"),
            nb::arg("angle_increment"), nb::arg("tuned") = false,
            nb::sig("def extract_lines(self, ranges: numpy.typing.ArrayLike, angle_min: float, "
                    "angle_increment: float, tuned: bool = False) -> numpy.ndarray"),

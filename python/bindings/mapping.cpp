@@ -29,8 +29,8 @@ nb::object extract(nb::handle ranges, double angle_min, double angle_increment,
   return lineArray(lines);
 }
 
-void insert(SharedLineMap& map, nb::handle ranges, double angle_min, double angle_increment,
-            nb::handle pose, double free_range_without_return) {
+void insertIntoMap(SharedLineMap& map, nb::handle ranges, double angle_min, double angle_increment,
+                   nb::handle pose, double free_range_without_return) {
   Scan scan;
   readScan(ranges, angle_min, angle_increment, scan);
   readPlace(pose, free_range_without_return, scan);
@@ -79,7 +79,7 @@ void addLineMap(nb::module_& module) {
             new (self) SharedLineMap(LineMap(parameters));
           },
           nb::arg("parameters"))
-      .def("insert", &insert, nb::arg("ranges").none(), nb::arg("angle_min"),
+      .def("insert", &insertIntoMap, nb::arg("ranges").none(), nb::arg("angle_min"),
            nb::arg("angle_increment"), nb::arg("pose").none(),
            nb::arg("free_range_without_return") = 0.0,
            nb::sig("def insert(self, ranges: numpy.typing.ArrayLike, angle_min: float, "

@@ -100,8 +100,8 @@ Pair origin(SharedGrid& grid) {
   });
 }
 
-void insert(SharedGrid& grid, nb::handle ranges, double angle_min, double angle_increment,
-            nb::handle pose, double free_range_without_return) {
+void insertIntoGrid(SharedGrid& grid, nb::handle ranges, double angle_min, double angle_increment,
+                    nb::handle pose, double free_range_without_return) {
   Scan scan;
   readScan(ranges, angle_min, angle_increment, scan);
   readPlace(pose, free_range_without_return, scan);
@@ -129,7 +129,7 @@ void addGrid(nb::module_& module) {
             new (self) SharedGrid(ExplorationGrid(cell_side));
           },
           nb::arg("resolution") = 0.05)
-      .def("insert", &insert, nb::arg("ranges").none(), nb::arg("angle_min"),
+      .def("insert", &insertIntoGrid, nb::arg("ranges").none(), nb::arg("angle_min"),
            nb::arg("angle_increment"), nb::arg("pose").none(),
            nb::arg("free_range_without_return") = 0.0,
            nb::sig("def insert(self, ranges: numpy.typing.ArrayLike, angle_min: float, "
@@ -169,9 +169,9 @@ void addAction(nb::module_& module) {
       .def_ro("reason", &Action::reason, "Why it drives there, or why it has finished.");
 }
 
-Action step(SharedExplorer& explorer, nb::handle ranges, double angle_min, double angle_increment,
-            nb::handle pose, double time, nb::handle velocity, nb::handle sensor_pose,
-            double free_range_without_return) {
+Action explore(SharedExplorer& explorer, nb::handle ranges, double angle_min,
+               double angle_increment, nb::handle pose, double time, nb::handle velocity,
+               nb::handle sensor_pose, double free_range_without_return) {
   Observation observation;
   readScan(ranges, angle_min, angle_increment, observation.scan);
   readPlace(pose, free_range_without_return, observation.scan);
@@ -205,7 +205,7 @@ void addExplorer(nb::module_& module) {
             new (self) SharedExplorer(Exploration{Explorer(mapping, robot, parameters)});
           },
           nb::arg("parameters"))
-      .def("step", &step, nb::arg("ranges").none(), nb::arg("angle_min"),
+      .def("step", &explore, nb::arg("ranges").none(), nb::arg("angle_min"),
            nb::arg("angle_increment"), nb::arg("pose").none(), nb::arg("time"),
            nb::arg("velocity").none() = nb::make_tuple(0.0, 0.0),
            nb::arg("sensor_pose").none() = nb::make_tuple(0.0, 0.0, 0.0),

@@ -24,8 +24,8 @@ nb::object array(const double* numbers, std::size_t rows) {
   return ownedArray(std::move(copy), rows, 3);
 }
 
-SlamPose step(SharedSlam& slam, nb::handle ranges, double angle_min, double angle_increment,
-              nb::handle odometry, nb::handle sensor_pose, double free_range_without_return) {
+SlamPose localise(SharedSlam& slam, nb::handle ranges, double angle_min, double angle_increment,
+                  nb::handle odometry, nb::handle sensor_pose, double free_range_without_return) {
   Scan scan;
   readScan(ranges, angle_min, angle_increment, scan);
   const Pose2 T_robot_sensor = readPose(sensor_pose, "sensor_pose");
@@ -76,7 +76,7 @@ May be used by several threads: their calls wait for each other.)")
           nb::arg("start").none() = nb::make_tuple(0.0, 0.0, 0.0),
           nb::sig("def __init__(self, start: collections.abc.Sequence[float] = (0.0, 0.0, 0.0)) "
                   "-> None"))
-      .def("step", &step, nb::arg("ranges").none(), nb::arg("angle_min"),
+      .def("step", &localise, nb::arg("ranges").none(), nb::arg("angle_min"),
            nb::arg("angle_increment"), nb::arg("odometry").none() = nb::none(),
            nb::arg("sensor_pose").none() = nb::make_tuple(0.0, 0.0, 0.0),
            nb::arg("free_range_without_return") = 0.0,
