@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "cca_mrpt/navigation/drive/motion_control.hpp"
+#include "cca_mrpt/navigation/place/beam.hpp"
 
 namespace cca {
 namespace {
@@ -29,11 +30,6 @@ GlobalPlannerParameters plannerParameters(const RobotParameters& robot,
   planner.worth = planner.tour.worth = parameters.worth;
   planner.clearance = robot.leastClearance();
   return planner;
-}
-
-bool seesAllAround(const Scan& scan) {
-  const double spacing = std::abs(scan.angle_increment);
-  return static_cast<double>(scan.size()) * spacing > 2.0 * M_PI - 1.5 * spacing;
 }
 
 /// Of what may be in each occupied cell around a place, the point nearest to it; m, map frame.
@@ -78,17 +74,8 @@ std::size_t nextWayPoint(const std::vector<Eigen::Vector2d>& path, const Eigen::
 }  // namespace
 
 const char* nameOf(ExplorationStatus status) {
-  switch (status) {
-    case ExplorationStatus::kExploring:
-      return "exploring";
-    case ExplorationStatus::kReturning:
-      return "returning";
-    case ExplorationStatus::kPaused:
-      return "paused";
-    case ExplorationStatus::kFinished:
-      return "finished";
-  }
-  return "";
+  constexpr const char* kNames[] = {"exploring", "returning", "paused", "finished"};
+  return kNames[static_cast<int>(status)];
 }
 
 Explorer::Explorer(const CcaParameters& mapping, const RobotParameters& robot,
@@ -131,8 +118,8 @@ void Explorer::correctNavigation(const PastScans& past) {
 
 void Explorer::changeMotion(const RobotParameters& robot) {
   robot_ = robot_.movingAs(robot);
-  progress_.changeMotion(robot);
-  tangent_bug_.changeMotion(robot);
+  progress_.changeMotion(robot_);
+  tangent_bug_.changeMotion(robot_);
 }
 
 Action Explorer::navigate(const Observation& observation) {
@@ -181,18 +168,26 @@ Action Explorer::explore(const Observation& observation) {
     const std::string why = plan.reason.empty() ? "waiting for a scan" : plan.reason;
     return {{}, {}, ExplorationStatus::kExploring, why};
   }
-  if (leaves_driving_) return leaveGoal(plan, observation);
   Action action{{}, plan.path.back(), ExplorationStatus::kExploring, plan.reason};
-  const std::size_t next = parameters_.path == PathKind::kPaper
+  progress_.note(planner_.goals(), plan.path, observation.time);
+  const bool is_overdue = progress_.isOverdue(observation.time);
+  // Others have ways of their own: that ours does not become shorter says nothing.
+  if (leaves_driving_) {
+    const Eigen::Vector2d ahead = plan.look_at - *action.goal;
+    action.goal_heading = std::atan2(ahead.y(), ahead.x());
+    if (is_overdue) planner_.setGoalAside();
+    return action;
+  }
+  // By Tangent Bug alone the robot may have to drive away from its goal for long.
+  const bool goes_straight = parameters_.path == PathKind::kPaper;
+  const std::size_t next = goes_straight
                                ? plan.path.size() - 1
                                : nextWayPoint(plan.path, observation.T_map_robot.position());
   const bool is_last = next + 1 == plan.path.size();
   action.velocity = driveTo(plan.path[next], observation);
   const TangentBugState state = tangent_bug_.state();
-  progress_.note(planner_.goals(), plan.path, observation.time);
-  const bool has_failed =
-      state == TangentBugState::kUnreachable || progress_.isOverdue(observation.time);
-  if (has_failed || isStuck(observation.time)) {
+  const bool has_failed = state == TangentBugState::kUnreachable || is_overdue;
+  if (has_failed || (!goes_straight && progress_.isStuck(observation.time))) {
     const bool goes_around = planner_.goAround(progress_.shortest());
     if (has_failed && !goes_around) planner_.setGoalAside();
     if (has_failed || goes_around) way_point_.reset();
@@ -222,14 +217,6 @@ void Explorer::heedOutcome(const Eigen::Vector2d& robot_map) {
   }
 }
 
-// Others have ways of their own: that ours does not become shorter says nothing.
-Action Explorer::leaveGoal(const Plan& plan, const Observation& observation) {
-  const Eigen::Vector2d goal = plan.path.back(), ahead = plan.look_at - goal;
-  progress_.note(planner_.goals(), plan.path, observation.time);
-  if (progress_.isOverdue(observation.time)) planner_.setGoalAside();
-  return {{}, goal, ExplorationStatus::kExploring, plan.reason, std::atan2(ahead.y(), ahead.x())};
-}
-
 // Where the robot still drives it stops first, the way that was found safe: turning would bend it.
 void Explorer::turnOnTheSpot(double rate, Action& action) const {
   const bool drives = std::abs(tangent_bug_.motion().expected().velocity.linear) > kStands;
@@ -238,25 +225,19 @@ void Explorer::turnOnTheSpot(double rate, Action& action) const {
 
 // A disc may always turn. Should something hold it nevertheless, then not for ever.
 Action Explorer::lookAround(const Observation& observation) {
-  const Eigen::Vector2d robot = observation.T_map_robot.position();
-  progress_.note(kTurnNumber, {robot}, observation.time);
-  if (progress_.isOverdue(observation.time)) planner_.noteLookAround(robot);
-  if (leaves_driving_) return leaveTurning(observation.T_map_robot);
-  Action action{{}, robot, ExplorationStatus::kExploring, planner_.plan().reason};
-  action.velocity = driveTo(robot, observation);
-  turnOnTheSpot(kLookAround * robot_.max_angular_velocity, action);
-  return action;
-}
-
-Action Explorer::leaveTurning(const Pose2& T_map_robot) {
-  if (!T_map_turned_) {
-    T_map_turned_ = {T_map_robot.x, T_map_robot.y, wrapAngle(T_map_robot.theta + kTurn)};
+  const Pose2& T = observation.T_map_robot;
+  progress_.note(kTurnNumber, {T.position()}, observation.time);
+  if (progress_.isOverdue(observation.time)) planner_.noteLookAround(T.position());
+  Action action{{}, T.position(), ExplorationStatus::kExploring, planner_.plan().reason};
+  if (leaves_driving_) {
+    if (!T_map_turned_) T_map_turned_ = Pose2{T.x, T.y, wrapAngle(T.theta + kTurn)};
+    action.goal = T_map_turned_->position();
+    action.goal_heading = T_map_turned_->theta;
+  } else {
+    action.velocity = driveTo(T.position(), observation);
+    turnOnTheSpot(kLookAround * robot_.max_angular_velocity, action);
   }
-  return {{},
-          T_map_turned_->position(),
-          ExplorationStatus::kExploring,
-          planner_.plan().reason,
-          T_map_turned_->theta};
+  return action;
 }
 
 Action Explorer::goHome(const Observation& observation) {
@@ -309,11 +290,6 @@ bool Explorer::leavesMuch() const {
   const double seen = static_cast<double>(grid().revealed()) * side * side;
   return planner_.plan().isFinished() &&
          planner_.plan().unreached > std::max(kMuchUnreached, kMuchOfAll * seen);
-}
-
-// By Tangent Bug alone the robot may have to drive away from its goal for long.
-bool Explorer::isStuck(double time) {
-  return parameters_.path == PathKind::kKnownSpace && progress_.isStuck(time);
 }
 
 }  // namespace cca

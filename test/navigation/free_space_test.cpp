@@ -121,23 +121,6 @@ TEST(FreeSpace, WhereTheRobotHasBeenStaysOpenUntilTheCellItselfIsOccupied) {
   EXPECT_FALSE(space.isTraversable({1, 0}));
 }
 
-TEST(FreeSpace, GetsAnotherRevisionOnlyByWhatChangesIt) {
-  FreeSpace space(0.1, 0.05);
-  ExplorationGrid grid;
-  const auto revisionAfter = [&](Cell c, CellState state) {
-    grid.set(c, state);
-    space.update(grid, {c});
-    return space.revision();
-  };
-  const std::uint64_t first = revisionAfter({5, 5}, CellState::kFree);
-  EXPECT_EQ(revisionAfter({5, 5}, CellState::kFree), first);
-  EXPECT_EQ(revisionAfter({9, 9}, CellState::kOccupied), first) << "too far away to matter";
-  const std::uint64_t second = revisionAfter({5, 6}, CellState::kOccupied);
-  EXPECT_NE(second, first);
-  space.pass({5, 5});
-  EXPECT_NE(space.revision(), second);
-}
-
 TEST(FreeSpace, HoldsNothingBeforeAnythingIsKnown) {
   const FreeSpace space(0.3, 0.05);
   EXPECT_FALSE(space.isTraversable({0, 0}));

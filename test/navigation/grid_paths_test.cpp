@@ -174,19 +174,6 @@ TEST(DistanceField, CarriedOnPieceByPieceIsTheSearchInOneGo) {
   }
 }
 
-TEST(DistanceField, NoWayIsShorterThanTheLeastDistance) {
-  for (unsigned seed = 1; seed <= 8; ++seed) {
-    const Known known(randomWorld(seed, 160, 0.005), 0.2);
-    DistanceField field;
-    field.search(known.space, kResolution, {80, 80});
-    if (!field.isStarted()) continue;
-    for (int y = 0; y < 160; ++y) {
-      for (int x = 0; x < 160; ++x)
-        EXPECT_LE(field.leastDistanceTo(FreeSpace::blockOf({x, y})), field.distanceTo({x, y}));
-    }
-  }
-}
-
 TEST(DistanceField, ReachesNothingFromWithinAWall) {
   const Known known({std::vector<std::string>(40, std::string(40, '#'))}, 0.1);
   DistanceField field;

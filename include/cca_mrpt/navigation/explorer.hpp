@@ -148,14 +148,11 @@ class Explorer {
  private:
   Action decide(const Observation& observation);
   void heedOutcome(const Eigen::Vector2d& robot_map);
-  Action leaveGoal(const Plan& plan, const Observation& observation);
-  Action leaveTurning(const Pose2& T_map_robot);
   void turnOnTheSpot(double rate, Action& action) const;
   Action explore(const Observation& observation);
   Action lookAround(const Observation& observation);
   Action goHome(const Observation& observation);
   Velocity driveTo(const Eigen::Vector2d& way_point_map, const Observation& observation);
-  bool isStuck(double time);
 
   ExplorerParameters parameters_;
   RobotParameters robot_;

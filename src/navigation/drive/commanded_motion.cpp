@@ -176,7 +176,7 @@ void CommandedMotion::changeMotion(const RobotParameters& robot) {
   const bool obeys_otherwise = robot.latency != robot_.latency ||
                                robot.max_linear_acceleration != robot_.max_linear_acceleration ||
                                robot.max_angular_acceleration != robot_.max_angular_acceleration;
-  robot_ = robot_.movingAs(robot);
+  robot_ = robot;
   if (obeys_otherwise) shown_ = ShownMotion(robot_);
 }
 

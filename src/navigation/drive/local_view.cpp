@@ -20,11 +20,6 @@ struct Return {
   Eigen::Vector2d p_map;
 };
 
-bool coversFullTurn(const Scan& scan) {
-  const double span = static_cast<double>(scan.size()) * std::abs(scan.angle_increment);
-  return span > 2.0 * M_PI - 1.5 * std::abs(scan.angle_increment);
-}
-
 // Borges & Aldon: the spacing that two neighbouring beams have on a surface at grazing incidence.
 double largestSpacing(double near_range, double angle) {
   if (angle >= kGrazingAngle) return near_range;
@@ -100,10 +95,7 @@ LocalView makeLocalView(const Scan& scan, const std::vector<bool>& moving, const
   for (std::size_t i = 0; i < scan.size(); ++i) {
     const double range = scan.ranges[i];
     if (isReturn(range)) {
-      const double bearing = scan.T_map_sensor.theta + scan.bearing(i);
-      returns.push_back({i, range, !moving.empty() && moving[i],
-                         scan.T_map_sensor.position() +
-                             range * Eigen::Vector2d(std::cos(bearing), std::sin(bearing))});
+      returns.push_back({i, range, !moving.empty() && moving[i], returnOf(scan, i)});
     }
     view.seen[i] = scan.freeRange(i);
     view.horizon = std::max(view.horizon, view.seen[i]);
@@ -116,7 +108,7 @@ LocalView makeLocalView(const Scan& scan, const std::vector<bool>& moving, const
         (view.obstacles.back() - a.p_map).norm() >= 0.5 * kSpacing) {
       add(a.p_map, a.moving, view);
     }
-    if (k + 1 == n && !coversFullTurn(scan)) break;
+    if (k + 1 == n && !seesAllAround(scan)) break;
     const Return& b = returns[(k + 1) % n];
     const std::size_t apart = (b.beam + scan.size() - a.beam - 1) % scan.size() + 1;
     bool open_between = false;
@@ -125,7 +117,7 @@ LocalView makeLocalView(const Scan& scan, const std::vector<bool>& moving, const
     }
     addPair(scan, a, b, apart, open_between, passable_gap, view);
   }
-  if (!view.ends_here.empty() && !coversFullTurn(scan)) view.ends_here.back() = true;
+  if (!view.ends_here.empty() && !seesAllAround(scan)) view.ends_here.back() = true;
   if (scan.angle_increment < 0.0) reverse(view);
   return view;
 }

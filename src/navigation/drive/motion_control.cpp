@@ -29,14 +29,16 @@ struct Predicted {
   double time;
 };
 
+using StoppingPath = std::vector<Predicted>;
+
 // The command for one period, then braking until it stands.
-std::vector<Predicted> stoppingPath(const OtherStart& start, const Velocity& command,
-                                    const Velocity& brakes, double period) {
-  std::vector<Predicted> path;
-  Pose2 pose = start.T_robot_other;
+StoppingPath stoppingPath(const Onset& start, const Velocity& command, const Velocity& brakes,
+                          double period) {
+  StoppingPath path;
+  Pose2 pose = start.T_now_then;
   const Velocity& present = start.velocity;
   Velocity velocity = present;
-  double time = start.time;
+  double time = start.delay;
   const auto advance = [&](const Velocity& next) {
     const double w = 0.5 * (velocity.angular + next.angular);
     const double v = 0.5 * (velocity.linear + next.linear);
@@ -50,7 +52,7 @@ std::vector<Predicted> stoppingPath(const OtherStart& start, const Velocity& com
   };
   // The command may act late by up to one period or at once: the faster of both is assumed.
   const Velocity first{std::max(present.linear, command.linear), command.angular};
-  while (time < start.time + period - 1e-9) advance(first);
+  while (time < start.delay + period - 1e-9) advance(first);
   velocity = {std::max(present.linear, command.linear), command.angular};
   while (velocity.linear > kNoMotion || std::abs(velocity.angular) > kNoMotion) {
     advance({towards(velocity.linear, 0.0, brakes.linear * kStep),
@@ -59,21 +61,8 @@ std::vector<Predicted> stoppingPath(const OtherStart& start, const Velocity& com
   return path;
 }
 
-bool isSafe(const std::vector<Predicted>& path, const std::vector<Hazard>& hazards, double radius,
-            double robot_radius) {
-  for (const Hazard& hazard : hazards) {
-    const double start = hazard.p_robot.norm();
-    const double keep =
-        std::min(radius - hazard.allowance, start) - (start < robot_radius ? kSlack : kDeeper);
-    for (const Predicted& at : path) {
-      const double distance = (hazard.p_robot - at.p_robot).norm();
-      if (distance - hazard.closing_speed * at.time < keep) return false;
-    }
-  }
-  return true;
-}
-
-double nearest(const std::vector<Predicted>& path, const Hazard& hazard) {
+// The nearest that the robot comes to a hazard, as far as that may come towards it meanwhile, m.
+double nearest(const StoppingPath& path, const Hazard& hazard) {
   double least = std::numeric_limits<double>::infinity();
   for (const Predicted& at : path) {
     const double distance = (hazard.p_robot - at.p_robot).norm();
@@ -85,12 +74,12 @@ double nearest(const std::vector<Predicted>& path, const Hazard& hazard) {
 // Those that the robot could come near to before it stands.
 std::vector<Hazard> hazardsInReach(const std::vector<Hazard>& hazards, double speed, double radius,
                                    double period, const Velocity& brakes,
-                                   const std::vector<OtherStart>& others) {
+                                   const std::vector<Onset>& others) {
   double v_max = std::max(speed, 0.0), off = 0.0, delay = 0.0;
-  for (const OtherStart& other : others) {
+  for (const Onset& other : others) {
     v_max = std::max(v_max, other.velocity.linear);
-    off = std::max(off, other.T_robot_other.position().norm());
-    delay = std::max(delay, other.time);
+    off = std::max(off, other.T_now_then.position().norm());
+    delay = std::max(delay, other.delay);
   }
   const double time = period + v_max / brakes.linear;
   const double stopping = off + v_max * period + 0.5 * v_max * v_max / brakes.linear;
@@ -100,18 +89,6 @@ std::vector<Hazard> hazardsInReach(const std::vector<Hazard>& hazards, double sp
     if (hazard.p_robot.squaredNorm() < reach * reach) near.push_back(hazard);
   }
   return near;
-}
-
-// How near braking from a start comes to each hazard, or what has to be kept where that is less.
-std::vector<double> nearestBraking(const OtherStart& start, const Velocity& braking,
-                                   const std::vector<Hazard>& hazards, double radius,
-                                   const Velocity& brakes, double period) {
-  const auto path = stoppingPath(start, braking, brakes, period);
-  std::vector<double> keep;
-  for (const Hazard& hazard : hazards) {
-    keep.push_back(std::min(radius - hazard.allowance, nearest(path, hazard)) - kDeeper);
-  }
-  return keep;
 }
 
 }  // namespace
@@ -167,7 +144,7 @@ double bearingPast(const std::vector<Hazard>& hazards, double radius, double bea
 Velocity safeVelocity(const Velocity& wanted, const Velocity& present,
                       const std::vector<Hazard>& hazards, const RobotParameters& robot,
                       double radius, double period, const Velocity& brakes,
-                      const std::vector<OtherStart>& others) {
+                      const std::vector<Onset>& others) {
   const double dv = robot.max_linear_acceleration * period;
   const double dw = robot.max_angular_acceleration * period;
   const auto reachable = [&](double v, double w) {
@@ -177,18 +154,23 @@ Velocity safeVelocity(const Velocity& wanted, const Velocity& present,
   };
   const auto near = hazardsInReach(hazards, present.linear + dv, radius, period, brakes, others);
   const Velocity braking = reachable(0.0, 0.0);
-  std::vector<std::vector<double>> kept;
-  for (const OtherStart& other : others) {
-    kept.push_back(nearestBraking(other, braking, near, radius, brakes, period));
+  // From each start, how near to each hazard the robot may come.
+  std::vector<Onset> starts{{{}, present, 0.0}};
+  starts.insert(starts.end(), others.begin(), others.end());
+  std::vector<std::vector<double>> keep(starts.size());
+  for (std::size_t i = 0; i < starts.size() && !near.empty(); ++i) {
+    const auto path = i > 0 ? stoppingPath(starts[i], braking, brakes, period) : StoppingPath{};
+    for (const Hazard& hazard : near) {
+      const double distance = hazard.p_robot.norm(), now = i > 0 ? nearest(path, hazard) : distance;
+      const double deeper = i == 0 && distance < robot.radius ? kSlack : kDeeper;
+      keep[i].push_back(std::min(radius - hazard.allowance, now) - deeper);
+    }
   }
   const auto isAllowed = [&](const Velocity& command) {
-    if (near.empty()) return true;
-    const auto path = stoppingPath({{}, present, 0.0}, command, brakes, period);
-    if (!isSafe(path, near, radius, robot.radius)) return false;
-    for (std::size_t i = 0; i < others.size(); ++i) {
-      const auto other_path = stoppingPath(others[i], command, brakes, period);
+    for (std::size_t i = 0; i < starts.size() && !near.empty(); ++i) {
+      const auto path = stoppingPath(starts[i], command, brakes, period);
       for (std::size_t k = 0; k < near.size(); ++k) {
-        if (nearest(other_path, near[k]) < kept[i][k]) return false;
+        if (nearest(path, near[k]) < keep[i][k]) return false;
       }
     }
     return true;

@@ -21,12 +21,6 @@ constexpr double kNearby = 0.75;   // m, around a place where a mover was
 constexpr double kStill = 0.05;    // m, beyond the noise: a walker of 0.15 m/s goes farther in kAge
 constexpr double kHeeded = 2.0;    // m; what is farther cannot come before the robot stands
 
-// The beam of a scan next to the direction of a point; it may lie outside the scan.
-int beamTowards(const Scan& scan, const Eigen::Vector2d& p_sensor) {
-  return static_cast<int>(std::lround(
-      beamAt(std::atan2(p_sensor.y(), p_sensor.x()), scan.angle_min, scan.angle_increment)));
-}
-
 // The shortest free distance that the scan saw around the direction of a point; 0 where unknown.
 double seenAround(const Scan& scan, const Eigen::Vector2d& p_sensor) {
   const int beam = beamTowards(scan, p_sensor), n = static_cast<int>(scan.size());
@@ -42,10 +36,7 @@ double seenAround(const Scan& scan, const Eigen::Vector2d& p_sensor) {
 std::vector<Eigen::Vector2d> pointsOf(const Scan& scan) {
   std::vector<Eigen::Vector2d> points(scan.size(), Eigen::Vector2d::Zero());
   for (std::size_t i = 0; i < scan.size(); ++i) {
-    if (!isReturn(scan.ranges[i])) continue;
-    const double bearing = scan.T_map_sensor.theta + scan.bearing(i);
-    points[i] = scan.T_map_sensor.position() +
-                scan.ranges[i] * Eigen::Vector2d(std::cos(bearing), std::sin(bearing));
+    if (isReturn(scan.ranges[i])) points[i] = returnOf(scan, i);
   }
   return points;
 }
@@ -54,15 +45,13 @@ std::vector<Eigen::Vector2d> pointsOf(const Scan& scan) {
 std::vector<std::pair<std::size_t, std::size_t>> runsInFreeSpace(
     const Scan& scan, const std::vector<Eigen::Vector2d>& points, const Scan& other,
     double clearly) {
-  const Pose2 T = other.T_map_sensor.inverse();
-  const double c = std::cos(T.theta), s = std::sin(T.theta);
+  const auto toOther = transformBy(other.T_map_sensor.inverse());
   std::vector<std::pair<std::size_t, std::size_t>> runs;
   std::size_t length = 0;
   for (std::size_t i = 0; i <= scan.size(); ++i) {
     bool in_free_space = false;
     if (i < scan.size() && isReturn(scan.ranges[i]) && scan.ranges[i] <= MovingPoints::kFarthest) {
-      const Eigen::Vector2d p(T.x + c * points[i].x() - s * points[i].y(),
-                              T.y + s * points[i].x() + c * points[i].y());
+      const Eigen::Vector2d p = toOther(points[i]);
       in_free_space = p.norm() < seenAround(other, p) - clearly;
     }
     const bool goes_on =

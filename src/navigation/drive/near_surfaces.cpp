@@ -128,17 +128,14 @@ Scan NearSurfaces::update(const Scan& raw, const Scan& smooth, const std::vector
 
 // What the present scan may say more about: all points, by the beams next to them.
 void NearSurfaces::sortByBeam(const Scan& scan) {
-  const Pose2 T = scan.T_map_sensor.inverse();
-  const double c = std::cos(T.theta), s = std::sin(T.theta);
+  const auto toSensor = transformBy(scan.T_map_sensor.inverse());
   const auto n = static_cast<int>(scan.size());
   points_.clear();
   first_.assign(scan.size() + 1, 0);
   for (const auto& points : scans_) {
     for (const Eigen::Vector2d& p : points) {
-      const Eigen::Vector2d p_sensor(T.x + c * p.x() - s * p.y(), T.y + s * p.x() + c * p.y());
-      const double bearing = std::atan2(p_sensor.y(), p_sensor.x());
-      const auto beam =
-          static_cast<int>(std::lround(beamAt(bearing, scan.angle_min, scan.angle_increment)));
+      const Eigen::Vector2d p_sensor = toSensor(p);
+      const int beam = beamTowards(scan, p_sensor);
       if (beam < 0 || beam >= n) continue;
       points_.push_back({p_sensor, beam});
       ++first_[static_cast<std::size_t>(beam) + 1];

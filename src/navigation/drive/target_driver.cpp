@@ -8,6 +8,7 @@
 
 #include "cca_mrpt/navigation/drive/motion_control.hpp"
 #include "cca_mrpt/navigation/drive/near_surfaces.hpp"
+#include "cca_mrpt/navigation/place/beam.hpp"
 
 namespace cca {
 namespace {
@@ -49,7 +50,7 @@ Velocity TargetDriver::step(const std::optional<DriveTarget>& target, const Velo
   const std::vector<Hazard> near = hazards(view, onset, movers, clearance);
   Velocity wish = wanted(target, view, view.T_map_robot * onset.T_now_then, near, clearance, time);
   if (movers.areAround(time)) wish.linear = std::min(wish.linear, kAmongMovers);
-  std::vector<OtherStart> others;
+  std::vector<Onset> others;
   for (const Onset& other : motion_.otherwise()) {
     others.push_back(
         {onset.T_now_then.inverse() * other.T_now_then, other.velocity, other.delay - onset.delay});
@@ -81,11 +82,7 @@ Velocity TargetDriver::wanted(const std::optional<DriveTarget>& target, const Lo
 // In the frame of the robot when the command begins to act.
 std::vector<Hazard> TargetDriver::hazards(const LocalView& view, const Onset& onset,
                                           const MovingPoints& movers, double clearance) const {
-  const Pose2 T_robot_map = (view.T_map_robot * onset.T_now_then).inverse();
-  const double c = std::cos(T_robot_map.theta), s = std::sin(T_robot_map.theta);
-  const auto inRobot = [&](const Eigen::Vector2d& p) -> Eigen::Vector2d {
-    return {T_robot_map.x + c * p.x() - s * p.y(), T_robot_map.y + s * p.x() + c * p.y()};
-  };
+  const auto inRobot = transformBy((view.T_map_robot * onset.T_now_then).inverse());
   std::vector<Hazard> hazards;
   hazards.reserve(view.obstacles.size() + view.returns.size() + view.movers.size());
   const double allowance = clearance - robot_.radius - kBetweenBeams;

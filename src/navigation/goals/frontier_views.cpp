@@ -41,7 +41,7 @@ bool FrontierViews::isWithinLimits(const KnownPlace& place, Cell c) const {
   return limits_.size() < 3 || isInside(limits_, place.grid().centreOf(c));
 }
 
-void FrontierViews::find(KnownPlace& place, Cell here) {
+void FrontierViews::find(const KnownPlace& place, Cell here) {
   view_points_.clear();
   entries_.clear();
   std::vector<ViewPoint> rests;
@@ -66,7 +66,7 @@ void FrontierViews::find(KnownPlace& place, Cell here) {
 }
 
 // In the order of the grid's history where all can be looked at, else the nearest first.
-std::vector<Frontier> FrontierViews::nearestFrontiers(KnownPlace& place, Cell here) const {
+std::vector<Frontier> FrontierViews::nearestFrontiers(const KnownPlace& place, Cell here) const {
   struct Candidate {
     double distance;
     Frontier frontier;
@@ -144,12 +144,6 @@ bool FrontierViews::keep(const KnownPlace& place, const ViewPoint& goal) {
     view_points_.push_back(*view_point);
   }
   return true;
-}
-
-void FrontierViews::drop(Cell target) {
-  const auto is_of_it = [&](const ViewPoint& v) { return v.target == target; };
-  for (auto* views : {&view_points_, &entries_})
-    views->erase(std::remove_if(views->begin(), views->end(), is_of_it), views->end());
 }
 
 }  // namespace cca

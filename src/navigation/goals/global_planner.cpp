@@ -31,7 +31,7 @@ GlobalPlanner::GlobalPlanner(const GlobalPlannerParameters& parameters)
 const Plan& GlobalPlanner::update(const Scan& scan, const Eigen::Vector2d& robot_map,
                                   bool is_placed) {
   if (is_placed) place_.observe(scan, robot_map);
-  if (!place_.isOnGrid(robot_map) || grid().revealed() == 0) return plan_;
+  if (!grid().covers(robot_map) || grid().revealed() == 0) return plan_;
   const double r = grid().resolution();
   unpaid_way_.note(robot_map, static_cast<double>(grid().revealed()) * r * r);
   // What stands beside a laser of less than 360 degrees is not known before it has turned once.
@@ -120,10 +120,9 @@ void GlobalPlanner::decide(const Eigen::Vector2d& robot_map) {
   plan_ = {};
   if (!drivesInVain()) {
     if (!last_look_.isUnderWay()) findViews();
-    while (const auto chosen = choose()) {
+    if (const auto chosen = choose()) {
       is_last_look_ = false;
-      if (drivesTo(*chosen, robot_map, "to see what is behind a frontier")) return;
-      views_.drop(chosen->target);
+      return driveTo(*chosen, robot_map, "to see what is behind a frontier");
     }
     if (lookLast(robot_map)) return;
   }
@@ -160,16 +159,14 @@ std::string GlobalPlanner::whatIsLeft() {
                                    : "the robot stands where nothing around it is known to be free";
 }
 
-/// A goal that there is no way to is set aside.
-bool GlobalPlanner::drivesTo(const ViewPoint& chosen, const Eigen::Vector2d& robot_map,
-                             const char* reason) {
+/// A goal that there is no way to is set aside; the next step decides anew.
+void GlobalPlanner::driveTo(const ViewPoint& chosen, const Eigen::Vector2d& robot_map,
+                            const char* reason) {
   if (!goal_ || goal_->target != chosen.target) ++goals_;
   goal_ = chosen;
   plan_.look_at = grid().centreOf(chosen.target);
   plan_.reason = reason;
-  if (takeWayTo(chosen.cell, robot_map)) return true;
-  dropGoal(Failure::kNotReached);
-  return false;
+  if (!takeWayTo(chosen.cell, robot_map)) dropGoal(Failure::kNotReached);
 }
 
 // Where nothing else is left, ways that were barred are open again.
@@ -194,9 +191,10 @@ bool GlobalPlanner::lookLast(const Eigen::Vector2d& robot_map) {
   const Strategy strategy =
       parameters_.strategy == Strategy::kViewTour ? Strategy::kGainDistance : parameters_.strategy;
   while (place_.timesHeld() < kMostTimesHeld) {
-    while (const auto chosen = last_look_.next(place_, strategy, is_open)) {
+    if (const auto chosen = last_look_.next(place_, strategy, is_open)) {
       is_last_look_ = true;
-      if (drivesTo(*chosen, robot_map, "to see what is left")) return true;
+      driveTo(*chosen, robot_map, "to see what is left");
+      return true;
     }
     goal_.reset();
     if (last_look_.isUnderWay()) {
@@ -277,12 +275,12 @@ void GlobalPlanner::noteArrival() {
 }
 
 void GlobalPlanner::noteLookAround(const Eigen::Vector2d& robot_map) {
-  if (place_.isOnGrid(robot_map)) place_.noteScanned(grid().cellOf(robot_map));
+  if (grid().covers(robot_map)) place_.noteScanned(grid().cellOf(robot_map));
 }
 
 std::vector<Eigen::Vector2d> GlobalPlanner::pathTo(const Eigen::Vector2d& robot_map,
                                                    const Eigen::Vector2d& goal_map) {
-  if (!place_.isOnGrid(robot_map) || !place_.isOnGrid(goal_map)) return {};
+  if (!grid().covers(robot_map) || !grid().covers(goal_map)) return {};
   constexpr int kNearEnough = 10;  // cells
   std::vector<Eigen::Vector2d> path;
   do {

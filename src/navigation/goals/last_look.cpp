@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstdlib>
 #include <sstream>
+#include <utility>
 
 namespace cca {
 namespace {
@@ -16,31 +17,29 @@ std::vector<Cell> placesIn(const KnownPlace& place, Cell block) {
   constexpr unsigned kAll = 0xFFFF;
   const unsigned traversable = place.space().traversableCells(block);
   std::vector<Cell> cells;
-  for (int k = 0; traversable >> k; ++k) {
-    const Cell c{FreeSpace::kBlock * block.x + k % FreeSpace::kBlock,
-                 FreeSpace::kBlock * block.y + k / FreeSpace::kBlock};
-    if ((traversable >> k & 1) && place.ways().isReached(c)) cells.push_back(c);
-  }
+  FreeSpace::eachCell(block, traversable, [&](Cell c) {
+    if (place.ways().isReached(c)) cells.push_back(c);
+  });
   if (cells.size() > 1) cells.erase(cells.begin() + 1, cells.end() - (traversable != kAll));
   return cells;
 }
 
 }  // namespace
 
-void LastLook::begin(KnownPlace& place) {
+void LastLook::begin(const KnownPlace& place) {
   openings_ = openings(place);
   blocks_.clear();
   found_.clear();
-  ++pass_;
+  is_block_ = TiledGrid<char>{0};
   is_under_way_ = !openings_.empty();
 }
 
-std::optional<ViewPoint> LastLook::next(KnownPlace& place, Strategy strategy,
+std::optional<ViewPoint> LastLook::next(const KnownPlace& place, Strategy strategy,
                                         const Filter& filter) {
   if (!is_under_way_ && found_.empty()) return {};
   looks_left_ = kLooksAtATime;
-  ++call_;
-  for (const Cell c : openings(place)) opening_calls_[c] = call_;
+  is_opening_ = TiledGrid<char>{0};
+  for (const Cell c : openings(place)) is_opening_[c] = 1;
   findPlaces(place);
   askPlaces(place);
   is_under_way_ = !openings_.empty() || !blocks_.empty();
@@ -60,7 +59,7 @@ std::string LastLook::whatIsLeft() const {
   return text.str();
 }
 
-std::vector<Cell> LastLook::openings(KnownPlace& place) const {
+std::vector<Cell> LastLook::openings(const KnownPlace& place) const {
   std::vector<Cell> cells;
   for (const Frontier& frontier : place.frontiers()) {
     if (frontier.cells.size() >= smallest_frontier_)
@@ -72,8 +71,7 @@ std::vector<Cell> LastLook::openings(KnownPlace& place) const {
 void LastLook::findPlaces(const KnownPlace& place) {
   for (; !openings_.empty() && looks_left_ > 0; openings_.pop_back(), --looks_left_) {
     eachBlockInView(place.grid(), openings_.back(), place.laserRange(), [&](Cell block) {
-      if (block_passes_.at(block) == pass_) return;
-      block_passes_[block] = pass_;
+      if (std::exchange(is_block_[block], 1)) return;
       blocks_.push_back(block);
     });
   }
@@ -126,7 +124,7 @@ std::optional<ViewPoint> LastLook::choose(const KnownPlace& place, Strategy stra
 ViewPoint LastLook::lookFrom(const KnownPlace& place, Cell cell) {
   --looks_left_;
   ViewPoint view = viewFrom(place.grid(), cell, place.laserRange(),
-                            [&](Cell c) { return opening_calls_.at(c) == call_; });
+                            [&](Cell c) { return is_opening_.at(c) != 0; });
   view.distance = place.ways().distanceTo(cell);
   return view;
 }

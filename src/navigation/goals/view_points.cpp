@@ -2,18 +2,14 @@
 #include "cca_mrpt/navigation/goals/view_points.hpp"
 
 #include <algorithm>
-#include <cassert>
 #include <cmath>
 #include <stdexcept>
+#include <utility>
 
 #include "cca_mrpt/navigation/place/beam.hpp"
 
 namespace cca {
 namespace {
-
-constexpr double kPi = 3.14159265358979323846;
-
-constexpr int kViewRays = 90, kGainRays = 72, kFineRays = 360;
 
 constexpr double kFreeWay = 0.5;  // m, that a ray gets in the unknown on average
 
@@ -22,29 +18,32 @@ constexpr double kFreeWay = 0.5;  // m, that a ray gets in the unknown on averag
 /// jamb of a door, would end there.
 constexpr double kCut = 1.0;
 
-std::vector<Eigen::Vector2d> directions(int rays) {
-  std::vector<Eigen::Vector2d> unit;
-  for (int k = 0; k < rays; ++k) {
-    const double angle = 2.0 * kPi * (k + 0.5) / rays;  // never along an axis: no ties at corners
+/// Unit vectors all around.
+using Rays = std::vector<Eigen::Vector2d>;
+
+Rays rays(int count) {
+  Rays unit;
+  for (int k = 0; k < count; ++k) {
+    const double angle = 2.0 * M_PI * (k + 0.5) / count;  // never along an axis: no ties at corners
     unit.emplace_back(std::cos(angle), std::sin(angle));
   }
   return unit;
 }
 
-bool isOpaque(CellState state) {
-  return state >= CellState::kGuessedWall && state != CellState::kFree;
-}
+const Rays kViewRays = rays(90), kGainRays = rays(72), kFineRays = rays(360);
 
-Eigen::Vector2d middle(Cell c) { return {c.x + 0.5, c.y + 0.5}; }
+bool isOpaque(CellState state) {
+  return state == CellState::kPresumedWall || state == CellState::kOccupied;
+}
 
 /// Follows a ray to where it has gone through more than `cut` cells' length of opaque cells.
 /// @param visit  void(Cell, CellState, double entered): for each cell, see walkBeam.
 /// @return the ray's length, in cells.
 template <class Visit>
-double followRay(ExplorationGrid::Reader& states, Cell from, const Eigen::Vector2d& direction,
+double followRay(const ExplorationGrid& grid, Cell from, const Eigen::Vector2d& direction,
                  double reach, double cut, Visit&& visit) {
   double end = reach, opaque = 0.0, opaque_since = -1.0;
-  walkBeam(middle(from), direction, reach, [&](Cell c, double entered) {
+  walkBeam(middleOf(from), direction, reach, [&](Cell c, double entered) {
     if (opaque_since >= 0.0) {
       opaque += entered - opaque_since;
       if (opaque > cut) {
@@ -53,7 +52,7 @@ double followRay(ExplorationGrid::Reader& states, Cell from, const Eigen::Vector
       }
       opaque_since = -1.0;
     }
-    const CellState state = states.at(c);
+    const CellState state = grid.at(c);
     visit(c, state, entered);
     if (isOpaque(state)) opaque_since = entered;
     return true;
@@ -61,23 +60,30 @@ double followRay(ExplorationGrid::Reader& states, Cell from, const Eigen::Vector
   return end;
 }
 
-/// Follows rays up to opaque cells.
+/// See viewFrom().
 /// @param cut         see followRay.
-/// @param is_opening  bool(Cell): whether what lies behind a known cell counts.
-/// @param visit       void(direction, begin, end): for each stretch of unknown cells on a ray, with
-///                    its distances from the beginning in cells.
-template <class IsOpening, class Visit>
-void eachUnknownStretch(const ExplorationGrid& grid, Cell from,
-                        const std::vector<Eigen::Vector2d>& directions, double range, double cut,
-                        IsOpening&& is_opening, Visit&& visit) {
-  ExplorationGrid::Reader states(grid);
+/// @param is_opening  bool(Cell).
+template <class IsOpening>
+ViewPoint look(const ExplorationGrid& grid, Cell from, double range, const Rays& directions,
+               double cut, IsOpening&& is_opening) {
+  ViewPoint view{from, from};
+  const double free_way = kFreeWay / grid.resolution();
+  const auto count = static_cast<double>(directions.size());
+  double longest = 0.0;
   for (const Eigen::Vector2d& direction : directions) {
     double unknown_since = -1.0;
     bool counts = true;
     Cell last = from;  // that is known, and no obstacle
-    const auto close = [&](double until) {
-      if (unknown_since >= 0.0 && counts) visit(direction, unknown_since, until);
-      unknown_since = -1.0;
+    const auto close = [&](double end) {
+      const double begin = std::exchange(unknown_since, -1.0), passed = end - begin;
+      if (begin < 0.0 || !counts) return;
+      const double fading = std::exp(-passed / free_way);
+      view.gain += (end * end - begin * begin) * M_PI / count;
+      view.expected +=
+          ((begin + free_way) * (1.0 - fading) - passed * fading) * free_way * 2.0 * M_PI / count;
+      if (passed <= longest) return;
+      longest = passed;
+      view.target = cellAt(middleOf(from) + 0.5 * (begin + end) * direction);
     };
     const auto enter = [&](Cell c, CellState state, double entered) {
       if (state != CellState::kUnknown) {
@@ -88,8 +94,11 @@ void eachUnknownStretch(const ExplorationGrid& grid, Cell from,
         counts = is_opening(last);
       }
     };
-    close(followRay(states, from, direction, range / grid.resolution(), cut, enter));
+    close(followRay(grid, from, direction, range / grid.resolution(), cut, enter));
   }
+  view.gain *= grid.resolution() * grid.resolution();
+  view.expected *= grid.resolution() * grid.resolution();
+  return view;
 }
 
 constexpr double kPerMetre = 0.2;     // lambda of [Gonzalez-Banos & Latombe 2002]
@@ -112,14 +121,6 @@ double score(Strategy strategy, const ViewPoint& view_point) {
 
 }  // namespace
 
-Cell unknownBeside(const ExplorationGrid& grid, Cell c) {
-  for (std::size_t d = 0; d < 4; ++d) {
-    if (grid.at(c + kNeighbours[d]) == CellState::kUnknown) return c + kNeighbours[d];
-  }
-  assert(false && "not a frontier cell");
-  return c;
-}
-
 Cell cellBehind(const ExplorationGrid& grid, const Frontier& frontier, double depth) {
   Eigen::Vector2d outwards = Eigen::Vector2d::Zero();
   for (const Cell c : frontier.cells) {
@@ -128,12 +129,12 @@ Cell cellBehind(const ExplorationGrid& grid, const Frontier& frontier, double de
         outwards += Eigen::Vector2d(kNeighbours[d].x, kNeighbours[d].y);
     }
   }
-  const Cell beside = unknownBeside(grid, frontier.middle);
+  const Cell beside = unknownBeside(grid, frontier.middle).value_or(frontier.middle);
   if (outwards.norm() < 1.0) return beside;
   double end = depth / grid.resolution();
   bool entered_unknown = false;
   double first = 0.0;
-  walkBeam(middle(frontier.middle), outwards.normalized(), end, [&](Cell c, double entered) {
+  walkBeam(middleOf(frontier.middle), outwards.normalized(), end, [&](Cell c, double entered) {
     const CellState state = grid.at(c);
     if (state == CellState::kUnknown) {
       if (!entered_unknown) first = entered;
@@ -146,19 +147,18 @@ Cell cellBehind(const ExplorationGrid& grid, const Frontier& frontier, double de
   });
   if (!entered_unknown) return beside;
   const double behind = end < depth / grid.resolution() ? 0.5 * (first + end) : end;
-  const Eigen::Vector2d p = middle(frontier.middle) + behind * outwards.normalized();
-  const Cell target{static_cast<int>(std::floor(p.x())), static_cast<int>(std::floor(p.y()))};
+  const Eigen::Vector2d p = middleOf(frontier.middle) + behind * outwards.normalized();
+  const Cell target = cellAt(p);
   return grid.at(target) == CellState::kUnknown ? target : beside;
 }
 
 bool isInView(const ExplorationGrid& grid, Cell from, Cell to) {
-  const Eigen::Vector2d line = middle(to) - middle(from);
+  const Eigen::Vector2d line = middleOf(to) - middleOf(from);
   const double length = line.norm();
   if (length == 0.0) return true;
   bool clear = true;
-  ExplorationGrid::Reader states(grid);
-  walkBeam(middle(from), line / length, length, [&](Cell c, double) {
-    clear = !isOpaque(states.at(c));
+  walkBeam(middleOf(from), line / length, length, [&](Cell c, double) {
+    clear = !isOpaque(grid.at(c));
     return clear;
   });
   return clear;
@@ -166,11 +166,9 @@ bool isInView(const ExplorationGrid& grid, Cell from, Cell to) {
 
 void eachBlockInView(const ExplorationGrid& grid, Cell from, double range,
                      const std::function<void(Cell block)>& visit) {
-  static const std::vector<Eigen::Vector2d> kDirections = directions(kFineRays);
-  ExplorationGrid::Reader states(grid);
-  for (const Eigen::Vector2d& direction : kDirections) {
+  for (const Eigen::Vector2d& direction : kFineRays) {
     std::optional<Cell> block;
-    followRay(states, from, direction, range / grid.resolution(), kCut,
+    followRay(grid, from, direction, range / grid.resolution(), kCut,
               [&](Cell c, CellState, double) {
                 if (block && FreeSpace::blockOf(c) == *block) return;
                 block = FreeSpace::blockOf(c);
@@ -182,31 +180,18 @@ void eachBlockInView(const ExplorationGrid& grid, Cell from, double range,
 std::optional<ViewPoint> nearestViewPoint(const ExplorationGrid& grid, const FreeSpace& space,
                                           const DistanceField& field, const ScannedPlaces& scanned,
                                           Cell target, double range) {
-  static const std::vector<Eigen::Vector2d> kDirections = directions(kViewRays);
   std::optional<ViewPoint> best;
-  ExplorationGrid::Reader states(grid);
-  // The cells of the present block that may be nearer than the best so far.
-  Cell block;
-  unsigned eligible = 0;
-  const auto enter = [&](Cell next) {
-    block = next;
-    const bool is_too_far = best && field.leastDistanceTo(block) >= best->distance;
-    eligible = is_too_far || scanned.containsBlock(block) ? 0 : space.traversableCells(block);
-  };
-  enter(FreeSpace::blockOf(target));
-  for (const Eigen::Vector2d& direction : kDirections) {
+  for (const Eigen::Vector2d& direction : kViewRays) {
     bool in_known = false;
-    walkBeam(middle(target), direction, range / grid.resolution(), [&](Cell c, double) {
+    walkBeam(middleOf(target), direction, range / grid.resolution(), [&](Cell c, double) {
       if (c == target) return true;
-      const CellState state = states.at(c);
+      const CellState state = grid.at(c);
       if (isOpaque(state) || (in_known && state == CellState::kUnknown)) return false;
       in_known = in_known || state != CellState::kUnknown;
-      if (FreeSpace::blockOf(c) != block) enter(FreeSpace::blockOf(c));
-      if (!(eligible & FreeSpace::bitOf(c))) return true;
-      const DistanceField::Reached reached = field.reached(c);
-      eligible &= ~(FreeSpace::bitOf(c) | reached.cells);
-      if (reached.distance < (best ? best->distance : DistanceField::kUnreached))
-        best = ViewPoint{c, target, reached.distance, 0.0};
+      if (!space.isTraversable(c) || scanned.contains(c)) return true;
+      const double distance = field.distanceTo(c);
+      if (distance < (best ? best->distance : DistanceField::kUnreached))
+        best = ViewPoint{c, target, distance};
       return true;
     });
   }
@@ -214,37 +199,12 @@ std::optional<ViewPoint> nearestViewPoint(const ExplorationGrid& grid, const Fre
 }
 
 double unknownAreaInView(const ExplorationGrid& grid, Cell from, double range) {
-  static const std::vector<Eigen::Vector2d> kDirections = directions(kGainRays);
-  double area = 0.0;  // in cells
-  eachUnknownStretch(
-      grid, from, kDirections, range, 0.0, [](Cell) { return true; },
-      [&](const Eigen::Vector2d&, double begin, double end) {
-        area += (end * end - begin * begin) * kPi / kGainRays;
-      });
-  return area * grid.resolution() * grid.resolution();
+  return look(grid, from, range, kGainRays, 0.0, [](Cell) { return true; }).gain;
 }
 
 ViewPoint viewFrom(const ExplorationGrid& grid, Cell from, double range,
                    const std::function<bool(Cell)>& is_opening) {
-  static const std::vector<Eigen::Vector2d> kDirections = directions(kFineRays);
-  ViewPoint view{from, from, 0.0, 0.0};
-  const double free_way = kFreeWay / grid.resolution();
-  double longest = 0.0;
-  eachUnknownStretch(
-      grid, from, kDirections, range, kCut, is_opening,
-      [&](const Eigen::Vector2d& direction, double begin, double end) {
-        view.gain += (end * end - begin * begin) * kPi / kFineRays;
-        const double passed = end - begin, fading = std::exp(-passed / free_way);
-        view.expected += ((begin + free_way) * (1.0 - fading) - passed * fading) * free_way * 2.0 *
-                         kPi / kFineRays;
-        if (end - begin <= longest) return;
-        longest = end - begin;
-        const Eigen::Vector2d p = middle(from) + 0.5 * (begin + end) * direction;
-        view.target = {static_cast<int>(std::floor(p.x())), static_cast<int>(std::floor(p.y()))};
-      });
-  view.gain *= grid.resolution() * grid.resolution();
-  view.expected *= grid.resolution() * grid.resolution();
-  return view;
+  return look(grid, from, range, kFineRays, kCut, is_opening);
 }
 
 double discountedGain(const ViewPoint& view_point) {
@@ -262,15 +222,12 @@ Strategy strategyNamed(const std::string& name) {
 
 std::optional<std::size_t> selectGoal(Strategy strategy,
                                       const std::vector<ViewPoint>& view_points) {
-  std::optional<std::size_t> best;
-  double best_score = 0.0;
-  for (std::size_t i = 0; i < view_points.size(); ++i) {
-    const double s = score(strategy, view_points[i]);
-    if (best && s <= best_score) continue;
-    best = i;
-    best_score = s;
-  }
-  return best;
+  if (view_points.empty()) return {};
+  const auto best = std::max_element(view_points.begin(), view_points.end(),
+                                     [strategy](const ViewPoint& a, const ViewPoint& b) {
+                                       return score(strategy, a) < score(strategy, b);
+                                     });
+  return static_cast<std::size_t>(best - view_points.begin());
 }
 
 }  // namespace cca

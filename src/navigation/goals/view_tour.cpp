@@ -83,6 +83,9 @@ bool improve(const Eigen::MatrixXd& distance, const TourObjective& objective, To
   return helped;
 }
 
+constexpr double kStay = 0.5;             // m, by which another tour must cost less than going on
+constexpr std::size_t kMostStops = 16;    // of a tour
+constexpr double kHorizon = 40.0;         // m, beyond which ways between stops are only estimated
 constexpr std::uint32_t kFieldLife = 30;  // choices: known space grows, so ways get shorter
 constexpr std::size_t kMostFields = 32;
 
@@ -177,7 +180,7 @@ std::optional<std::size_t> ViewTour::choose(const ExplorationGrid& grid, const F
   for (const std::size_t k : driven) {
     if (!stops[k].sees_present) continue;
     const Tour same = findTour(distance, objective, k);
-    if (same.cost < best.cost + parameters_.stay) return stops[k].view_point;
+    if (same.cost < best.cost + kStay) return stops[k].view_point;
   }
   return stops[driven.front()].view_point;
 }
@@ -188,7 +191,7 @@ std::vector<ViewTour::Stop> ViewTour::cover(const ExplorationGrid& grid,
   const auto sees = visibility(grid, view_points, reach);
   std::vector<bool> is_covered(view_points.size(), false);
   std::vector<Stop> stops;
-  while (stops.size() < parameters_.most_stops) {
+  while (stops.size() < kMostStops) {
     std::size_t best = 0;
     std::ptrdiff_t most = 0;
     for (std::size_t a = 0; a < view_points.size(); ++a) {
@@ -260,30 +263,23 @@ DistanceField* ViewTour::fieldAt(const ExplorationGrid& grid, const FreeSpace& s
                                  int& budget) {
   constexpr int kSameSite = 2;  // blocks
   const Cell block = FreeSpace::blockOf(cell);
-  CachedField* entry = nullptr;
-  for (CachedField& cached : fields_) {
-    const int off =
-        std::max(std::abs(cached.block.x - block.x), std::abs(cached.block.y - block.y));
-    if (off > kSameSite) continue;
-    entry = &cached;
-    break;
-  }
-  if (entry && choices_ - entry->made < kFieldLife) {
+  auto entry = std::find_if(fields_.begin(), fields_.end(), [&](const CachedField& cached) {
+    return squareDistance(cached.block, block) <= kSameSite;
+  });
+  if (entry != fields_.end() && choices_ - entry->made < kFieldLife) {
     entry->used = choices_;
     return &entry->field;
   }
   if (budget-- <= 0) return nullptr;
-  if (!entry && fields_.size() < kMostFields) {
-    fields_.emplace_back();
-    entry = &fields_.back();
-  }
-  if (!entry) {
-    entry = &*std::min_element(fields_.begin(), fields_.end(),
-                               [](const auto& a, const auto& b) { return a.used < b.used; });
+  if (entry == fields_.end() && fields_.size() < kMostFields) {
+    entry = fields_.insert(entry, CachedField{});
+  } else if (entry == fields_.end()) {
+    entry = std::min_element(fields_.begin(), fields_.end(),
+                             [](const auto& a, const auto& b) { return a.used < b.used; });
   }
   entry->block = block;
   entry->made = entry->used = choices_;
-  entry->field.begin(space, grid.resolution(), cell, parameters_.horizon);
+  entry->field.begin(space, grid.resolution(), cell, kHorizon);
   return &entry->field;
 }
 

@@ -24,40 +24,33 @@ unsigned connectedPart(unsigned cells, unsigned seed) {
   }
 }
 
-/// The cells of the neighbouring block that touch `part` across the side towards neighbour d.
-unsigned acrossSide(unsigned part, int d) {
-  switch (d) {
-    case 0:
-      return (part & kRight) >> 3;
-    case 1:
-      return (part & kTop) >> 12;
-    case 2:
-      return (part & kLeft) << 3;
-    default:
-      return (part & kBottom) << 12;
-  }
+/// Of a block, the cells beside the neighbour d, and by how many bits to the right they lie in the
+/// cells of that one which they touch.
+struct Side {
+  unsigned cells;
+  int shift;
+};
+constexpr Side kSides[8] = {{kRight, 3},  {kTop, 12},  {kLeft, -3},   {kBottom, -12},
+                            {0x8000, 15}, {0x1000, 9}, {0x0001, -15}, {0x0008, -9}};
+
+/// The cells of neighbour d that touch `cells`.
+unsigned across(unsigned cells, std::size_t d) {
+  const unsigned beside = cells & kSides[d].cells;
+  return kSides[d].shift > 0 ? beside >> kSides[d].shift : beside << -kSides[d].shift;
 }
 
-/// Diagonal neighbours d = 4..7: this block's corner cell, the one across, and the corner cells of
-/// the two blocks beside, horizontal then vertical, which must be open too (no cutting of corners).
-struct Corner {
-  unsigned here, there, beside_x, beside_y;
-};
-constexpr Corner kCorners[4] = {{0x8000, 0x0001, 0x1000, 0x0008},
-                                {0x1000, 0x0008, 0x8000, 0x0001},
-                                {0x0001, 0x8000, 0x0008, 0x1000},
-                                {0x0008, 0x1000, 0x0001, 0x8000}};
+/// The two side neighbours between which a diagonal one lies.
+std::array<std::size_t, 2> sidesOf(std::size_t diagonal) {
+  return {kNeighbours[diagonal].x > 0 ? 0u : 2u, kNeighbours[diagonal].y > 0 ? 1u : 3u};
+}
 
 /// Where a shortest path that came by neighbour d goes on in the open, a bit for each neighbour:
 /// straight on, and after a diagonal also along its two sides. All else is reached past the block.
-constexpr unsigned kOnward[8] = {1u << 0,
-                                 1u << 1,
-                                 1u << 2,
-                                 1u << 3,
-                                 1u << 4 | 1u << 0 | 1u << 1,
-                                 1u << 5 | 1u << 2 | 1u << 1,
-                                 1u << 6 | 1u << 2 | 1u << 3,
-                                 1u << 7 | 1u << 0 | 1u << 3};
+unsigned onwardFrom(std::size_t d) {
+  if (d < 4) return 1u << d;
+  const auto sides = sidesOf(d);
+  return 1u << d | 1u << sides[0] | 1u << sides[1];
+}
 
 }  // namespace
 
@@ -81,7 +74,11 @@ void DistanceField::begin(const FreeSpace& space, double resolution, Cell start,
 }
 
 double DistanceField::reach(const FreeSpace& space, Cell c) {
-  if (!started_ || leastDistanceTo(FreeSpace::blockOf(c)) > horizon_) return kUnreached;
+  if (!started_) return kUnreached;
+  const Cell to = FreeSpace::blockOf(c), from = FreeSpace::blockOf(start_);
+  const int dx = std::abs(to.x - from.x), dy = std::abs(to.y - from.y);
+  const double least = (kStraight * std::abs(dx - dy) + kDiagonal * std::min(dx, dy)) * unit_;
+  if (least > horizon_) return kUnreached;  // without a search
   grow(space, c);
   return distanceTo(c);
 }
@@ -91,11 +88,10 @@ void DistanceField::grow(const FreeSpace& space, std::optional<Cell> until) {
     auto& bucket = queue_[settled_up_to_ % queue_.size()];
     for (std::size_t i = 0; i < bucket.size(); ++i) {
       const Entry entry = bucket[i];
-      Node& node = nodes_[entry.block];
-      Part& part = node.parts[static_cast<std::size_t>(entry.part)];
+      Part& part = nodes_[entry.block].parts[static_cast<std::size_t>(entry.part)];
       if (part.settled || part.cost != entry.cost) continue;
       part.settled = true;
-      expand(space, node, entry);
+      expand(space, part, entry);
     }
     waiting_ -= bucket.size();
     bucket.clear();
@@ -103,42 +99,32 @@ void DistanceField::grow(const FreeSpace& space, std::optional<Cell> until) {
   }
 }
 
-void DistanceField::expand(const FreeSpace& space, Node& node, const Entry& entry) {
+void DistanceField::expand(const FreeSpace& space, const Part& here, const Entry& entry) {
   const Cell b = entry.block;
-  const Part& here = node.parts[static_cast<std::size_t>(entry.part)];
   const unsigned part = here.cells;
   const auto from_part = static_cast<std::int8_t>(entry.part);
-  const std::array<std::uint16_t, 8> around = space.traversableAround(b);
+  std::array<unsigned, 8> around;
+  for (std::size_t d = 0; d < 8; ++d) around[d] = space.traversableCells(b + kNeighbours[d]);
   const bool is_open = part == kAll && std::all_of(around.begin(), around.end(),
                                                    [](unsigned cells) { return cells == kAll; });
   // The space may have grown between two blocks of a path: both have to have been open.
   const unsigned onward =
-      is_open && here.from_open ? kOnward[static_cast<std::size_t>(here.from)] : 0xFF;
-  for (int d = 0; d < 4; ++d) {
-    const unsigned cells = around[static_cast<std::size_t>(d)];
-    unsigned open = onward >> d & 1 ? cells & acrossSide(part, d) : 0;
-    if (!open) continue;
-    const Cell step = kNeighbours[static_cast<std::size_t>(d)], next = b + step;
-    if (!isStorable(next)) continue;
-    Node& beside = nodes_.beside(node, b, step);
+      is_open && here.from_open ? onwardFrom(static_cast<std::size_t>(here.from)) : 0xFF;
+  for (std::size_t d = 0; d < 8; ++d) {
+    unsigned open = onward >> d & 1 ? around[d] & across(part, d) : 0;
+    const Cell next = b + kNeighbours[d];
+    if (!open || !isStorable(next)) continue;
+    if (d >= 4) {  // no cutting of corners
+      const auto sides = sidesOf(d);
+      const auto isShut = [&](std::size_t s) { return !(around[s] & across(kSides[d].cells, s)); };
+      if (isShut(sides[0]) || isShut(sides[1])) continue;
+    }
+    Node& beside = nodes_[next];
     while (open) {
-      const Passage to{next,      cells,  open & (~open + 1), static_cast<std::int8_t>(d),
+      const Passage to{next,      around[d], open & (~open + 1), static_cast<std::int8_t>(d),
                        from_part, is_open};
-      open &= ~relax(beside, to, entry.cost + kStraight);
+      open &= ~relax(beside, to, entry.cost + (d < 4 ? kStraight : kDiagonal));
     }
-  }
-  for (int d = 4; d < 8; ++d) {
-    const Corner& corner = kCorners[d - 4];
-    if (!(onward >> d & 1) || !(part & corner.here)) continue;
-    const unsigned cells = around[static_cast<std::size_t>(d)];
-    const Cell step = kNeighbours[static_cast<std::size_t>(d)], next = b + step;
-    if (!(cells & corner.there) || !(around[step.x > 0 ? 0 : 2] & corner.beside_x) ||
-        !(around[step.y > 0 ? 1 : 3] & corner.beside_y) || !isStorable(next)) {
-      continue;
-    }
-    relax(nodes_.beside(node, b, step),
-          {next, cells, corner.there, static_cast<std::int8_t>(d), from_part, is_open},
-          entry.cost + kDiagonal);
   }
 }
 
@@ -167,15 +153,9 @@ const DistanceField::Part* DistanceField::partOf(Cell c) const {
   return nullptr;
 }
 
-DistanceField::Reached DistanceField::reached(Cell c) const {
+double DistanceField::distanceTo(Cell c) const {
   const Part* part = partOf(c);
-  return part ? Reached{part->cost * unit_, part->cells} : Reached{};
-}
-
-double DistanceField::leastDistanceTo(Cell block) const {
-  const Cell first = FreeSpace::blockOf(start_);
-  const int dx = std::abs(block.x - first.x), dy = std::abs(block.y - first.y);
-  return (kStraight * std::abs(dx - dy) + kDiagonal * std::min(dx, dy)) * unit_;
+  return part ? part->cost * unit_ : kUnreached;
 }
 
 std::vector<Cell> DistanceField::blocksTo(Cell c) const {

@@ -3,7 +3,6 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "cca_mrpt/mapping/cross.hpp"
@@ -23,19 +22,13 @@ constexpr double kWithin = 2.0;  // deviations: where a beam may be
 // Cells. What lies before a return is known to be free only up to this distance: noise and rounding
 // must not open the wall.
 constexpr double kBeforeSurface = 0.3;
-constexpr double kSteepest = 4.0;        // widest gap in one surface, in spacings of the beams
-constexpr double kWidestPresumed = 0.5;  // m: no robot fits through
+constexpr double kSteepest = 4.0;  // widest gap in one surface, in spacings of the beams
 constexpr double kWidestGuess = 1.5;
 // Of the gap, from it to a third return.
 constexpr double kLeastReach = 0.2, kMostReach = 4.0;
 constexpr double kInLine = 0.03;             // m, grows with that
 constexpr std::size_t kMostBetween = 8;      // rays between two beams
 constexpr double kLongestRangeCells = 4000;  // 200 m at 5 cm
-
-Eigen::Vector2d directionOf(const Scan& scan, std::size_t beam) {
-  const double angle = scan.T_map_sensor.theta + scan.bearing(beam);
-  return {std::cos(angle), std::sin(angle)};
-}
 
 bool isUsable(const Scan& scan, double resolution) {
   const Pose2& T = scan.T_map_sensor;
@@ -117,11 +110,10 @@ void ExplorationGrid::findCertainRanges(const Scan& scan) {
 // Most cells are as surely free as can be already.
 void ExplorationGrid::passThrough(const Eigen::Vector2d& origin, const Eigen::Vector2d& direction,
                                   double length, double ends_at) {
-  TiledGrid<Evidence>::Reader evidence(evidence_);
   const double near_end = (ends_at - kWithin * noise_.rangeSigma()) / resolution_;
   const double across = noise_.bearingSigma() * resolution_;
   walkBeam(origin, direction, length, [&](Cell c, double entered) {
-    if (evidence.at(c) == kFreest) return true;
+    if (evidence_.at(c) == kFreest) return true;
     const double far = across * entered;
     const double along = entered + 1.0 > near_end ? noise_.rangeSigma() : 0.0;
     add(c, -weightOf(far * far + along * along));
@@ -158,9 +150,8 @@ void ExplorationGrid::presumeWalls(const Scan& scan) {
       };
       if (gap > kWidestGuess || !(isInLine(i - 1, from) || isInLine(i + 2, to))) continue;
     }
-    const Evidence presumption = gap > kWidestPresumed ? kWallGuessed : kWallPresumed;
     walkBeam(from / resolution_, (to - from) / gap, gap / resolution_, [&](Cell c, double) {
-      if (evidence_.at(c) < presumption) write(c, presumption);
+      if (evidence_.at(c) < kWallPresumed) write(c, kWallPresumed);
       return true;
     });
   }
@@ -171,14 +162,6 @@ void ExplorationGrid::presumeFree(const Scan& scan) {
   const Eigen::Vector2d origin = scan.T_map_sensor.position() / resolution_;
   const auto freeRange = [&](std::size_t i) { return scan.freeRange(i) / resolution_; };
   const double apart = std::abs(scan.angle_increment);
-  // By k / (between + 1) of the way from one beam to the next: few turns serve all beams.
-  std::array<std::array<Eigen::Matrix2d, kMostBetween + 1>, kMostBetween + 1> turns;
-  for (std::size_t between = 1; between <= kMostBetween; ++between) {
-    for (std::size_t k = 1; k <= between; ++k) {
-      const double angle = scan.angle_increment * static_cast<double>(k) / (between + 1.0);
-      turns[between][k] = Eigen::Rotation2Dd(angle).toRotationMatrix();
-    }
-  }
   for (std::size_t i = 0; i + 1 < scan.size(); ++i) {
     const double range =
         std::min({freeRange(i), freeRange(i + 1), kLongestRangeCells}) - kBeforeSurface;
@@ -186,11 +169,11 @@ void ExplorationGrid::presumeFree(const Scan& scan) {
     const auto between =
         static_cast<std::size_t>(std::min(range * apart, static_cast<double>(kMostBetween)));
     for (std::size_t k = 1; k <= between; ++k) {
-      const Eigen::Vector2d direction = turns[between][k] * directions_[i];
+      const double turn = scan.angle_increment * static_cast<double>(k) / (between + 1.0);
+      const Eigen::Vector2d direction = Eigen::Rotation2Dd(turn) * directions_[i];
       const double gapless = std::min(1.0 / apart, range);
-      TiledGrid<Evidence>::Reader evidence(evidence_);
       walkBeam(origin + gapless * direction, direction, range - gapless, [&](Cell c, double) {
-        if (evidence.at(c) == kNever && evidence_.at(c) == kNever) write(c, kFreePresumed);
+        if (evidence_.at(c) == kNever) write(c, kFreePresumed);
         return true;
       });
     }
@@ -208,8 +191,7 @@ void ExplorationGrid::add(Cell cell, int weight) {
 
 void ExplorationGrid::set(Cell cell, CellState state) {
   if (!isStorable(cell)) return;
-  constexpr Evidence kValue[] = {kNever,        kFreePresumed, kWallGuessed,
-                                 kWallPresumed, kFreest,       kSurest};
+  constexpr Evidence kValue[] = {kNever, kFreePresumed, kWallPresumed, kFreest, kSurest};
   write(cell, kValue[static_cast<int>(state)]);
 }
 
@@ -231,12 +213,9 @@ bool ExplorationGrid::covers(const Eigen::Vector2d& p_map) const {
 }
 
 Cell ExplorationGrid::cellOf(const Eigen::Vector2d& p_map) const {
-  return {static_cast<int>(std::floor(p_map.x() / resolution_)),
-          static_cast<int>(std::floor(p_map.y() / resolution_))};
+  return cellAt(p_map / resolution_);
 }
 
-Eigen::Vector2d ExplorationGrid::centreOf(Cell cell) const {
-  return resolution_ * Eigen::Vector2d(cell.x + 0.5, cell.y + 0.5);
-}
+Eigen::Vector2d ExplorationGrid::centreOf(Cell cell) const { return resolution_ * middleOf(cell); }
 
 }  // namespace cca

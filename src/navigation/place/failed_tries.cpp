@@ -16,9 +16,7 @@ constexpr double kSamePlace = 6.0;         // cells, that a robot is held at
 constexpr double kAhead = 0.6;             // m, of a way that is barred
 constexpr int kAside = 2;                  // cells, to both sides of it
 
-bool isSameTarget(Cell a, Cell b) {
-  return std::max(std::abs(a.x - b.x), std::abs(a.y - b.y)) <= kSameTarget;
-}
+bool isSameTarget(Cell a, Cell b) { return squareDistance(a, b) <= kSameTarget; }
 
 /// The cells that the beginning of a way crosses.
 std::vector<Cell> cellsAhead(const std::vector<Eigen::Vector2d>& way, double resolution) {

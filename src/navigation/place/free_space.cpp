@@ -83,7 +83,6 @@ void FreeSpace::mark(Cell c) {
   const bool was_traversable = block & bitOf(c);
   if (was_traversable == isTraversable(c)) return;
   block = static_cast<std::uint16_t>(block ^ bitOf(c));
-  ++revision_;
 }
 
 }  // namespace cca

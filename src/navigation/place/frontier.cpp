@@ -2,34 +2,32 @@
 #include "cca_mrpt/navigation/place/frontier.hpp"
 
 #include <algorithm>
-#include <limits>
 
 namespace cca {
 namespace {
 
-Cell middleOf(const std::vector<Cell>& cells) {
+constexpr int kWide = 5;  // cells, of the square around one in which another is its neighbour
+
+Cell memberInTheMiddle(const std::vector<Cell>& cells) {
   Eigen::Vector2d mean = Eigen::Vector2d::Zero();
   for (const Cell c : cells) mean += Eigen::Vector2d(c.x, c.y) / static_cast<double>(cells.size());
-  Cell middle = cells.front();
-  double nearest = std::numeric_limits<double>::infinity();
-  for (const Cell c : cells) {
-    const double distance = (Eigen::Vector2d(c.x, c.y) - mean).squaredNorm();
-    if (distance >= nearest) continue;
-    nearest = distance;
-    middle = c;
-  }
-  return middle;
+  const auto off = [&](Cell c) { return (Eigen::Vector2d(c.x, c.y) - mean).squaredNorm(); };
+  return *std::min_element(cells.begin(), cells.end(),
+                           [&](Cell a, Cell b) { return off(a) < off(b); });
 }
 
 }  // namespace
 
+std::optional<Cell> unknownBeside(const ExplorationGrid& grid, Cell c) {
+  for (std::size_t d = 0; d < 4; ++d) {
+    if (grid.at(c + kNeighbours[d]) == CellState::kUnknown) return c + kNeighbours[d];
+  }
+  return {};
+}
+
 bool isFrontier(const ExplorationGrid& grid, Cell c) {
   const CellState state = grid.at(c);
-  if (state != CellState::kFree && state != CellState::kPresumedFree) return false;
-  for (std::size_t d = 0; d < 4; ++d) {
-    if (grid.at(c + kNeighbours[d]) == CellState::kUnknown) return true;
-  }
-  return false;
+  return (state == CellState::kFree || state == CellState::kPresumedFree) && unknownBeside(grid, c);
 }
 
 void FrontierCells::update(const ExplorationGrid& grid, const std::vector<Cell>& changed) {
@@ -56,35 +54,29 @@ void FrontierCells::review(const ExplorationGrid& grid, Cell c) {
   place_[c] = 0;
 }
 
-std::vector<Frontier> FrontierCells::frontiers(int extent) {
-  static const std::vector<Cell> kNear = [] {
-    std::vector<Cell> near;
-    for (int y = -2; y <= 2; ++y)
-      for (int x = -2; x <= 2; ++x) near.push_back({x, y});
-    return near;
-  }();
-  ++grouping_;
+std::vector<Frontier> FrontierCells::frontiers(int extent) const {
+  TiledGrid<char> grouped{0};
   std::vector<Frontier> frontiers;
   for (const Cell seed : cells_) {
-    if (grouped_.at(seed) == grouping_) continue;
+    if (grouped.at(seed)) continue;
     Frontier frontier;
     Cell low = seed, high = seed;
     frontier.cells.push_back(seed);
-    grouped_[seed] = grouping_;
+    grouped[seed] = 1;
     for (std::size_t i = 0; i < frontier.cells.size(); ++i) {
-      for (const Cell step : kNear) {
-        const Cell c = frontier.cells[i] + step;
-        if (!contains(c) || grouped_.at(c) == grouping_) continue;
+      for (int k = 0; k < kWide * kWide; ++k) {
+        const Cell c = frontier.cells[i] + Cell{k % kWide - kWide / 2, k / kWide - kWide / 2};
+        if (!contains(c) || grouped.at(c)) continue;
         const Cell new_low{std::min(low.x, c.x), std::min(low.y, c.y)};
         const Cell new_high{std::max(high.x, c.x), std::max(high.y, c.y)};
         if (std::max(new_high.x - new_low.x, new_high.y - new_low.y) >= extent) continue;
         low = new_low;
         high = new_high;
-        grouped_[c] = grouping_;
+        grouped[c] = 1;
         frontier.cells.push_back(c);
       }
     }
-    frontier.middle = middleOf(frontier.cells);
+    frontier.middle = memberInTheMiddle(frontier.cells);
     frontiers.push_back(std::move(frontier));
   }
   return frontiers;

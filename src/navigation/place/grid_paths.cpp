@@ -4,34 +4,18 @@
 #include <algorithm>
 #include <cmath>
 #include <queue>
-#include <unordered_map>
+#include <utility>
 
 #include "cca_mrpt/navigation/place/beam.hpp"
 
 namespace cca {
 namespace {
 
-std::uint64_t keyOf(Cell c) {
-  return static_cast<std::uint64_t>(static_cast<std::uint32_t>(c.y)) << 32 |
-         static_cast<std::uint32_t>(c.x);
-}
-
 struct Step {
-  double cost = 0.0;
+  double cost = DistanceField::kUnreached;
   Cell from;
   bool settled = false;
 };
-
-/// Cells that the fine search may use: blocks of the coarse path, and those beside them.
-std::unordered_map<std::uint64_t, bool> corridorAround(const std::vector<Cell>& blocks) {
-  std::unordered_map<std::uint64_t, bool> corridor;
-  for (const Cell b : blocks) {
-    for (int dy = -1; dy <= 1; ++dy) {
-      for (int dx = -1; dx <= 1; ++dx) corridor[keyOf({b.x + dx, b.y + dy})] = true;
-    }
-  }
-  return corridor;
-}
 
 struct Candidate {
   double estimate;
@@ -47,57 +31,60 @@ double octile(Cell a, Cell b) {
   return std::max(dx, dy) + (std::sqrt(2.0) - 1.0) * std::min(dx, dy);
 }
 
-/// A* over cells, no cutting of corners; cells from start to goal, empty where there is no path.
-std::vector<Cell> cellPath(const FreeSpace& space, const std::vector<Cell>& blocks, Cell start,
-                           Cell goal) {
-  const auto corridor = corridorAround(blocks);
-  std::unordered_map<std::uint64_t, Step> steps;
+using Path = std::vector<Eigen::Vector2d>;  // in cells
+
+/// A* over cells, no cutting of corners, in the blocks of the coarse path and those beside them.
+/// @return the middles of the cells from start to goal, empty where there is no path.
+Path cellPath(const FreeSpace& space, const std::vector<Cell>& blocks, Cell start, Cell goal) {
+  TiledGrid<char> corridor{0};
+  for (const Cell b : blocks) {
+    corridor[b] = 1;
+    for (const Cell step : kNeighbours) corridor[b + step] = 1;
+  }
+  TiledGrid<Step> steps;
   std::priority_queue<Candidate> open;
   std::uint64_t order = 0;
-  steps[keyOf(start)] = {0.0, start, false};
+  steps[start] = {0.0, start, false};
   open.push({octile(start, goal), order++, start});
   while (!open.empty()) {
     const Cell c = open.top().cell;
     open.pop();
-    Step& step = steps[keyOf(c)];
+    Step& step = steps[c];
     if (step.settled) continue;
     step.settled = true;
     if (c == goal) break;
     const double cost = step.cost;
     for (std::size_t d = 0; d < kNeighbours.size(); ++d) {
       const Cell move = kNeighbours[d], next = c + move;
-      if (!space.isTraversable(next) || !corridor.count(keyOf(FreeSpace::blockOf(next)))) continue;
+      if (!space.isTraversable(next) || !corridor.at(FreeSpace::blockOf(next))) continue;
       if (d >= 4 && (!space.isTraversable(c + Cell{move.x, 0}) ||
                      !space.isTraversable(c + Cell{0, move.y}))) {
         continue;
       }
       const double reached = cost + (d >= 4 ? std::sqrt(2.0) : 1.0);
-      const auto [entry, is_new] = steps.try_emplace(keyOf(next), Step{reached, c, false});
-      if (!is_new && (entry->second.settled || entry->second.cost <= reached)) continue;
-      entry->second = {reached, c, false};
+      Step& beside = steps[next];
+      if (beside.settled || beside.cost <= reached) continue;
+      beside = {reached, c, false};
       open.push({reached + octile(next, goal), order++, next});
     }
   }
-  std::vector<Cell> path;
-  const auto last = steps.find(keyOf(goal));
-  if (last == steps.end() || !last->second.settled) return path;
-  for (Cell c = goal; c != start; c = steps.at(keyOf(c)).from) path.push_back(c);
-  path.push_back(start);
+  Path path;
+  if (!steps.at(goal).settled) return path;
+  for (Cell c = goal; c != start; c = steps.at(c).from) path.push_back(middleOf(c));
+  path.push_back(middleOf(start));
   std::reverse(path.begin(), path.end());
   return path;
 }
 
-Eigen::Vector2d middle(Cell c) { return {c.x + 0.5, c.y + 0.5}; }
-
 /// String pulling: of each kept point, the farthest later one that lies in a clear line. The
 /// farthest is found by doubling and halving steps: O(n log n) lines rather than O(n^2).
-std::vector<Cell> pulled(const FreeSpace& space, const std::vector<Cell>& path) {
-  std::vector<Cell> kept{path.front()};
+Path pulled(const FreeSpace& space, const Path& path) {
+  Path kept{path.front()};
   for (std::size_t i = 0; i + 1 < path.size();) {
     std::size_t best = i + 1;
     for (std::size_t step = 1; step > 0;) {
       const std::size_t next = std::min(best + step, path.size() - 1);
-      if (next > best && isClearLine(space, middle(path[i]), middle(path[next]))) {
+      if (next > best && isClearLine(space, path[i], path[next])) {
         best = next;
         step *= 2;
       } else {
@@ -108,12 +95,6 @@ std::vector<Cell> pulled(const FreeSpace& space, const std::vector<Cell>& path) 
     i = best;
   }
   return kept;
-}
-
-double lengthOf(const std::vector<Cell>& path) {
-  double length = 0.0;
-  for (std::size_t i = 1; i < path.size(); ++i) length += distanceBetween(path[i - 1], path[i]);
-  return length;
 }
 
 }  // namespace
@@ -158,17 +139,16 @@ bool isClearLine(const FreeSpace& space, const Eigen::Vector2d& a, const Eigen::
 
 std::vector<Eigen::Vector2d> shortestPath(const FreeSpace& space, double resolution,
                                           const DistanceField& field, Cell goal) {
-  std::vector<Eigen::Vector2d> path;
   const std::vector<Cell> blocks = field.blocksTo(goal);
-  if (blocks.empty()) return path;
-  std::vector<Cell> cells = cellPath(space, blocks, field.start(), goal);
-  if (cells.empty()) return path;
-  const std::vector<Cell> forwards = pulled(space, cells);
+  if (blocks.empty()) return {};
+  Path cells = cellPath(space, blocks, field.start(), goal);
+  if (cells.empty()) return {};
+  Path path = pulled(space, cells);
   std::reverse(cells.begin(), cells.end());
-  std::vector<Cell> backwards = pulled(space, cells);
+  Path backwards = pulled(space, cells);
   std::reverse(backwards.begin(), backwards.end());
-  for (const Cell c : lengthOf(backwards) < lengthOf(forwards) ? backwards : forwards)
-    path.push_back(resolution * middle(c));
+  if (pathLength(backwards) < pathLength(path)) path = std::move(backwards);
+  for (Eigen::Vector2d& corner : path) corner *= resolution;
   return path;
 }
 

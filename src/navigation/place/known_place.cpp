@@ -11,13 +11,12 @@ namespace cca {
 namespace {
 
 constexpr int kSectors = 32;
-constexpr std::uint32_t kAllAround = 0xFFFFFFFF;
 
 std::uint32_t directionsOf(const Scan& scan) {
   constexpr double kSector = 2.0 * M_PI / kSectors;
   const double span = static_cast<double>(scan.size()) * std::abs(scan.angle_increment);
   if (scan.size() == 0 || !std::isfinite(span)) return 0;
-  if (span >= 2.0 * M_PI - 0.5 * std::abs(scan.angle_increment)) return kAllAround;
+  if (span >= 2.0 * M_PI - 0.5 * std::abs(scan.angle_increment)) return ScannedPlaces::kAllAround;
   const double last = scan.bearing(scan.size() - 1);
   const double from = scan.T_map_sensor.theta + std::min(scan.angle_min, last);
   if (!std::isfinite(from)) return 0;
@@ -36,23 +35,17 @@ constexpr double kLongestStep = 0.5;  // m, between scans; a farther one is a ju
 }  // namespace
 
 void ScannedPlaces::add(Cell robot, const Scan& scan) {
-  const Cell block = FreeSpace::blockOf(robot);
-  if (containsBlock(block)) return;
-  std::uint32_t& looked = looked_[block];
-  looked |= directionsOf(scan);
-  if (looked == kAllAround) done_[block] = 1;
+  looked_[FreeSpace::blockOf(robot)] |= directionsOf(scan);
 }
 
-void ScannedPlaces::addAll(Cell robot) { done_[FreeSpace::blockOf(robot)] = 1; }
-
-bool ScannedPlaces::contains(Cell c) const { return containsBlock(FreeSpace::blockOf(c)); }
+void ScannedPlaces::addAll(Cell robot) { looked_[FreeSpace::blockOf(robot)] = kAllAround; }
 
 void KnownPlace::observe(const Scan& scan, const Eigen::Vector2d& robot_map) {
   learnRange(scan);
   grid_.insert(scan);
-  if (isOnGrid(robot_map)) presumeFreeBelow(robot_map);
+  if (grid_.covers(robot_map)) presumeFreeBelow(robot_map);
   takeChanges();
-  if (!isOnGrid(robot_map)) return;
+  if (!grid_.covers(robot_map)) return;
   notePassage(robot_map);
   scanned_.add(grid_.cellOf(robot_map), scan);
 }
@@ -98,7 +91,7 @@ void KnownPlace::seed(const std::vector<Cell>& cells, CellState state) {
 
 void KnownPlace::heed(const std::vector<Eigen::Vector2d>& places_map) {
   for (const Eigen::Vector2d& p_map : places_map) {
-    if (isOnGrid(p_map)) grid_.set(grid_.cellOf(p_map), CellState::kOccupied);
+    if (grid_.covers(p_map)) grid_.set(grid_.cellOf(p_map), CellState::kOccupied);
   }
   takeChanges();
 }
@@ -132,11 +125,8 @@ bool KnownPlace::openNarrowPassages() {
 }
 
 void KnownPlace::findWays(const Eigen::Vector2d& from_map, std::optional<Cell> until) {
-  const std::pair from(grid_.cellOf(from_map), space_.revision());
-  if (all_ways_from_ == from) return;
-  ways_.search(space_, grid_.resolution(), from.first, DistanceField::kUnreached, until);
-  all_ways_from_.reset();
-  if (ways_.isComplete()) all_ways_from_ = from;
+  ways_.search(space_, grid_.resolution(), grid_.cellOf(from_map), DistanceField::kUnreached,
+               until);
 }
 
 double KnownPlace::unreached() const {
@@ -144,17 +134,11 @@ double KnownPlace::unreached() const {
   const Cell low = FreeSpace::blockOf(grid_.lowest()), high = FreeSpace::blockOf(grid_.highest());
   for (int y = low.y; y <= high.y; ++y) {
     for (int x = low.x; x <= high.x; ++x) {
-      const unsigned traversable = space_.traversableCells({x, y});
-      for (int k = 0; traversable >> k; ++k) {
-        const Cell c{FreeSpace::kBlock * x + k % FreeSpace::kBlock,
-                     FreeSpace::kBlock * y + k / FreeSpace::kBlock};
-        cells += (traversable >> k & 1) && !ways_.isReached(c);
-      }
+      FreeSpace::eachCell({x, y}, space_.traversableCells({x, y}),
+                          [&](Cell c) { cells += !ways_.isReached(c); });
     }
   }
   return cells * grid_.resolution() * grid_.resolution();
 }
-
-bool KnownPlace::isOnGrid(const Eigen::Vector2d& p_map) const { return grid_.covers(p_map); }
 
 }  // namespace cca

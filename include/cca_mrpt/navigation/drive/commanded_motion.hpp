@@ -8,7 +8,7 @@
 #include <optional>
 #include <vector>
 
-#include "cca_mrpt/mapping/pose2.hpp"
+#include "cca_mrpt/navigation/drive/motion_control.hpp"
 #include "cca_mrpt/navigation/drive/robot.hpp"
 
 namespace cca {
@@ -40,14 +40,12 @@ class SentCommands {
 Velocity obey(const Velocity& velocity, const Velocity& command, const Velocity& speeds_up,
               const Velocity& brakes, double dt);
 
-/// How a base obeys, learned from what it was told and what its odometry showed: how late a command
-/// acts, and how hard it brakes.
+/// How a base obeys: how late a command acts, and how hard it brakes, from what its odometry shows.
 ///
 /// For each of a grid of latencies and of shares of the accelerations, the velocity shown by one
-/// observation predicts the next one; squared errors, in units of what an odometry errs by, are
-/// added up, and the last hundred observations or so count. A latency stays possible while its sum
-/// is not worse than the least by more than chance. Where the base did not respond at all (its
-/// motors are off, somebody holds it) nothing is learned.
+/// observation predicts the next one; squared errors, in units of an odometry's, are added up for
+/// the last hundred observations or so. A latency stays possible while its sum is not worse than
+/// the least by more than chance. Where the base does not respond at all nothing is learned.
 class ShownMotion {
  public:
   /// Until something is shown, the latency is believed to within kUnsure of the robot's.
@@ -95,13 +93,6 @@ class ShownMotion {
   bool has_braked_ = false;
   std::size_t best_ = 0;
   double latency_ = 0.0, earliest_ = 0.0, latest_ = 0.0;
-};
-
-/// Where the robot is when a command begins to act.
-struct Onset {
-  Pose2 T_now_then;    ///< by the commands under way
-  Velocity velocity;   ///< then
-  double delay = 0.0;  ///< s from now
 };
 
 /// Follows the commands that are under way, and learns from what they do how the base obeys.

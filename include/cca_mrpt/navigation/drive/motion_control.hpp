@@ -30,21 +30,17 @@ struct Hazard {
 };
 
 /// The direction nearest to a wanted one in which the robot comes no nearer to a hazard that it is
-/// too near to already: along it, or away. Driving towards it would be refused, and standing would
-/// keep the robot where it is for good.
-///
-/// @param bearing  rad, robot frame.
-/// @param radius   m, as for safeVelocity().
+/// too near to already: towards it would be refused, and standing would keep the robot there.
+/// @param bearing  rad, robot frame. @param radius  m, as for safeVelocity().
 /// @return rad, robot frame; the wanted one where no hazard is too near, or every direction leads
-///         nearer to one.
-/// Cost: O(hazards + square of those that are too near).
+///         nearer to one. Cost: O(hazards + square of those that are too near).
 double bearingPast(const std::vector<Hazard>& hazards, double radius, double bearing);
 
-/// A robot that a command finds elsewhere than expected, since it acts earlier or later.
-struct OtherStart {
-  Pose2 T_robot_other;  ///< of the robot, in the frame of the hazards
-  Velocity velocity;
-  double time = 0.0;  ///< s, after the expected start
+/// Where the robot is when a command begins to act.
+struct Onset {
+  Pose2 T_now_then;    ///< by the commands under way
+  Velocity velocity;   ///< then
+  double delay = 0.0;  ///< s from now
 };
 
 /// The last word on what the robot does: the velocity nearest to the wanted one from which it can
@@ -56,18 +52,19 @@ struct OtherStart {
 /// once is what the safety of the last command rests on, so it is the answer where nothing else is
 /// safe. Turning on the spot is always safe for a disc.
 ///
-/// From any of the other starts it must be safe, too, or at least come no nearer to any hazard than
-/// braking would from there.
+/// Where the command may act earlier or later than expected, it must be safe from there, too, or at
+/// least come no nearer to any hazard than braking would.
 ///
 /// @param wanted   any; clamped to what the accelerations allow in one period.
 /// @param present  the velocity now.
 /// @param radius   m, the robot's radius with the least clearance that is never given up.
 /// @param period   s, time between two commands.
 /// @param brakes   m/s^2, rad/s^2, what braking may count on.
+/// @param others   seen from where it is expected to act, delays from then.
 /// Cost: O(candidates * braking steps * near hazards), some 10 us.
 Velocity safeVelocity(const Velocity& wanted, const Velocity& present,
                       const std::vector<Hazard>& hazards, const RobotParameters& robot,
                       double radius, double period, const Velocity& brakes,
-                      const std::vector<OtherStart>& others = {});
+                      const std::vector<Onset>& others = {});
 
 }  // namespace cca

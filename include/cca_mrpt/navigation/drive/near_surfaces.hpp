@@ -9,27 +9,21 @@
 
 namespace cca {
 
-/// Where the surfaces around the robot are, as the last scans say together.
+/// Where the surfaces around the robot are, as the last scans say together: the nearest of many
+/// returns lies two or three deviations before its surface, and passages would be narrower.
 ///
-/// A single return lies as far off as the noise of the ranges has it, the nearest of many by two or
-/// three deviations: walls would be that much thicker, and passages narrower. The face of a surface
-/// is known far better, by all the returns that a patch of it gave. To the left and to the right of
-/// each beam a line is fitted through those of the last scans: five, and as many as it takes in
-/// noise. The surface is where both lines end, in the beam, so that a corner stays as sharp as it
-/// is. Where the two disagree, the nearer one counts: that is an edge in front of something else.
+/// To the left and to the right of each beam a line is fitted through a patch of the returns of the
+/// last scans, five and as many as it takes in noise. The surface is where both lines end, in the
+/// beam: a corner stays sharp. Where the two disagree, the nearer one counts: that is an edge in
+/// front of something else.
 class NearSurfaces {
  public:
-  /// Takes the next scan.
-  ///
-  /// What only one return shows, nearer than the noise of a surface explains, stays where it is;
-  /// what the scan does not show is not there, whatever earlier ones did.
-  ///
-  /// @param raw          at T_map_sensor; ranges of no more noise than kUsualSigma are returned as
-  /// they are.
+  /// Takes the next scan. What only one return shows, nearer than the noise of a surface explains,
+  /// stays where it is; what the scan does not show is not there, whatever earlier ones did.
+  /// @param raw          at T_map_sensor.
   /// @param smooth       the same, see smoothScan().
-  /// @param moving       by beam, as long as the scan: such returns are left as they are in
-  ///                     `smooth`, and not remembered.
-  /// @param range_sigma  m, of the raw ranges.
+  /// @param moving       by beam: such returns are left as they are in `smooth`, not remembered.
+  /// @param range_sigma  m, of the raw ranges; up to kUsualSigma nothing is done.
   /// @return  `smooth`, its returns within kNear replaced by the places of their surfaces, and
   ///          brought nearer where these are known less well than the least clearance allows for.
   /// Cost: O(returns within kNear of kMostScans scans * beams of a patch).

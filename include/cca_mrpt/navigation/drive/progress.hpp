@@ -33,7 +33,7 @@ class WayProgress {
   explicit WayProgress(const RobotParameters& robot) : robot_(robot) {}
 
   /// See Explorer::changeMotion().
-  void changeMotion(const RobotParameters& robot) { robot_ = robot_.movingAs(robot); }
+  void changeMotion(const RobotParameters& robot) { robot_ = robot; }
 
   /// Notes what is left of the way to a goal; once a step.
   /// @param goal  its number: another one has all the time, that of its way at a fifth of full

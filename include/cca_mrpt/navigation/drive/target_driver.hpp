@@ -30,7 +30,7 @@ class TargetDriver {
 
   /// See Explorer::changeMotion().
   void changeMotion(const RobotParameters& robot) {
-    robot_ = robot_.movingAs(robot);
+    robot_ = robot;
     motion_.changeMotion(robot);
   }
 

@@ -15,8 +15,7 @@ namespace cca {
 /// The places to look at the frontiers from: what a goal is chosen among.
 ///
 /// A view point is the place of the shortest way that sees a point up to two metres behind a
-/// frontier. Small frontiers are rests: they wait until nothing larger is left, unless they can be
-/// looked at in passing.
+/// frontier. Small frontiers are rests: they wait until nothing larger is left, or one comes by.
 class FrontierViews {
  public:
   /// @param smallest_gain      m^2, frontiers that promise less are left.
@@ -32,7 +31,7 @@ class FrontierViews {
   /// Looks at all frontiers anew, by the ways last found; the sixty nearest to `here` where there
   /// are more.
   /// Cost: O(frontier cells), and a bounded number of view points.
-  void find(KnownPlace& place, Cell here);
+  void find(const KnownPlace& place, Cell here);
 
   /// Where to see a target from, without its gain; empty where no reached place inside the limits
   /// sees it.
@@ -43,9 +42,6 @@ class FrontierViews {
   /// @return false where the goal's target can no more be seen from anywhere; nothing is added.
   bool keep(const KnownPlace& place, const ViewPoint& goal);
 
-  /// Takes a target out.
-  void drop(Cell target);
-
   const std::vector<ViewPoint>& viewPoints() const { return view_points_; }
   /// Places at the frontiers themselves, those of rests left out: to drive in there.
   const std::vector<ViewPoint>& entries() const { return entries_; }
@@ -55,7 +51,7 @@ class FrontierViews {
   double reach(const KnownPlace& place) const;
 
  private:
-  std::vector<Frontier> nearestFrontiers(KnownPlace& place, Cell here) const;
+  std::vector<Frontier> nearestFrontiers(const KnownPlace& place, Cell here) const;
   std::optional<ViewPoint> viewOf(const KnownPlace& place, const Frontier& frontier) const;
   std::optional<Cell> entryAt(const KnownPlace& place, Cell middle) const;
 

@@ -49,15 +49,12 @@ struct Plan {
 };
 
 /// The paper's global planner (Step 0): keeps what is known of the place, and sets one goal after
-/// the other until no reachable frontier of useful size is left.
+/// the other until no reachable frontier of useful size is left; see docs/exploration.md.
 ///
-/// A goal is a place to look from: the one of the shortest way that sees a point up to two metres
-/// behind a frontier. By `view_tour`, it is the middle of the frontier itself, to drive in there,
-/// where that promises much. A goal is given up as soon as that point has been seen, or the way to
-/// it is blocked. Small frontiers wait until no other is left, or one comes by. Places from which
-/// all directions have been looked into are never goals again; a goal that showed nothing new is
-/// set aside until the map has changed. When no frontier is left, all reached places are asked what
-/// is in view from there (LastLook), and then passages that look just too narrow are tried.
+/// A goal is a place to look from (FrontierViews), by `view_tour` also the middle of a frontier
+/// that promises much. It is given up as soon as what it is to show has been seen, or the way is
+/// blocked. When no frontier is left, all reached places are asked (LastLook), and then passages
+/// that look just too narrow are tried.
 class GlobalPlanner {
  public:
   explicit GlobalPlanner(const GlobalPlannerParameters& parameters = {});
@@ -135,7 +132,7 @@ class GlobalPlanner {
   std::optional<Cell> heldAt() const;
   bool drivesInVain() const;
   std::string whatIsLeft();
-  bool drivesTo(const ViewPoint& chosen, const Eigen::Vector2d& robot_map, const char* reason);
+  void driveTo(const ViewPoint& chosen, const Eigen::Vector2d& robot_map, const char* reason);
 
   GlobalPlannerParameters parameters_;
   KnownPlace place_;

@@ -3,7 +3,6 @@
 
 #include <Eigen/Core>
 #include <cstddef>
-#include <cstdint>
 #include <functional>
 #include <optional>
 #include <string>
@@ -15,14 +14,12 @@
 namespace cca {
 
 /// What is left to see when there is no frontier left to go to: all places that the robot can
-/// reach, one or two in each block of the free space (0.2 m), are asked what is unknown in view
-/// from there.
+/// reach, one or two in each block of the free space (0.2 m) that has a frontier in view, are asked
+/// what is unknown in view from there.
 ///
-/// A frontier asks the other way round, from where a point behind it is seen. Through a gap that
-/// the robot does not fit through, each place sees another wedge of what lies behind, and a point
-/// says little of the wedge. So the frontiers say only which places have them in view. All of this
-/// at once would be too much work for a step: it is done a bounded number of looks at a time, while
-/// the robot stands.
+/// A frontier asks the other way round, from where a point behind it is seen; but through a gap
+/// that the robot does not fit through, each place sees another wedge of what lies behind. It is
+/// done a bounded number of looks at a time, while the robot stands.
 class LastLook {
  public:
   /// What a view point must fulfil beyond its gain.
@@ -35,15 +32,14 @@ class LastLook {
       : smallest_gain_(smallest_gain), smallest_frontier_(smallest_frontier), worth_(worth) {}
 
   /// Begins anew with the frontiers of now. Cost: O(frontier cells).
-  void begin(KnownPlace& place);
+  void begin(const KnownPlace& place);
 
-  /// The best place to look from by a strategy other than kViewTour, by the ways last found and
-  /// what is known by now, of those that are worth their way; it stays among the places. Goes on
-  /// through the places first, if it has
-  /// not been through all of them.
+  /// The best place to look from by a strategy other than kViewTour, by the ways last found, of
+  /// those that are worth their way; it stays among the places. Asks places first that were not
+  /// asked yet.
   /// @return empty if there is none, or not before another call, see isUnderWay().
   /// Cost: O(frontier cells), and a bounded number of looks.
-  std::optional<ViewPoint> next(KnownPlace& place, Strategy strategy, const Filter& filter);
+  std::optional<ViewPoint> next(const KnownPlace& place, Strategy strategy, const Filter& filter);
 
   /// The places that were left when next() found none that is worth its way, with their ways.
   const std::vector<ViewPoint>& left() const { return found_; }
@@ -54,7 +50,7 @@ class LastLook {
   bool isUnderWay() const { return is_under_way_; }
 
  private:
-  std::vector<Cell> openings(KnownPlace& place) const;
+  std::vector<Cell> openings(const KnownPlace& place) const;
   void findPlaces(const KnownPlace& place);
   void askPlaces(const KnownPlace& place);
   std::optional<ViewPoint> choose(const KnownPlace& place, Strategy strategy, const Filter& filter);
@@ -64,21 +60,18 @@ class LastLook {
   std::size_t smallest_frontier_;
   double worth_;
   bool is_under_way_ = false;
-  int looks_left_ = 0;          ///< that may be made in this call
-  std::vector<Cell> openings_;  ///< frontier cells that were not asked yet for who sees them
-  std::vector<Cell> blocks_;    ///< that see one, and were not asked yet
-  std::uint32_t pass_ = 0, call_ = 0;
-  TiledGrid<std::uint32_t> block_passes_{0};   ///< the last pass that a block was put among them
-  TiledGrid<std::uint32_t> opening_calls_{0};  ///< the last call that a cell was an opening in
+  int looks_left_ = 0;             ///< that may be made in this call
+  std::vector<Cell> openings_;     ///< frontier cells that were not asked yet for who sees them
+  std::vector<Cell> blocks_;       ///< that see one, and were not asked yet
+  TiledGrid<char> is_block_{0};    ///< whether a block was ever put among them
+  TiledGrid<char> is_opening_{0};  ///< whether a cell is an opening now
   /// As they were when they were asked: gains only become less as more is seen.
   std::vector<ViewPoint> found_;
 };
 
-/// The way that a robot has driven beyond what the places that it saw meanwhile were worth.
-///
-/// It grows by each metre, and falls by the worth of all that is newly seen, to zero at the least:
-/// what was earned long ago pays for nothing now. However promising the places look that are left,
-/// where much way is unpaid the next ones will not show what they promise either.
+/// The way that a robot has driven beyond what the places that it saw meanwhile were worth: it
+/// grows by each metre, and falls by the worth of all that is newly seen, to zero at the least.
+/// Where much is unpaid, what is left will not show what it promises either.
 class UnpaidWay {
  public:
   /// @param worth  m of way that a newly seen square metre is worth, >= 0.

@@ -24,9 +24,6 @@ struct ViewPoint {
   double expected = 0.0;  ///< m^2 of it that will be seen, as viewFrom() expects
 };
 
-/// The unknown side neighbour of a frontier cell. Precondition: isFrontier(grid, c).
-Cell unknownBeside(const ExplorationGrid& grid, Cell c);
-
 /// A cell behind the middle of a frontier, up to `depth` metres into the unknown: what one wants to
 /// see, where the frontier itself is in view already. Never beyond what is known.
 Cell cellBehind(const ExplorationGrid& grid, const Frontier& frontier, double depth);
@@ -34,42 +31,35 @@ Cell cellBehind(const ExplorationGrid& grid, const Frontier& frontier, double de
 /// Whether nothing known to be an obstacle stands between two cells.
 bool isInView(const ExplorationGrid& grid, Cell from, Cell to);
 
-/// Visits the blocks of FreeSpace that are in view from a cell if all unknown cells were free, by
-/// rays as those of viewFrom: each once for every ray through it. Cost: O(range / resolution) for
-/// each ray.
+/// Visits the blocks of FreeSpace in view from a cell, by rays as those of viewFrom: each once for
+/// every ray through it. Cost: O(range / resolution) for each ray.
 void eachBlockInView(const ExplorationGrid& grid, Cell from, double range,
                      const std::function<void(Cell block)>& visit);
 
-/// The place of the shortest way from which a cell is in free view.
+/// The place of the shortest way from which a cell is in free view, not among the scanned ones.
 ///
 /// 90 rays go out from the cell and end at occupied cells and presumed walls.
 /// @param range  m, how far off it may be.
-/// @return       empty where no reached place sees the cell.
-/// Cost: O(range / resolution).
+/// @return       empty where no reached place sees the cell. Cost: O(range / resolution).
 std::optional<ViewPoint> nearestViewPoint(const ExplorationGrid& grid, const FreeSpace& space,
                                           const DistanceField& field, const ScannedPlaces& scanned,
                                           Cell target, double range);
 
-/// The unknown area in view from a cell if all unknown cells were free [Gonzalez-Banos & Latombe
-/// 2002]: 72 rays end at occupied cells and presumed walls.
-///
-/// @return m^2; at most pi range^2.
+/// m^2: the unknown area in view from a cell if all unknown cells were free [Gonzalez-Banos &
+/// Latombe 2002]: 72 rays end at occupied cells and presumed walls.
 double unknownAreaInView(const ExplorationGrid& grid, Cell from, double range);
 
-/// What a place is good for: like unknownAreaInView, by 360 rays, as fine as a laser's beams, that
-/// may cut the corners of opaque cells (one cell's length in all).
+/// What a place (a known cell) is good for: like unknownAreaInView, by 360 rays, as fine as a
+/// laser's beams, that may cut the corners of opaque cells (one cell's length in all).
 ///
-/// @param from        a known cell.
+/// Of a stretch of u metres of the unknown, a ray is expected to see (1 - exp(-2 u)) / 2: it ends
+/// there after half a metre on average. In furnished buildings a rest shows some 0.25 m^2, whether
+/// the area in view is 0.3 or 3 m^2; a gap into a room shows what its width lets through.
 /// @param is_opening  whether what lies behind a known cell counts: a missing cell of a wall would
 ///                    promise all that is behind it.
-/// The unknown is not free: each ray is expected to end there after half a metre on average, so of
-/// a stretch of u metres it sees (1 - exp(-2 u)) / 2. In furnished buildings a rest shows some 0.25
-/// m^2, whether the area in view is 0.3 or 3 m^2; a gap into a room shows what its width lets
-/// through.
-///
-/// @return the place with its gain and what is expected of it; the target is the middle of the
-/// longest unknown stretch of a
-///         ray, or the place itself where nothing unknown is in view. The distance is 0.
+/// @return the place with its gain and what is expected of it, no distance; the target is the
+/// middle
+///         of the longest unknown stretch, or the place itself where nothing unknown is in view.
 ViewPoint viewFrom(const ExplorationGrid& grid, Cell from, double range,
                    const std::function<bool(Cell)>& is_opening);
 

@@ -11,11 +11,9 @@
 
 namespace cca {
 
-/// What a tour costs: a mean of two things one would like to be short.
-///
-/// cost = length + hurry * sum_k weight_k * arrival_k, where arrival_k is the way to stop k along
-/// the tour. hurry = 0: the open travelling salesman; hurry -> inf: the travelling repairman, who
-/// serves the heaviest stops early.
+/// What a tour costs: length + hurry * sum_k weight_k * arrival_k, where arrival_k is the way to
+/// stop k along the tour. hurry = 0: the open travelling salesman; hurry -> inf: the travelling
+/// repairman, who serves the heaviest stops early.
 struct TourObjective {
   double hurry = 0.0;
   std::vector<double> weights;  ///< of the stops; they need not add up to one
@@ -50,23 +48,16 @@ struct ViewTourParameters {
   /// Weight of the gain-weighted mean arrival against the length of the tour. Measured on the
   /// worlds: 0 (shortest tour) is late at 90 % coverage, 30 leaves too many rests behind.
   double hurry = 10.0;
-  double stay = 0.5;            ///< m, by how much another tour must cost less than going on
-  double worth = 80.0;          ///< m of way that an unseen square metre is worth
-  std::size_t most_stops = 16;  ///< of a tour
-  int fields_per_choice = 2;    ///< distance fields computed anew at most, each choice
-  double horizon = 40.0;        ///< m, beyond which ways between stops are only estimated
+  double worth = 80.0;        ///< m of way that an unseen square metre is worth
+  int fields_per_choice = 2;  ///< distance fields computed anew at most, each choice
 };
 
 /// Our own way to choose the next goal, where no frontier promises so much that it is driven into:
 /// the first stop of a tour that sees everything soon.
 ///
-/// 1. Of all view points, few that see all frontiers between them are kept (greedy set cover, as in
-///    art-gallery and next-best-view planning).
-/// 2. An open tour through them is found whose cost is its length plus the gain-weighted mean
-///    arrival (see TourObjective): nearby rests are finished in passing, large unknown areas come
-///    early.
-/// 3. A stop that makes the tour longer by more than it is worth is left out, and so is the end of
-///    the tour from where on nothing is worth its way.
+/// 1. Few view points that see all frontiers between them are kept (greedy set cover).
+/// 2. An open tour through them is found, see TourObjective; weights are gains.
+/// 3. What of it is not worth its way is left out, see worthTheWay().
 /// 4. The tour that begins with the present goal is kept unless another is clearly cheaper.
 class ViewTour {
  public:

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "cca_mrpt/mapping/scan.hpp"
 #include "cca_mrpt/navigation/place/cell.hpp"
 
 namespace cca {
@@ -16,6 +17,38 @@ inline double beamAt(double bearing, double angle_min, double angle_increment) {
   const double turn = 2.0 * M_PI / std::abs(angle_increment);
   const double beam = std::fmod((bearing - angle_min) / angle_increment, turn);
   return beam < -0.5 ? beam + turn : beam;
+}
+
+/// Unit vector of a beam, map frame.
+inline Eigen::Vector2d directionOf(const Scan& scan, std::size_t beam) {
+  const double angle = scan.T_map_sensor.theta + scan.bearing(beam);
+  return {std::cos(angle), std::sin(angle)};
+}
+
+/// m, map frame: where a beam's return lies. Precondition: it has one.
+inline Eigen::Vector2d returnOf(const Scan& scan, std::size_t beam) {
+  return scan.T_map_sensor.position() + scan.ranges[beam] * directionOf(scan, beam);
+}
+
+/// Whether the last beam of a scan is a neighbour of the first.
+inline bool seesAllAround(const Scan& scan) {
+  const double spacing = std::abs(scan.angle_increment);
+  return static_cast<double>(scan.size()) * spacing > 2.0 * M_PI - 1.5 * spacing;
+}
+
+/// Brings points from one frame into another as Pose2 does, with its sine and cosine taken once.
+inline auto transformBy(const Pose2& T) {
+  return [x = T.x, y = T.y, c = std::cos(T.theta),
+          s = std::sin(T.theta)](const Eigen::Vector2d& p) -> Eigen::Vector2d {
+    return {x + c * p.x() - s * p.y(), y + s * p.x() + c * p.y()};
+  };
+}
+
+/// The beam of a scan next to the direction of a point (m, sensor frame); it may lie outside the
+/// scan, see beamAt().
+inline int beamTowards(const Scan& scan, const Eigen::Vector2d& p_sensor) {
+  return static_cast<int>(std::lround(
+      beamAt(std::atan2(p_sensor.y(), p_sensor.x()), scan.angle_min, scan.angle_increment)));
 }
 
 /// Visits the cells that a straight line crosses, in order [Amanatides & Woo 1987].
@@ -30,7 +63,7 @@ template <class Visit>
 void walkBeam(const Eigen::Vector2d& origin, const Eigen::Vector2d& direction, double length,
               Visit&& visit) {
   constexpr double kNever = std::numeric_limits<double>::infinity();
-  Cell c{static_cast<int>(std::floor(origin.x())), static_cast<int>(std::floor(origin.y()))};
+  Cell c = cellAt(origin);
   const int step_x = direction.x() > 0.0 ? 1 : -1, step_y = direction.y() > 0.0 ? 1 : -1;
   const double spacing_x = direction.x() != 0.0 ? std::abs(1.0 / direction.x()) : kNever;
   const double spacing_y = direction.y() != 0.0 ? std::abs(1.0 / direction.y()) : kNever;

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <Eigen/Core>
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <cstdlib>
 #include <functional>
 #include <vector>
 
@@ -21,6 +24,18 @@ inline bool operator!=(Cell a, Cell b) { return !(a == b); }
 inline Cell operator+(Cell a, Cell b) { return {a.x + b.x, a.y + b.y}; }
 /// Between their centres, in cells.
 inline double distanceBetween(Cell a, Cell b) { return std::hypot(a.x - b.x, a.y - b.y); }
+
+/// In steps to any of the eight neighbours (Chebyshev).
+inline int squareDistance(Cell a, Cell b) {
+  return std::max(std::abs(a.x - b.x), std::abs(a.y - b.y));
+}
+
+/// The middle of a cell, in cells.
+inline Eigen::Vector2d middleOf(Cell c) { return {c.x + 0.5, c.y + 0.5}; }
+/// The cell that holds a point. @param p  in cells, finite.
+inline Cell cellAt(const Eigen::Vector2d& p) {
+  return {static_cast<int>(std::floor(p.x())), static_cast<int>(std::floor(p.y()))};
+}
 
 /// Where a cell of a map got to when that was corrected.
 using CellMove = std::function<Cell(Cell)>;
@@ -64,63 +79,11 @@ class TiledGrid {
     return create(c)[offset(c)];
   }
 
-  /// The value of a neighbour, for writing, found from the value itself: no look-up inside a tile.
-  /// Precondition: &value == &(*this)[c], |step| <= 1 in x and y, isStorable(c + step).
-  T& beside(T& value, Cell c, Cell step) {
-    const int x = (c.x & (kSide - 1)) + step.x, y = (c.y & (kSide - 1)) + step.y;
-    if (static_cast<unsigned>(x) >= kSide || static_cast<unsigned>(y) >= kSide)
-      return (*this)[c + step];
-    return *(&value + (step.y * kSide + step.x));
-  }
-
-  /// The values of the eight neighbours, in the order of kNeighbours. Anywhere.
-  std::array<T, 8> around(Cell c) const {
-    const int x = c.x & (kSide - 1), y = c.y & (kSide - 1);
-    const T* centre = x > 0 && y > 0 && x < kSide - 1 && y < kSide - 1 ? tileOf(c) : nullptr;
-    std::array<T, 8> values;
-    if (centre) centre += offset(c);
-    for (std::size_t d = 0; d < kNeighbours.size(); ++d) {
-      const Cell step = kNeighbours[d];
-      values[d] = centre ? centre[step.y * kSide + step.x] : at(c + step);
-    }
-    return values;
-  }
-
-  /// Reads cells near each other, one after the other: a tile is looked up only where the way
-  /// leaves it. What is read is out of date after a write to the grid; make a new one then.
-  class Reader {
-   public:
-    explicit Reader(const TiledGrid& grid) : grid_(grid) {}
-    const T& at(Cell c) {
-      if (!is_in_tile_ || ((c.x ^ last_.x) | (c.y ^ last_.y)) >> kBits) {
-        tile_ = grid_.tileOf(c);
-        is_in_tile_ = true;
-      }
-      last_ = c;
-      return tile_ ? tile_[offset(c)] : grid_.blank_;
-    }
-
-   private:
-    const TiledGrid& grid_;
-    const T* tile_ = nullptr;
-    Cell last_;
-    bool is_in_tile_ = false;
-  };
-
  private:
   static constexpr int kBits = 6;
   static constexpr int kSide = 1 << kBits;
   static std::size_t offset(Cell c) {
     return static_cast<std::size_t>(((c.y & (kSide - 1)) << kBits) | (c.x & (kSide - 1)));
-  }
-
-  /// The first cell of the tile that holds a cell; null where there is no tile.
-  const T* tileOf(Cell c) const {
-    const auto column = static_cast<unsigned>((c.x >> kBits) - lowest_.x);
-    const auto row = static_cast<unsigned>((c.y >> kBits) - lowest_.y);
-    if (column >= columns_ || row >= rows_) return nullptr;
-    const std::vector<T>& tile = tiles_[std::size_t{row} * columns_ + column];
-    return tile.empty() ? nullptr : tile.data();
   }
 
   std::vector<T>& create(Cell c) {

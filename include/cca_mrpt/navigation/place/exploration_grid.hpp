@@ -14,8 +14,7 @@ namespace cca {
 enum class CellState : std::uint8_t {
   kUnknown,
   kPresumedFree,  ///< not seen, but between two neighbouring beams that both went on
-  kGuessedWall,   ///< not seen, but in line with returns on both sides, a metre apart
-  kPresumedWall,  ///< not seen, but between two neighbouring returns of one surface
+  kPresumedWall,  ///< not seen, but between two neighbouring returns that look like one surface
   kFree,
   kOccupied,
 };
@@ -23,10 +22,10 @@ enum class CellState : std::uint8_t {
 /// What is known of each place. It grows as the robot moves.
 ///
 /// A scan counts once in each cell: a return for it, otherwise a beam that passes against it. The
-/// evidence is bounded, so what has moved away is forgotten after a few scans: eight, and more
-/// where the sensor's noise, which is learned from the scans, is no longer small beside a cell. A
-/// beam counts the less the farther it may lie from where it is thought to be, and it passes only
-/// what its neighbours within the bearing noise pass as well.
+/// evidence is bounded, so what has moved away is forgotten after eight scans, and more where the
+/// sensor's noise, learned from the scans, is not small beside a cell. A beam counts the less the
+/// farther it may lie from where it is thought to be, and it passes only what its neighbours within
+/// the bearing noise pass as well.
 class ExplorationGrid {
  public:
   /// Cells. A return counts for the cell half a cell behind the surface: that cell's edge is the
@@ -46,16 +45,6 @@ class ExplorationGrid {
   void set(Cell cell, CellState state);
 
   CellState at(Cell cell) const { return stateOf(evidence_.at(cell)); }
-
-  /// Reads cells near each other, see TiledGrid::Reader.
-  class Reader {
-   public:
-    explicit Reader(const ExplorationGrid& grid) : cells_(grid.evidence_) {}
-    CellState at(Cell cell) { return stateOf(cells_.at(cell)); }
-
-   private:
-    TiledGrid<std::int8_t>::Reader cells_;
-  };
 
   /// Cells whose state the last insert (or the sets since then) has changed; a cell may be listed
   /// more than once.
@@ -78,14 +67,12 @@ class ExplorationGrid {
 
  private:
   using Evidence = std::int8_t;
-  static constexpr Evidence kNever = -128, kFreePresumed = -127, kWallGuessed = -126,
-                            kWallPresumed = -125;
+  static constexpr Evidence kNever = -128, kFreePresumed = -127, kWallPresumed = -126;
   static CellState stateOf(Evidence e) {
     if (e > 0) return CellState::kOccupied;
     if (e > kWallPresumed) return CellState::kFree;
     if (e == kNever) return CellState::kUnknown;
-    if (e == kFreePresumed) return CellState::kPresumedFree;
-    return e == kWallGuessed ? CellState::kGuessedWall : CellState::kPresumedWall;
+    return e == kFreePresumed ? CellState::kPresumedFree : CellState::kPresumedWall;
   }
   void add(Cell cell, int weight);
   int weightOf(double variance) const;

@@ -19,14 +19,12 @@ enum class Failure {
 
 /// The one memory of what was tried in vain.
 ///
-/// Of targets: one that failed is set aside until the map has changed. The first lost way alone is
-/// no failure yet. Targets within 15 cm of each other are one. How much of the map has changed is
-/// told by `revealed`, the number of cells that the grid has ever come to know.
+/// Targets that failed are set aside until the map has changed, by the number of cells that the
+/// grid has ever come to know (`revealed`). The first lost way alone is no failure yet. Targets
+/// within 15 cm of each other are one.
 ///
-/// Of ways: stretches that look free and that the robot could not drive, passages of about its own
-/// width, where the grid and Tangent Bug disagree by a centimetre, or somebody who stands there.
-/// They are shut, and further ways lead around them. Without that, every goal behind such a passage
-/// was tried in turn.
+/// Ways that look free and that the robot could not drive, passages of about its own width, are
+/// shut: every goal behind one would be tried in turn.
 class FailedTries {
  public:
   /// Notes a failure. @param held_at  where the robot got no farther, where that is what failed.

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -22,6 +21,14 @@ class FreeSpace {
   static Cell blockOf(Cell c) { return {c.x >> kBlockBits, c.y >> kBlockBits}; }
   static unsigned bitOf(Cell c) {
     return 1u << (((c.y & (kBlock - 1)) << kBlockBits) | (c.x & (kBlock - 1)));
+  }
+
+  /// Visits those cells of a block whose bits are set: void(Cell), row by row from the lowest.
+  template <class Visit>
+  static void eachCell(Cell block, unsigned bits, Visit&& visit) {
+    for (int k = 0; bits >> k; ++k) {
+      if (bits >> k & 1) visit(Cell{kBlock * block.x + k % kBlock, kBlock * block.y + k / kBlock});
+    }
   }
 
   /// @param clearance   m, from a cell's centre to the nearest point of an occupied cell.
@@ -49,13 +56,8 @@ class FreeSpace {
   bool isTraversable(Cell c) const { return isTraversable(cells_.at(c)); }
   /// Like isTraversable, for each cell of a block: bit 4 (y mod 4) + (x mod 4).
   unsigned traversableCells(Cell block) const { return blocks_.at(block); }
-  /// The same of the eight blocks around one, in the order of kNeighbours.
-  std::array<std::uint16_t, 8> traversableAround(Cell block) const { return blocks_.around(block); }
 
   double clearance() const { return clearance_; }
-
-  /// Grows whenever a cell becomes traversable or ceases to be.
-  std::uint64_t revision() const { return revision_; }
 
  private:
   static constexpr std::uint32_t kFree = 0x80000000, kOccupied = 0x40000000, kPassed = 0x20000000,
@@ -67,7 +69,6 @@ class FreeSpace {
   void mark(Cell c);
 
   double clearance_, resolution_;
-  std::uint64_t revision_ = 0;
   std::vector<Cell> disc_;
   TiledGrid<std::uint32_t> cells_;   ///< state bits, and the number of obstacles within clearance
   TiledGrid<std::uint16_t> blocks_;  ///< traversable cells, a bit each

@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "cca_mrpt/navigation/place/exploration_grid.hpp"
@@ -14,6 +15,9 @@ struct Frontier {
   std::vector<Cell> cells;
   Cell middle;  ///< the member nearest to the mean of all
 };
+
+/// The first unknown side neighbour of a cell.
+std::optional<Cell> unknownBeside(const ExplorationGrid& grid, Cell c);
 
 /// Whether a cell is free, or presumed so, and a side neighbour is unknown. A presumed wall is not
 /// unknown here. At the end of the laser's range most cells of a frontier are presumed ones:
@@ -32,15 +36,13 @@ class FrontierCells {
 
   /// Groups of 8-connected frontier cells, none longer than `extent` cells in any direction: a
   /// longer line is cut into pieces. Cost: O(frontier cells).
-  std::vector<Frontier> frontiers(int extent);
+  std::vector<Frontier> frontiers(int extent) const;
 
  private:
   void review(const ExplorationGrid& grid, Cell c);
 
   std::vector<Cell> cells_;
-  TiledGrid<std::uint32_t> place_{0};    ///< index in cells_, plus 1; 0: no frontier
-  TiledGrid<std::uint32_t> grouped_{0};  ///< number of the last grouping that took the cell
-  std::uint32_t grouping_ = 0;
+  TiledGrid<std::uint32_t> place_{0};  ///< index in cells_, plus 1; 0: no frontier
 };
 
 }  // namespace cca

@@ -37,17 +37,8 @@ class DistanceField {
   /// distanceTo(), with the search carried on until that is known. `space` may have grown since.
   double reach(const FreeSpace& space, Cell c);
 
-  /// How far some cells of a block are: as far, since they are connected.
-  struct Reached {
-    double distance = kUnreached;  ///< m, from the start to the block, as far as is known
-    unsigned cells = 0;            ///< bits as those of FreeSpace
-  };
-  /// Those that hold a cell; none where no known path leads to it.
-  Reached reached(Cell c) const;
-  double distanceTo(Cell c) const { return reached(c).distance; }
-  /// m, below which no way to a block can be, wherever the obstacles are. Precondition:
-  /// isStarted().
-  double leastDistanceTo(Cell block) const;
+  /// m, from the start to the block that holds a cell; kUnreached where no path is known.
+  double distanceTo(Cell c) const;
   bool isReached(Cell c) const { return distanceTo(c) < kUnreached; }
 
   /// The blocks of the shortest path, start first; empty where unreached.
@@ -56,8 +47,6 @@ class DistanceField {
   /// The traversable cell the search began at. Meaningful where isStarted().
   Cell start() const { return start_; }
   bool isStarted() const { return started_; }
-  /// Whether all ways are known, as far as the horizon.
-  bool isComplete() const { return waiting_ == 0; }
 
  private:
   static constexpr int kParts = 2;  ///< parts of a block that are told apart
@@ -89,7 +78,7 @@ class DistanceField {
   };
   const Part* partOf(Cell c) const;
   void grow(const FreeSpace& space, std::optional<Cell> until);
-  void expand(const FreeSpace& space, Node& node, const Entry& entry);
+  void expand(const FreeSpace& space, const Part& here, const Entry& entry);
   unsigned relax(Node& node, const Passage& to, std::uint32_t cost);
 
   TiledGrid<Node> nodes_;

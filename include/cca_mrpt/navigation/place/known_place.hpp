@@ -29,12 +29,13 @@ class ScannedPlaces {
   /// All directions, wherever the laser has looked.
   void addAll(Cell robot);
 
-  bool contains(Cell c) const;
-  bool containsBlock(Cell block) const { return done_.at(block) != 0; }
+  bool contains(Cell c) const { return containsBlock(FreeSpace::blockOf(c)); }
+  bool containsBlock(Cell block) const { return looked_.at(block) == kAllAround; }
+
+  static constexpr std::uint32_t kAllAround = 0xFFFFFFFF;
 
  private:
-  TiledGrid<char> done_{0};
-  TiledGrid<std::uint32_t> looked_{0};  ///< the directions, a bit each, while some are missing
+  TiledGrid<std::uint32_t> looked_{0};  ///< the directions, a bit each
 };
 
 /// What is known of the place: what the laser has seen, where the robot can be, the shortest ways,
@@ -59,7 +60,7 @@ class KnownPlace {
   /// soon see them free again, so they are to be told with each scan for as long as they count.
   void heed(const std::vector<Eigen::Vector2d>& places_map);
 
-  /// Says that nothing more will be seen from a cell, wherever the laser has looked.
+  /// Nothing more will be seen from a cell, wherever the laser has looked.
   void noteScanned(Cell c) { scanned_.addAll(c); }
 
   /// Shuts the beginning of a way (m, map frame) that could not be driven, see FailedTries.
@@ -80,13 +81,12 @@ class KnownPlace {
   /// See FailedTries.
   int timesHeld() const { return failed_.timesHeld(); }
 
-  /// Takes a cell for open from now on where the robot fits in at any point of it, not only at its
-  /// centre: passages of just the robot's width are worth a try when there is no other way.
+  /// From now on a cell is open where the robot fits in at any point of it, not only at its centre.
   /// @return whether that is new. Cost: O(cells between the corners of what is known), once.
   bool openNarrowPassages();
 
   /// Finds the shortest ways from a place (m, map frame) anew: to everywhere, or at least to
-  /// `until`. Cost: O(known blocks), none where all of them are known from there already.
+  /// `until`. Cost: O(known blocks).
   void findWays(const Eigen::Vector2d& from_map, std::optional<Cell> until = std::nullopt);
   /// The ways last found.
   const DistanceField& ways() const { return ways_; }
@@ -100,10 +100,7 @@ class KnownPlace {
   double unreached() const;
 
   /// See FrontierCells::frontiers(); those longer than 2 m are several.
-  std::vector<Frontier> frontiers() { return frontier_cells_.frontiers(kFrontierExtent); }
-
-  /// Whether a place (m, map frame) is finite and within what a grid can hold.
-  bool isOnGrid(const Eigen::Vector2d& p_map) const;
+  std::vector<Frontier> frontiers() const { return frontier_cells_.frontiers(kFrontierExtent); }
 
   const ExplorationGrid& grid() const { return grid_; }
   const FreeSpace& space() const { return space_; }
@@ -132,8 +129,6 @@ class KnownPlace {
   std::optional<Eigen::Vector2d> last_place_;
   double laser_range_ = 1.0;
   bool has_narrow_passages_ = false;
-  /// Where all ways were found from, and in what space.
-  std::optional<std::pair<Cell, std::uint64_t>> all_ways_from_;
 };
 
 }  // namespace cca

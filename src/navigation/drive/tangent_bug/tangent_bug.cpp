@@ -56,11 +56,11 @@ Velocity TangentBug::step(const Scan& scan, const Pose2& T_map_robot, const Velo
     least_distance_ = distance;
     tries_ = 0;
   }
-  const bool under_way =
-      state_ == TangentBugState::kMotionToGoal || state_ == TangentBugState::kBoundaryFollowing;
-  if (under_way && distance <= kGoalTolerance) {
-    state_ = TangentBugState::kReached;
-  }
+  const auto isUnderWay = [this] {
+    return state_ == TangentBugState::kMotionToGoal ||
+           state_ == TangentBugState::kBoundaryFollowing;
+  };
+  if (isUnderWay() && distance <= kGoalTolerance) state_ = TangentBugState::kReached;
   // Without any valid beam the robot is blind: it stops, and what it knew stays as it was.
   if (view_.horizon > 0.0) {
     if (state_ == TangentBugState::kMotionToGoal) {
@@ -69,9 +69,8 @@ Velocity TangentBug::step(const Scan& scan, const Pose2& T_map_robot, const Velo
       target_ = followBoundary();
     }
   }
-  const bool still =
-      state_ == TangentBugState::kMotionToGoal || state_ == TangentBugState::kBoundaryFollowing;
-  if (still && progress_.isStuck(T_map_robot.position(), follower_.length(), time, moverIsNear())) {
+  if (isUnderWay() &&
+      progress_.isStuck(T_map_robot.position(), follower_.length(), time, moverIsNear())) {
     shutWhatIsTooNarrow();
   }
   std::optional<DriveTarget> target;

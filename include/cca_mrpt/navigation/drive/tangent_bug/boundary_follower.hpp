@@ -33,12 +33,9 @@ std::vector<BoundaryPoint> traceBoundary(
     const ConfigurationSpace& space, const Eigen::Vector2d& start_map, bool on_the_right,
     double longest, const std::function<bool(const Eigen::Vector2d&)>& goes_on);
 
-/// The proof that a boundary has been circled.
-///
-/// It is closed where the walk along it stands again where it stood before, a whole turn later. The
-/// winding is what tells a loop from the way back along the other side of a corridor; the length
-/// tells it from standing still. Once around any closed curve the heading turns by 2 pi, either
-/// way.
+/// The proof that a boundary has been circled: the walk along it stands again where it stood
+/// before, a whole turn (2 pi of heading, either way) later. The winding tells a loop from the way
+/// back along the other side of a corridor; the length tells it from standing still.
 class Circling {
  public:
   /// @param p_map    m, on the boundary. @param length  m, walked along it.

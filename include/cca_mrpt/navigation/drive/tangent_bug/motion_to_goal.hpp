@@ -22,9 +22,8 @@ class MotionToGoal {
   /// @param farthest  m, from the goal.
   void startFromBoundary(const Eigen::Vector2d& reach_map, double farthest, bool on_the_right);
 
-  /// Seen from nearer, a corner moves by millimetres, and the place that was to be gone to first is
-  /// out of reach. Where the present scan shows another one as near to the goal as promised, that
-  /// one takes its place.
+  /// Where the place that it started for has moved out of reach, by the millimetres that a corner
+  /// moves when seen from nearer, another one as near to the goal as promised takes its place.
   /// @param reach_map  of all places in sight that the robot could drive straight to, the one
   ///                   nearest to the goal.
   void correctPlace(const Eigen::Vector2d& x_map, const Eigen::Vector2d& goal_map,

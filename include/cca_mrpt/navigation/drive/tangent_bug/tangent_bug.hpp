@@ -38,7 +38,7 @@ class TangentBug {
 
   /// See Explorer::changeMotion().
   void changeMotion(const RobotParameters& robot) {
-    robot_ = robot_.movingAs(robot);
+    robot_ = robot;
     driver_.changeMotion(robot);
   }
 

@@ -52,18 +52,12 @@ struct TangentNode {
 /// joined to each node.
 ///
 /// A node stands where the free distance of the configuration space jumps from one bearing to the
-/// next, so it lies beside a corner, asin(radius / d) off, not on it. A jump is one between
-/// obstacle points of different surfaces, farther apart than the robot is wide. Where the way
-/// allows, the node lies a little further around the disc than the tangent touches, so that the
-/// robot comes around the corner.
-///
+/// next, between obstacle points of different surfaces that are farther apart than the robot is
+/// wide: beside a corner, asin(radius / d) off, and a little further around where the way allows.
 /// Deviation: the paper takes the jumps of the scan and grows the obstacles later; a grown corner
 /// hides what the scan itself still shows.
-///
-/// @param space   around view.obstacles.
-/// @param ranges  of `space`, seen from the robot.
-/// @param radius  m, at which nodes pass their edges; the way to a node is asked of `space`, whose
-///                radius is a little smaller.
+/// @param space   around view.obstacles. @param ranges  of `space`, seen from the robot.
+/// @param radius  m, at which nodes pass their edges; that of `space` is a little smaller.
 /// Cost: O(bearings + jumps * obstacles).
 std::vector<TangentNode> localTangentGraph(const LocalView& view, const ConfigurationSpace& space,
                                            const std::vector<FreeRange>& ranges, double radius);
