@@ -168,8 +168,7 @@ class ExploreOwnRobot(OwnMaster):
 
     @unittest.skipUnless(os.path.exists(FURNISHED), "no shared data: " + FURNISHED)
     def test_furnished_flat_with_nobody_who_tells_where_it_is(self):
-        """Half as many scans as elsewhere: slow lasers are common, and this is the longest of all tests."""
-        self.with_nobody_who_tells_where_it_is(FURNISHED, FURNISHED_START, "--scan-rate", "5")
+        self.with_nobody_who_tells_where_it_is(FURNISHED, FURNISHED_START)
 
 
 if __name__ == "__main__":

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
 """own_robot.py WORLD.yaml X,Y,DEG REPORT.json [--latency S] [--localised] [--wrong-until S [--path]] [--speed N]
-             [--seed N] [--bend DEG] [--two-lasers] [--scan-rate HZ] [--bar X1,Y1,X2,Y2 --bar-seen-by points|range]
+             [--seed N] [--bend DEG] [--two-lasers] [--bar X1,Y1,X2,Y2 --bar-seen-by points|range]
 
 A robot that shares no code with the project: a disc on two wheels, whose base answers late and has limits,
 whose odometry is 2 % too long and turns a degree a metre (or --bend), and whose laser sees 270 degrees, hangs off the
@@ -29,7 +29,7 @@ from rosgraph_msgs.msg import Clock
 from sensor_msgs.msg import LaserScan, PointCloud2, PointField, Range
 from tf2_msgs.msg import TFMessage
 
-TICK, TICKS_A_WORD = 0.025, 2  # s; clock, tf and odom at 20 Hz: most of what a drive costs is to send them
+TICK, TICKS_A_WORD, TICKS_A_SCAN = 0.025, 2, 4  # s; clock, tf and odom at 20 Hz: most of what a drive costs is to send them
 RADIUS, MAX_V, MAX_W, ACCELERATION, TURN_ACCELERATION = 0.25, 0.7, 1.5, 1.0, 4.0
 DEADMAN = 0.5  # s without a command until the base stops
 # s of the wall: time that nobody answers in goes on, once somebody has and before; what comes of the clock
@@ -269,7 +269,7 @@ class OwnRobot:
             scan.header.stamp, scan.header.frame_id = self.now(), frame
             scan.angle_min, scan.angle_max = -0.5 * field, 0.5 * field
             scan.angle_increment = field / (beams - 1)
-            scan.scan_time, scan.range_min, scan.range_max = 1.0 / self.options.scan_rate, 0.02, RANGE
+            scan.scan_time, scan.range_min, scan.range_max = TICKS_A_SCAN * TICK, 0.02, RANGE
             x, y, theta = compose(self.pose, T_robot_laser)
             ranges = self.world.cast(x, y, theta + numpy.linspace(-0.5 * field, 0.5 * field, beams))
             scan.ranges = (ranges + self.random.normal(0.0, NOISE, beams)).tolist()
@@ -304,13 +304,13 @@ class OwnRobot:
                       "time_s": self.time, "pose": self.pose})
 
     def run(self):
-        tick, ticks_a_scan = 0, TICKS_A_WORD * round(1.0 / (self.options.scan_rate * TICKS_A_WORD * TICK))
+        tick = 0
         while not rospy.is_shutdown():
             begin = time.time()
             self.drive()
             if tick % TICKS_A_WORD == 0:
                 self.tell()
-            if tick % ticks_a_scan == 0:
+            if tick % TICKS_A_SCAN == 0:
                 self.look()
             if tick % 50 == 0:
                 self.report()
@@ -325,7 +325,6 @@ def main():
     parser.add_argument("--latency", type=float, default=0.0)
     parser.add_argument("--speed", type=float, default=1.0)
     parser.add_argument("--seed", type=int, default=1)
-    parser.add_argument("--scan-rate", type=float, default=10.0)
     parser.add_argument("--bend", type=float, default=1.0)
     parser.add_argument("--localised", action="store_true")
     parser.add_argument("--wrong-until", type=float, default=0.0)
