@@ -25,7 +25,7 @@ bool shareOut(const ScanPoints& points, const RunFitter& fitter, Runs* runs) {
     b.kept_to = c.last;
     if (!areNeighbours(points, a, b) || !areNeighbours(points, b, c)) continue;
     const int middle =
-        twoMeans(fitter, a.first, b.first, b.last, c.last, a.price + b.price + c.price);
+        twoMeans(fitter, a.first, b.first, b.last, c.last, a.price + b.price + c.price - kNoGain);
     if (middle < 0) continue;
     shared = true;
     b = fitter.fit(a.first, middle);
@@ -44,7 +44,7 @@ bool splitLines(const RunFitter& fitter, Runs* runs) {
     const bool may_gain =
         !run.is_searched && (!run.is_line || 0.5 * run.chi_square > fitter.linePrice());
     const int middle =
-        may_gain ? twoMeans(fitter, first, first + 1, last - 1, last, run.price) : -1;
+        may_gain ? twoMeans(fitter, first, first + 1, last - 1, last, run.price - kNoGain) : -1;
     if (run.is_line) run.is_searched = true;
     if (middle < 0) continue;
     run = fitter.fit(first, middle);

@@ -7,7 +7,7 @@ namespace cca {
 namespace {
 
 /// One sweep over all boundaries.
-bool moveBoundaries(const ScanPoints& points, const RunFitter& fitter, Runs* runs) {
+bool moveBoundaries(const ScanPoints& points, const RunFitter& fitter, double worth, Runs* runs) {
   bool moved = false;
   for (std::size_t k = 0; k + 1 < runs->size(); ++k) {
     FittedRun &a = (*runs)[k], &b = (*runs)[k + 1];
@@ -16,8 +16,7 @@ bool moveBoundaries(const ScanPoints& points, const RunFitter& fitter, Runs* run
     if (!areNeighbours(points, a, b)) continue;
     const int low = std::max(a.first, a.last - kBoundaryReach);
     const int high = std::min(b.last, a.last + kBoundaryReach);
-    const int middle =
-        twoMeans(fitter, a.first, low, high, b.last, a.price + b.price - kWorthMoving);
+    const int middle = twoMeans(fitter, a.first, low, high, b.last, a.price + b.price - worth);
     if (middle < 0) continue;
     moved = true;
     const int last = b.last;
@@ -33,7 +32,7 @@ bool moveBoundaries(const ScanPoints& points, const RunFitter& fitter, Runs* run
 
 int twoMeans(const RunFitter& fitter, int first, int low, int high, int last, double price) {
   int best = -1;
-  double least = price - kNoGain;
+  double least = price;
   for (int middle = low; middle <= high; ++middle) {
     const double least_after = fitter.leastPrice(middle, last);
     if (fitter.leastPrice(first, middle) + least_after >= least) continue;
@@ -48,9 +47,9 @@ int twoMeans(const RunFitter& fitter, int first, int low, int high, int last, do
   return best;
 }
 
-bool kMeans(const ScanPoints& points, const RunFitter& fitter, Runs* runs) {
+bool kMeans(const ScanPoints& points, const RunFitter& fitter, Runs* runs, double worth) {
   bool changed = false;
-  while (moveBoundaries(points, fitter, runs)) changed = true;
+  while (moveBoundaries(points, fitter, worth, runs)) changed = true;
   return changed;
 }
 

@@ -11,6 +11,10 @@
 namespace cca {
 namespace {
 
+/// nats. Between two clusters of one wall the best of the places that a boundary may go to is
+/// better by about so much by chance; the two are merged before it matters.
+constexpr double kWorthMoving = 2.0;
+
 bool isLinear(const ScanPoints& points, const FittedRun& run) {
   if (run.size() <= 2) return true;
   const double gate_sq = kNormalGate * kNormalGate * run.variance;
@@ -65,7 +69,7 @@ Runs pointClusters(const ScanPoints& points, const RunFitter& fitter, const Abla
     prune(points, fitter, first, last, without, &runs);
     first = last;
   }
-  if (!without(Part::kKMeans)) kMeans(points, fitter, &runs);
+  if (!without(Part::kKMeans)) kMeans(points, fitter, &runs, kWorthMoving);
   return runs;
 }
 

@@ -27,9 +27,10 @@ struct Drive {
   std::vector<Pose2> way, wheels;
   std::vector<Scan> scans;
   explicit Drive(double field_of_view = M_PI, double step = 0.4,
-                 test::WalledWorld in = test::ringWithNiches())
+                 test::WalledWorld in = test::ringWithNiches(), double longest = 8.0)
       : world(std::move(in)), way(test::driveAroundRing(step)), wheels(test::wheelsOf(way, world)) {
-    for (const Pose2& pose : way) scans.push_back(world.scan(pose, 181, field_of_view, 0.01, 8.0));
+    for (const Pose2& pose : way)
+      scans.push_back(world.scan(pose, 181, field_of_view, 0.01, longest));
   }
 };
 
@@ -58,11 +59,11 @@ TEST(Slam, TakesTheLaserFromWhereItIsMounted) {
 }
 
 TEST(Slam, NeedsNoWheelsWhereTheLaserSeesEnough) {
-  Drive drive(2.0 * M_PI, 0.1);
+  Drive drive(2.0 * M_PI, 0.1, test::ringWithNiches(), 20.0);  // m, the ends of each corridor
   Slam slam(drive.way.front());
   for (std::size_t k = 0; k < drive.way.size(); ++k) slam.step(drive.scans[k], {}, std::nullopt);
   slam.finish();
-  EXPECT_LT(worstError(slam.trajectory(), drive.way), 0.3);
+  EXPECT_LT(worstError(slam.trajectory(), drive.way), 0.05);
 }
 
 TEST(Slam, TheSameInputGivesTheSameBits) {

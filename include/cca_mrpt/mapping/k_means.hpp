@@ -8,8 +8,6 @@ namespace cca {
 
 /// Points by which a boundary may move in one sweep.
 inline constexpr int kBoundaryReach = 5;
-/// nats that a move must save: by chance alone the best of those places is about so much better.
-inline constexpr double kWorthMoving = 2.0;
 
 /// No beam without return and no step in depth lies between the two.
 inline bool areNeighbours(const ScanPoints& points, const FittedRun& a, const FittedRun& b) {
@@ -31,8 +29,9 @@ int twoMeans(const RunFitter& fitter, int first, int low, int high, int last, do
 /// most briefly, by kBoundaryReach points at most; and again, until none moves. Each step lowers
 /// the description length of the scan, so that it ends. No point crosses a beam without return or a
 /// step in depth.
+/// @param worth  nats, > 0, that a move must save.
 /// @return  true where a point changed its cluster; clusters that run empty are gone.
 /// Cost: O(1) for each boundary of which a cluster has changed since it was last asked.
-bool kMeans(const ScanPoints& points, const RunFitter& fitter, Runs* runs);
+bool kMeans(const ScanPoints& points, const RunFitter& fitter, Runs* runs, double worth = kNoGain);
 
 }  // namespace cca
