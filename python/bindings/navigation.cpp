@@ -44,10 +44,9 @@ States statesOf(const ExplorationGrid& grid) {
   if (static_cast<double>(states.rows) * static_cast<double>(states.columns) > kMostCells)
     return states;
   states.cells = std::make_unique<std::uint8_t[]>(states.rows * states.columns);
-  ExplorationGrid::Reader reader(grid);
   std::uint8_t* to = states.cells.get();
   for (int y = low.y; y <= high.y; ++y) {
-    for (int x = low.x; x <= high.x; ++x) *to++ = static_cast<std::uint8_t>(reader.at({x, y}));
+    for (int x = low.x; x <= high.x; ++x) *to++ = static_cast<std::uint8_t>(grid.at({x, y}));
   }
   return states;
 }
@@ -71,12 +70,11 @@ nb::object statesAround(SharedGrid& grid, nb::handle place, int cells) {
   const bool fits = grid.with([&](ExplorationGrid& own) {
     if (!own.covers({at[0], at[1]})) return false;
     const Cell centre = own.cellOf({at[0], at[1]});
-    ExplorationGrid::Reader reader(own);
     std::uint8_t* to = states.get();
     const int low = -(cells / 2), high = low + cells;
     for (int y = low; y < high; ++y) {
       for (int x = low; x < high; ++x) {
-        *to++ = static_cast<std::uint8_t>(reader.at({centre.x + x, centre.y + y}));
+        *to++ = static_cast<std::uint8_t>(own.at({centre.x + x, centre.y + y}));
       }
     }
     return true;
@@ -116,8 +114,8 @@ void addGrid(nb::module_& module) {
   nb::enum_<CellState>(module, "CellState", nb::is_arithmetic(), "What is known of a cell.")
       .value("UNKNOWN", CellState::kUnknown)
       .value("PRESUMED_FREE", CellState::kPresumedFree, "between two beams that both went on")
-      .value("GUESSED_WALL", CellState::kGuessedWall, "in line with returns on both sides")
-      .value("PRESUMED_WALL", CellState::kPresumedWall, "between two returns of one surface")
+      .value("PRESUMED_WALL", CellState::kPresumedWall,
+             "between two returns of one surface, or in line with returns on both sides")
       .value("FREE", CellState::kFree)
       .value("OCCUPIED", CellState::kOccupied);
   nb::class_<SharedGrid>(module, "ExplorationGrid", "What is known of each place; grows by itself.")

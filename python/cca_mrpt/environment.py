@@ -17,7 +17,6 @@ ID = "cca_mrpt/Explore-v0"
 _COLOURS = {
     CellState.UNKNOWN: (128, 128, 128),
     CellState.PRESUMED_FREE: (235, 235, 235),
-    CellState.GUESSED_WALL: (90, 60, 60),
     CellState.PRESUMED_WALL: (60, 40, 40),
     CellState.FREE: (255, 255, 255),
     CellState.OCCUPIED: (0, 0, 0),

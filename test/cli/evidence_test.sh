@@ -63,7 +63,7 @@ status=0; "$program" tune "$maps/maze.yaml" --out "$tmp/x" --similarity-cut 0.5 
 # ablate: a row for what is reached and one for each part, alike from run to run.
 ablate() { "$program" ablate "$maps/two_rooms.yaml" --seeds 1 --scans 1 --poses 4; }
 ablate >"$tmp/ablation.md" 2>/dev/null
-[ "$(grep -c '^| .*K-means\|^| mu_[1-5], ' "$tmp/ablation.md")" -eq 6 ] || fail "every part has its row"
+[ "$(grep -c '^| K-means\|^| mu_[1-5], ' "$tmp/ablation.md")" -eq 6 ] || fail "every part has its row"
 ablate 2>/dev/null | diff "$tmp/ablation.md" - || fail "the same study gives the same table"
 status=0; "$program" ablate >/dev/null 2>&1 || status=$?
 [ $status -eq 2 ] || fail "nothing to study is a usage error, got $status"
