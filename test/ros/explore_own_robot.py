@@ -129,7 +129,8 @@ class ExploreOwnRobot(OwnMaster):
         report, summary, lines = self.explore(world, "22.8,7.7,180", launch=["resume:=" + first])
         self.assertTrue(summary["found_in_memory"], summary)
         lines = placed(lines.reshape(-1, 2), (1.2, 1.2, 0.0)).reshape(-1, 4)
-        self.check(world, report, summary, lines, least_seen=0.0)  # the first drive has seen it
+        # The first drive has seen it all; what its corridors could not tell of the way, the second one corrects.
+        self.check(world, report, summary, lines, least_seen=0.0, lies_off=True)
         self.assertTrue(os.path.exists(os.path.join(self.out, "map.slam")))
 
     def test_two_rooms_with_a_localisation_that_finds_itself_late(self):
