@@ -35,7 +35,7 @@ constexpr LeftOut kParts[] = {
     {Part::kGap, "mu_3, gap"},
     {Part::kFit, "mu_4, fit"},
     {Part::kOverlap, "mu_5, overlap"},
-    {Part::kRankOrder, "King's sorts: order of arrival"},
+    {Part::kRankOrder, "King's sorts"},
     {Part::kCompleteLinkage, "linkage: one is enough"},
     {Part::kKMeans, "K-means: boundaries stay"},
     {Part::kPruning, "cluster pruning"},
