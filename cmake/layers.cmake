@@ -57,7 +57,7 @@ function(cca_options target)
     target_compile_options(${target} PRIVATE -Werror)
   endif()
   if(CCA_SANITIZE)
-    # Checks of the value of each pointer take half of the time to compile, and find what the address sanitizer
+    # Checks of the value of each pointer take a third of the time to compile, and find what the address sanitizer
     # reports where the pointer is used. Alignment is asked for by Eigen alone, which asserts it.
     target_compile_options(${target} PRIVATE -fsanitize=address,undefined -fno-sanitize-recover=undefined
                            -fno-sanitize=null,alignment,pointer-overflow -fno-omit-frame-pointer)

@@ -93,7 +93,7 @@ std::vector<LineSegment> linesOf(const ClusteredScan& s, const CcaParameters& pa
 /// Lets a closed scan begin behind a break, if it has one, so that no arc lies across its seam.
 void beginBehindBreak(ClusteredScan* s) {
   for (std::size_t k = 1; s->points.closed && k < s->runs.size(); ++k) {
-    if (s->points.breaksBetween(s->runs[k - 1].last - 1, s->runs[k].first) == 0) continue;
+    if (areNeighbours(s->points, s->runs[k - 1], s->runs[k])) continue;
     return beginAtRun(k, s->noise, &s->points, &s->fitter, &s->runs);
   }
 }

@@ -22,7 +22,7 @@ constexpr int kNeighbours = 3;
 /// Either is evidence without end, so that nothing else need be asked.
 double gapToNext(const ScanPoints& points, const FittedRun& a, const FittedRun& b) {
   const bool none = points.silentBetween(a.last - 1, b.first) == 0 &&
-                    ((a.is_line && b.is_line) || points.breaksBetween(a.last - 1, b.first) == 0);
+                    ((a.is_line && b.is_line) || areNeighbours(points, a, b));
   return none ? 0.0 : std::numeric_limits<double>::infinity();
 }
 

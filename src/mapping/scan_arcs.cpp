@@ -53,7 +53,7 @@ std::vector<Arc> arcsOfScan(const ScanPoints& points, const Runs& runs, PointNoi
     Chain chain;
     const int first = runs[k].first;
     chain.add(points, runs[k++], noise);
-    while (k < runs.size() && points.breaksBetween(runs[k - 1].last - 1, runs[k].first) == 0) {
+    while (k < runs.size() && areNeighbours(points, runs[k - 1], runs[k])) {
       chain.add(points, runs[k++], noise);
     }
     const OneView view{limbsOf(points, first, runs[k - 1].last)};

@@ -7,6 +7,7 @@
 #include "cca_mrpt/mapping/line_segment.hpp"
 #include "cca_mrpt/mapping/parameters.hpp"
 #include "cca_mrpt/mapping/range_noise.hpp"
+#include "cca_mrpt/mapping/scan.hpp"
 
 namespace cca {
 
@@ -99,6 +100,11 @@ using Runs = std::vector<FittedRun>;
 inline void dropEmpty(Runs* runs) {
   const auto is_empty = [](const FittedRun& run) { return run.size() == 0; };
   runs->erase(std::remove_if(runs->begin(), runs->end(), is_empty), runs->end());
+}
+
+/// No beam without return and no step in depth lies between two runs that follow one another.
+inline bool areNeighbours(const ScanPoints& points, const FittedRun& a, const FittedRun& b) {
+  return points.breaksBetween(a.last - 1, b.first) == 0;
 }
 
 /// Fits any run of a scan in O(1).

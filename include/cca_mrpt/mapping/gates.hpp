@@ -9,9 +9,9 @@ namespace cca {
 /// deviations is no noise.
 constexpr double kNormalGate = 3.29;
 
-/// 99.9 % quantiles of chi-square with one and with two degrees of freedom: the same for squares
-/// over their variance.
-constexpr double kChiSquareGate1 = 10.83, kChiSquareGate2 = 13.82;
+/// 99.9 % quantile of chi-square with one degree of freedom: the same for squares over their
+/// variance.
+constexpr double kChiSquareGate1 = 10.83;
 
 /// rad; a wall seen at less cannot be told from a step in depth [Borges & Aldon 2004].
 constexpr double kGrazing = 4.0 * M_PI / 180.0;

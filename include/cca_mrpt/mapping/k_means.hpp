@@ -9,11 +9,6 @@ namespace cca {
 /// Points by which a boundary may move in one sweep.
 inline constexpr int kBoundaryReach = 5;
 
-/// No beam without return and no step in depth lies between the two.
-inline bool areNeighbours(const ScanPoints& points, const FittedRun& a, const FittedRun& b) {
-  return points.breaksBetween(a.last - 1, b.first) == 0;
-}
-
 /// K-means with K = 2 of a run of points, exactly: where to part first..last between low and high,
 /// both included, so that two means tell its points most briefly; either is a line or, where that
 /// is cheaper, its points as they are.
