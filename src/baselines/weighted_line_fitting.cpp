@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "cca_mrpt/baselines/hough_transform.hpp"
-#include "cca_mrpt/mapping/cross.hpp"
+#include "cca_mrpt/geometry/cross.hpp"
 
 namespace cca::baselines {
 namespace {

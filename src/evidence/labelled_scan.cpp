@@ -15,8 +15,8 @@
 #include <string>
 #include <utility>
 
+#include "cca_mrpt/geometry/cross.hpp"
 #include "cca_mrpt/io/log_reader.hpp"
-#include "cca_mrpt/mapping/cross.hpp"
 #include "cca_mrpt/simulation/world.hpp"
 
 namespace cca::evidence {

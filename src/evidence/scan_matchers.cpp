@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "cca_mrpt/evaluation/spatial_index.hpp"
-#include "cca_mrpt/mapping/cross.hpp"
+#include "cca_mrpt/geometry/cross.hpp"
 
 namespace cca::evidence {
 namespace {

@@ -6,7 +6,7 @@
 #include <limits>
 #include <vector>
 
-#include "cca_mrpt/mapping/range_noise.hpp"
+#include "cca_mrpt/sensing/range_noise.hpp"
 
 namespace cca {
 namespace {

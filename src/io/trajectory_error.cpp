@@ -5,7 +5,7 @@
 #include <cassert>
 #include <cmath>
 
-#include "cca_mrpt/mapping/cross.hpp"
+#include "cca_mrpt/geometry/cross.hpp"
 
 namespace cca {
 namespace {

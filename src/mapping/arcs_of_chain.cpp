@@ -3,10 +3,10 @@
 #include <cmath>
 #include <limits>
 
-#include "cca_mrpt/mapping/arc.hpp"
-#include "cca_mrpt/mapping/cross.hpp"
+#include "cca_mrpt/geometry/cross.hpp"
+#include "cca_mrpt/mapping/arcs_of_chain.hpp"
 #include "cca_mrpt/mapping/description_length.hpp"
-#include "cca_mrpt/mapping/gates.hpp"
+#include "cca_mrpt/sensing/gates.hpp"
 
 namespace cca {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "cca_mrpt/mapping/cross.hpp"
+#include "cca_mrpt/geometry/cross.hpp"
 #include "cca_mrpt/mapping/k_means.hpp"
 
 namespace cca {

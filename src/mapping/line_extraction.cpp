@@ -8,8 +8,8 @@
 #include "cca_mrpt/mapping/line_merging.hpp"
 #include "cca_mrpt/mapping/point_clusters.hpp"
 #include "cca_mrpt/mapping/poly_lines.hpp"
-#include "cca_mrpt/mapping/range_noise.hpp"
 #include "cca_mrpt/mapping/scan_arcs.hpp"
+#include "cca_mrpt/sensing/range_noise.hpp"
 
 namespace cca {
 namespace {

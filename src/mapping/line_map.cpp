@@ -5,7 +5,7 @@
 #include <cmath>
 #include <utility>
 
-#include "cca_mrpt/mapping/cross.hpp"
+#include "cca_mrpt/geometry/cross.hpp"
 #include "cca_mrpt/mapping/laser_evidence.hpp"
 #include "cca_mrpt/mapping/line_extraction.hpp"
 #include "cca_mrpt/mapping/wall_upkeep.hpp"

@@ -6,10 +6,10 @@
 #include <limits>
 #include <utility>
 
-#include "cca_mrpt/mapping/cross.hpp"
-#include "cca_mrpt/mapping/gates.hpp"
+#include "cca_mrpt/geometry/cross.hpp"
 #include "cca_mrpt/mapping/rank_order_clustering.hpp"
 #include "cca_mrpt/mapping/similarity.hpp"
+#include "cca_mrpt/sensing/gates.hpp"
 
 namespace cca {
 namespace {

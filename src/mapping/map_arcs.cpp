@@ -4,7 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "cca_mrpt/mapping/gates.hpp"
+#include "cca_mrpt/mapping/arcs_of_chain.hpp"
+#include "cca_mrpt/sensing/gates.hpp"
 
 namespace cca {
 namespace {

@@ -6,8 +6,8 @@
 #include <numeric>
 
 #include "cca_mrpt/mapping/map_similarity.hpp"
-#include "cca_mrpt/mapping/range_noise.hpp"
 #include "cca_mrpt/mapping/rank_order_clustering.hpp"
+#include "cca_mrpt/sensing/range_noise.hpp"
 
 namespace cca {
 namespace {

@@ -8,7 +8,7 @@
 #include <tuple>
 #include <utility>
 
-#include "cca_mrpt/mapping/cross.hpp"
+#include "cca_mrpt/geometry/cross.hpp"
 
 namespace cca {
 namespace {

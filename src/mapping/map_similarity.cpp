@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "cca_mrpt/mapping/cross.hpp"
-#include "cca_mrpt/mapping/gates.hpp"
+#include "cca_mrpt/geometry/cross.hpp"
 #include "cca_mrpt/mapping/wall_extent.hpp"
+#include "cca_mrpt/sensing/gates.hpp"
 
 namespace cca {
 namespace {

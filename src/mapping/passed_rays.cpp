@@ -5,8 +5,8 @@
 #include <utility>
 
 #include "cca_mrpt/mapping/laser_evidence.hpp"
-#include "cca_mrpt/mapping/range_noise.hpp"
 #include "cca_mrpt/mapping/swept_cells.hpp"
+#include "cca_mrpt/sensing/range_noise.hpp"
 
 namespace cca {
 namespace {

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <limits>
 
-#include "cca_mrpt/mapping/gates.hpp"
 #include "cca_mrpt/mapping/k_means.hpp"
+#include "cca_mrpt/sensing/gates.hpp"
 
 namespace cca {
 namespace {

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <optional>
 
-#include "cca_mrpt/mapping/cross.hpp"
-#include "cca_mrpt/mapping/gates.hpp"
+#include "cca_mrpt/geometry/cross.hpp"
+#include "cca_mrpt/sensing/gates.hpp"
 
 namespace cca {
 namespace {

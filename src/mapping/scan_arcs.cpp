@@ -7,6 +7,8 @@
 #include <optional>
 #include <utility>
 
+#include "cca_mrpt/mapping/arcs_of_chain.hpp"
+
 namespace cca {
 namespace {
 

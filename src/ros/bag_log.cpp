@@ -12,10 +12,10 @@
 #include <stdexcept>
 
 #include "cca_mrpt/io/log_reader.hpp"
-#include "cca_mrpt/mapping/missing_returns.hpp"
 #include "cca_mrpt/ros/pose_message.hpp"
 #include "cca_mrpt/ros/scan_message.hpp"
 #include "cca_mrpt/ros/transforms.hpp"
+#include "cca_mrpt/sensing/missing_returns.hpp"
 
 namespace cca {
 namespace {

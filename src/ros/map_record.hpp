@@ -7,7 +7,7 @@
 #include "cca_mrpt/io/map_products.hpp"
 #include "cca_mrpt/io/scan_grid.hpp"
 #include "cca_mrpt/mapping/line_map.hpp"
-#include "cca_mrpt/navigation/place/past_scans.hpp"
+#include "cca_mrpt/sensing/past_scans.hpp"
 
 namespace cca {
 

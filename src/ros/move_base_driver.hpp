@@ -8,7 +8,7 @@
 #include <optional>
 #include <string>
 
-#include "cca_mrpt/mapping/pose2.hpp"
+#include "cca_mrpt/geometry/pose2.hpp"
 #include "cca_mrpt/navigation/explorer.hpp"
 
 namespace cca {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "cca_mrpt/io/pose_files.hpp"
-#include "cca_mrpt/navigation/place/past_scans.hpp"
+#include "cca_mrpt/slam/outer_corrections.hpp"
 #include "scan_feed.hpp"
 
 namespace cca {

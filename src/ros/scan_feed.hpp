@@ -11,9 +11,9 @@
 #include <string>
 #include <vector>
 
-#include "cca_mrpt/mapping/missing_returns.hpp"
-#include "cca_mrpt/mapping/scan.hpp"
 #include "cca_mrpt/ros/pose_gate.hpp"
+#include "cca_mrpt/sensing/missing_returns.hpp"
+#include "cca_mrpt/sensing/scan.hpp"
 #include "transform_feed.hpp"
 
 namespace cca {

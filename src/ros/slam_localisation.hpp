@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "cca_mrpt/io/pose_files.hpp"
-#include "cca_mrpt/navigation/place/past_scans.hpp"
+#include "cca_mrpt/sensing/past_scans.hpp"
 #include "cca_mrpt/slam/slam.hpp"
 #include "frame_names.hpp"
 #include "node_diagnostics.hpp"

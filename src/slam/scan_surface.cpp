@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "cca_mrpt/mapping/cross.hpp"
+#include "cca_mrpt/geometry/cross.hpp"
+#include "cca_mrpt/geometry/line_segment.hpp"
 #include "cca_mrpt/mapping/line_extraction.hpp"
-#include "cca_mrpt/mapping/line_segment.hpp"
-#include "cca_mrpt/mapping/range_noise.hpp"
+#include "cca_mrpt/sensing/range_noise.hpp"
 
 namespace cca {
 namespace {

@@ -16,12 +16,14 @@ check() {
   [ -z "$found" ] || { echo "$1 reaches for clock, files, threads, output or random numbers:"; echo "$found"; failed=1; }
 }
 
-check mapping mapping
-check slam 'mapping|slam'
-check navigation/place 'mapping|navigation/place'
-check navigation/goals 'mapping|navigation/place|navigation/goals'
-check navigation/drive 'mapping|navigation/place|navigation/drive|navigation/drive/tangent_bug'
-check navigation 'mapping|navigation|navigation/[a-z_/]+'
-check baselines 'mapping|baselines'
+check geometry geometry
+check sensing 'geometry|sensing'
+check mapping 'geometry|sensing|mapping'
+check slam 'geometry|sensing|mapping|slam'
+check navigation/place 'geometry|sensing|navigation/place'
+check navigation/goals 'geometry|sensing|navigation/place|navigation/goals'
+check navigation/drive 'geometry|sensing|navigation/place|navigation/drive|navigation/drive/tangent_bug'
+check navigation 'geometry|sensing|mapping|navigation|navigation/[a-z_/]+'
+check baselines 'geometry|sensing|mapping|baselines'
 [ $failed -eq 0 ] && echo "layers: clean"
 exit $failed

@@ -5,8 +5,8 @@
 
 #include <cmath>
 
+#include "../sensing/polygon_room.hpp"
 #include "cca_mrpt/mapping/line_merging.hpp"
-#include "polygon_room.hpp"
 
 namespace cca::corner_refinement_test {
 namespace {

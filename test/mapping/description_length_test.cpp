@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "polygon_room.hpp"
+#include "../sensing/polygon_room.hpp"
 
 namespace cca {
 namespace {

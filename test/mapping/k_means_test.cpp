@@ -5,8 +5,8 @@
 
 #include <random>
 
+#include "../sensing/polygon_room.hpp"
 #include "cca_mrpt/mapping/point_clusters.hpp"
-#include "polygon_room.hpp"
 
 namespace cca {
 namespace {

@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "polygon_room.hpp"
+#include "../sensing/polygon_room.hpp"
 
 namespace cca {
 namespace {

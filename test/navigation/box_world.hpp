@@ -8,8 +8,8 @@
 #include <random>
 #include <vector>
 
-#include "cca_mrpt/mapping/scan.hpp"
 #include "cca_mrpt/navigation/drive/robot.hpp"
+#include "cca_mrpt/sensing/scan.hpp"
 
 namespace cca::testing {
 

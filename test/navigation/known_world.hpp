@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "cca_mrpt/mapping/scan.hpp"
 #include "cca_mrpt/navigation/place/beam.hpp"
 #include "cca_mrpt/navigation/place/exploration_grid.hpp"
+#include "cca_mrpt/sensing/scan.hpp"
 
 namespace cca {
 

@@ -7,7 +7,7 @@
 #include <random>
 
 #include "box_world.hpp"
-#include "cca_mrpt/mapping/range_noise.hpp"
+#include "cca_mrpt/sensing/range_noise.hpp"
 
 namespace cca::testing {
 namespace {

@@ -8,7 +8,7 @@
 #include <limits>
 #include <thread>
 
-#include "cca_mrpt/mapping/cross.hpp"
+#include "cca_mrpt/geometry/cross.hpp"
 #include "walled_world.hpp"
 
 namespace cca {

@@ -7,8 +7,8 @@
 #include <utility>
 #include <vector>
 
-#include "cca_mrpt/mapping/cross.hpp"
-#include "cca_mrpt/mapping/scan.hpp"
+#include "cca_mrpt/geometry/cross.hpp"
+#include "cca_mrpt/sensing/scan.hpp"
 
 namespace cca::test {
 

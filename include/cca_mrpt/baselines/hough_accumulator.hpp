@@ -3,7 +3,7 @@
 
 #include <Eigen/Core>
 
-#include "cca_mrpt/mapping/line_segment.hpp"
+#include "cca_mrpt/geometry/line_segment.hpp"
 
 namespace cca::baselines {
 

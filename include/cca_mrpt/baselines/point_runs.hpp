@@ -4,8 +4,8 @@
 #include <cstddef>
 #include <vector>
 
-#include "cca_mrpt/mapping/line_segment.hpp"
-#include "cca_mrpt/mapping/scan.hpp"
+#include "cca_mrpt/geometry/line_segment.hpp"
+#include "cca_mrpt/sensing/scan.hpp"
 
 /// What the extractors share that use the order of the beams: runs of neighbouring returns.
 namespace cca::baselines {

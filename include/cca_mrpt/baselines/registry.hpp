@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "cca_mrpt/mapping/line_segment.hpp"
-#include "cca_mrpt/mapping/scan.hpp"
+#include "cca_mrpt/geometry/line_segment.hpp"
+#include "cca_mrpt/sensing/scan.hpp"
 
 namespace cca::baselines {
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "cca_mrpt/evaluation/spatial_index.hpp"
-#include "cca_mrpt/mapping/scan.hpp"
+#include "cca_mrpt/sensing/scan.hpp"
 
 namespace cca {
 

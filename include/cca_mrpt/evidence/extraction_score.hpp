@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "cca_mrpt/evidence/labelled_scan.hpp"
-#include "cca_mrpt/mapping/line_segment.hpp"
+#include "cca_mrpt/geometry/line_segment.hpp"
 
 namespace cca::evidence {
 

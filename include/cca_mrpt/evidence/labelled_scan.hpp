@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "cca_mrpt/evaluation/spatial_index.hpp"
-#include "cca_mrpt/mapping/scan.hpp"
+#include "cca_mrpt/sensing/scan.hpp"
 #include "cca_mrpt/simulation/laser.hpp"
 #include "cca_mrpt/simulation/random.hpp"
 

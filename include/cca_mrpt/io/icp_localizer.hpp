@@ -4,7 +4,7 @@
 #include <memory>
 #include <optional>
 
-#include "cca_mrpt/mapping/scan.hpp"
+#include "cca_mrpt/sensing/scan.hpp"
 
 namespace cca {
 

@@ -8,10 +8,10 @@
 #include <string>
 #include <vector>
 
+#include "cca_mrpt/geometry/pose2.hpp"
 #include "cca_mrpt/io/folder_lock.hpp"
 #include "cca_mrpt/io/pose_files.hpp"
 #include "cca_mrpt/mapping/line_map.hpp"
-#include "cca_mrpt/mapping/pose2.hpp"
 
 namespace cca {
 

@@ -4,7 +4,7 @@
 #include <Eigen/Core>
 #include <string>
 
-#include "cca_mrpt/navigation/place/past_scans.hpp"
+#include "cca_mrpt/sensing/past_scans.hpp"
 #include "cca_mrpt/slam/slam.hpp"
 
 namespace cca {

@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "cca_mrpt/mapping/scan.hpp"
+#include "cca_mrpt/sensing/scan.hpp"
 
 namespace cca {
 

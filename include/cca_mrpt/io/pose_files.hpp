@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "cca_mrpt/mapping/pose2.hpp"
+#include "cca_mrpt/geometry/pose2.hpp"
 #include "cca_mrpt/slam/pose_graph.hpp"
 
 namespace cca {

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "cca_mrpt/mapping/line_map.hpp"
-#include "cca_mrpt/mapping/scan.hpp"
+#include "cca_mrpt/sensing/scan.hpp"
 #include "cca_mrpt/simulation/world.hpp"
 
 namespace cca {

@@ -4,7 +4,7 @@
 #include <Eigen/Geometry>
 #include <vector>
 
-#include "cca_mrpt/mapping/pose2.hpp"
+#include "cca_mrpt/geometry/pose2.hpp"
 
 namespace cca {
 

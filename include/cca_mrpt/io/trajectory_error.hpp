@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "cca_mrpt/mapping/pose2.hpp"
+#include "cca_mrpt/geometry/pose2.hpp"
 
 namespace cca {
 

@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <vector>
 
-#include "cca_mrpt/mapping/line_segment.hpp"
+#include "cca_mrpt/geometry/line_segment.hpp"
 #include "cca_mrpt/mapping/parameters.hpp"
-#include "cca_mrpt/mapping/range_noise.hpp"
-#include "cca_mrpt/mapping/scan.hpp"
+#include "cca_mrpt/sensing/range_noise.hpp"
+#include "cca_mrpt/sensing/scan.hpp"
 
 namespace cca {
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "cca_mrpt/mapping/description_length.hpp"
-#include "cca_mrpt/mapping/scan.hpp"
+#include "cca_mrpt/sensing/scan.hpp"
 
 namespace cca {
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "cca_mrpt/mapping/map_clusters.hpp"
-#include "cca_mrpt/mapping/scan.hpp"
+#include "cca_mrpt/sensing/scan.hpp"
 
 namespace cca {
 

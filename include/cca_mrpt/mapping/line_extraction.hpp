@@ -3,10 +3,10 @@
 
 #include <vector>
 
-#include "cca_mrpt/mapping/arc.hpp"
-#include "cca_mrpt/mapping/line_segment.hpp"
+#include "cca_mrpt/geometry/arc.hpp"
+#include "cca_mrpt/geometry/line_segment.hpp"
 #include "cca_mrpt/mapping/parameters.hpp"
-#include "cca_mrpt/mapping/scan.hpp"
+#include "cca_mrpt/sensing/scan.hpp"
 
 namespace cca {
 

@@ -4,14 +4,14 @@
 #include <cstdint>
 #include <vector>
 
-#include "cca_mrpt/mapping/line_segment.hpp"
+#include "cca_mrpt/geometry/line_segment.hpp"
 #include "cca_mrpt/mapping/map_arcs.hpp"
 #include "cca_mrpt/mapping/map_clusters.hpp"
 #include "cca_mrpt/mapping/map_corners.hpp"
 #include "cca_mrpt/mapping/map_noise.hpp"
 #include "cca_mrpt/mapping/parameters.hpp"
-#include "cca_mrpt/mapping/scan.hpp"
 #include "cca_mrpt/mapping/walls.hpp"
+#include "cca_mrpt/sensing/scan.hpp"
 
 namespace cca {
 

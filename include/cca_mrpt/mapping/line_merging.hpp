@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "cca_mrpt/mapping/description_length.hpp"
-#include "cca_mrpt/mapping/scan.hpp"
 #include "cca_mrpt/mapping/similarity.hpp"
+#include "cca_mrpt/sensing/scan.hpp"
 
 namespace cca {
 

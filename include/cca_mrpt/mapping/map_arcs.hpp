@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "cca_mrpt/mapping/arc.hpp"
+#include "cca_mrpt/geometry/arc.hpp"
 #include "cca_mrpt/mapping/map_noise.hpp"
 #include "cca_mrpt/mapping/parameters.hpp"
 #include "cca_mrpt/mapping/wall.hpp"

@@ -5,7 +5,7 @@
 
 #include "cca_mrpt/mapping/ablation.hpp"
 #include "cca_mrpt/mapping/description_length.hpp"
-#include "cca_mrpt/mapping/scan.hpp"
+#include "cca_mrpt/sensing/scan.hpp"
 
 namespace cca {
 

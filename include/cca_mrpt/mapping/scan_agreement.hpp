@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "cca_mrpt/mapping/scan.hpp"
 #include "cca_mrpt/mapping/walls.hpp"
+#include "cca_mrpt/sensing/scan.hpp"
 
 namespace cca {
 

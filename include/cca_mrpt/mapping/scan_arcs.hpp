@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "cca_mrpt/mapping/arc.hpp"
+#include "cca_mrpt/geometry/arc.hpp"
 #include "cca_mrpt/mapping/line_merging.hpp"
 
 namespace cca {

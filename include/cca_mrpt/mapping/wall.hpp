@@ -5,8 +5,8 @@
 #include <functional>
 #include <vector>
 
-#include "cca_mrpt/mapping/cross.hpp"
-#include "cca_mrpt/mapping/line_segment.hpp"
+#include "cca_mrpt/geometry/cross.hpp"
+#include "cca_mrpt/geometry/line_segment.hpp"
 #include "cca_mrpt/mapping/map_noise.hpp"
 #include "cca_mrpt/mapping/support_profile.hpp"
 #include "cca_mrpt/mapping/wall_index.hpp"

@@ -8,14 +8,14 @@
 #include <vector>
 
 #include "cca_mrpt/mapping/line_map.hpp"
-#include "cca_mrpt/mapping/scan.hpp"
 #include "cca_mrpt/mapping/scan_agreement.hpp"
 #include "cca_mrpt/navigation/drive/progress.hpp"
 #include "cca_mrpt/navigation/drive/robot.hpp"
 #include "cca_mrpt/navigation/drive/tangent_bug/tangent_bug.hpp"
 #include "cca_mrpt/navigation/goals/global_planner.hpp"
 #include "cca_mrpt/navigation/place/exploration_grid.hpp"
-#include "cca_mrpt/navigation/place/past_scans.hpp"
+#include "cca_mrpt/sensing/past_scans.hpp"
+#include "cca_mrpt/sensing/scan.hpp"
 
 namespace cca {
 

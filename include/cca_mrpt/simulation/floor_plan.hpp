@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "cca_mrpt/mapping/arc.hpp"
+#include "cca_mrpt/geometry/arc.hpp"
 #include "cca_mrpt/simulation/world.hpp"
 
 namespace cca {

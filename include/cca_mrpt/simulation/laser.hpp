@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "cca_mrpt/mapping/scan.hpp"
+#include "cca_mrpt/sensing/scan.hpp"
 #include "cca_mrpt/simulation/body.hpp"
 #include "cca_mrpt/simulation/random.hpp"
 #include "cca_mrpt/simulation/world.hpp"

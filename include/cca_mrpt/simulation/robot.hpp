@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "cca_mrpt/mapping/pose2.hpp"
+#include "cca_mrpt/geometry/pose2.hpp"
 #include "cca_mrpt/navigation/drive/robot.hpp"
 #include "cca_mrpt/simulation/random.hpp"
 

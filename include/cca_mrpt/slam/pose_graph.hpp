@@ -5,7 +5,7 @@
 #include <memory>
 #include <vector>
 
-#include "cca_mrpt/mapping/pose2.hpp"
+#include "cca_mrpt/geometry/pose2.hpp"
 
 namespace cca {
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "cca_mrpt/mapping/parameters.hpp"
-#include "cca_mrpt/mapping/scan.hpp"
+#include "cca_mrpt/sensing/scan.hpp"
 
 namespace cca {
 

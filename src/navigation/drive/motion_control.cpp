@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "cca_mrpt/mapping/pose2.hpp"
+#include "cca_mrpt/geometry/pose2.hpp"
 
 namespace cca {
 namespace {

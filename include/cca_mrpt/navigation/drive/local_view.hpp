@@ -4,7 +4,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "cca_mrpt/mapping/scan.hpp"
+#include "cca_mrpt/sensing/scan.hpp"
 
 namespace cca {
 

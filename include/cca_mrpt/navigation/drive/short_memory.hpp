@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "cca_mrpt/mapping/pose2.hpp"
+#include "cca_mrpt/geometry/pose2.hpp"
 #include "cca_mrpt/navigation/drive/local_view.hpp"
 
 namespace cca {

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <limits>
 
-#include "cca_mrpt/mapping/scan.hpp"
 #include "cca_mrpt/navigation/place/cell.hpp"
+#include "cca_mrpt/sensing/scan.hpp"
 
 namespace cca {
 

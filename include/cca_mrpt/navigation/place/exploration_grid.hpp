@@ -5,9 +5,9 @@
 #include <cstdint>
 #include <vector>
 
-#include "cca_mrpt/mapping/scan.hpp"
-#include "cca_mrpt/mapping/sensor_noise.hpp"
 #include "cca_mrpt/navigation/place/cell.hpp"
+#include "cca_mrpt/sensing/scan.hpp"
+#include "cca_mrpt/sensing/sensor_noise.hpp"
 
 namespace cca {
 

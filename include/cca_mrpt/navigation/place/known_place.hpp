@@ -7,14 +7,14 @@
 #include <utility>
 #include <vector>
 
-#include "cca_mrpt/mapping/scan.hpp"
 #include "cca_mrpt/navigation/place/cell.hpp"
 #include "cca_mrpt/navigation/place/exploration_grid.hpp"
 #include "cca_mrpt/navigation/place/failed_tries.hpp"
 #include "cca_mrpt/navigation/place/free_space.hpp"
 #include "cca_mrpt/navigation/place/frontier.hpp"
 #include "cca_mrpt/navigation/place/grid_paths.hpp"
-#include "cca_mrpt/navigation/place/past_scans.hpp"
+#include "cca_mrpt/sensing/past_scans.hpp"
+#include "cca_mrpt/sensing/scan.hpp"
 
 namespace cca {
 

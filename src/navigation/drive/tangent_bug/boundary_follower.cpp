@@ -5,7 +5,7 @@
 #include <cmath>
 #include <cstddef>
 
-#include "cca_mrpt/mapping/pose2.hpp"
+#include "cca_mrpt/geometry/pose2.hpp"
 
 namespace cca {
 namespace {
@@ -61,12 +61,12 @@ constexpr double kTurnTolerance =
 
 constexpr double kAhead = 4.0;  // m, traced in front of the robot
 constexpr double kAheadClosely = 0.6;
-constexpr double kLookedAt = 0.15;  // m
-constexpr double kSensed = 8.0;     // m, traced each way for the first d_followed
-constexpr double kBeside = 1.0;     // m
-constexpr double kLost = 0.3;       // m, how far the boundary may move between two steps
-constexpr double kNarrow = 0.3;     // m, ahead
-constexpr double kHidden = 0.1;     // m, beyond what a beam sees
+constexpr double kLookedAt = 0.15;      // m
+constexpr double kSensed = 8.0;         // m, traced each way for the first d_followed
+constexpr double kBeside = 1.0;         // m
+constexpr double kBoundaryMoves = 0.3;  // m, at most, between two steps
+constexpr double kNarrow = 0.3;         // m, ahead
+constexpr double kHidden = 0.1;         // m, beyond what a beam sees
 
 bool isInSight(const LocalView& view, const Eigen::Vector2d& p_map) {
   const double distance = (p_map - view.T_map_sensor.position()).norm();
@@ -175,7 +175,8 @@ std::optional<Eigen::Vector2d> BoundaryFollower::step(const Eigen::Vector2d& goa
 bool BoundaryFollower::findAnchor(const LocalView& view, const ConfigurationSpace& space) {
   for (std::size_t i = anchor_; i < trace_.size(); ++i) {
     const Eigen::Vector2d& p = trace_[i].center_map;
-    if (!isInSight(view, p) || std::abs(space.clearance(p) - space.radius) > kLost) continue;
+    if (!isInSight(view, p) || std::abs(space.clearance(p) - space.radius) > kBoundaryMoves)
+      continue;
     length_ += trace_[i].length - trace_[anchor_].length;
     heading_ += trace_[i].heading - trace_[anchor_].heading;
     anchor_ = i;

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <limits>
 
-#include "cca_mrpt/mapping/cross.hpp"
-#include "cca_mrpt/mapping/range_noise.hpp"
+#include "cca_mrpt/geometry/cross.hpp"
+#include "cca_mrpt/sensing/range_noise.hpp"
 
 namespace cca {
 namespace {

@@ -6,7 +6,6 @@
 #include <utility>
 #include <vector>
 
-#include "cca_mrpt/mapping/scan.hpp"
 #include "cca_mrpt/navigation/drive/local_view.hpp"
 #include "cca_mrpt/navigation/drive/moving_points.hpp"
 #include "cca_mrpt/navigation/drive/near_surfaces.hpp"
@@ -17,6 +16,7 @@
 #include "cca_mrpt/navigation/drive/tangent_bug/motion_to_goal.hpp"
 #include "cca_mrpt/navigation/drive/tangent_bug/tangent_graph.hpp"
 #include "cca_mrpt/navigation/drive/target_driver.hpp"
+#include "cca_mrpt/sensing/scan.hpp"
 
 namespace cca {
 

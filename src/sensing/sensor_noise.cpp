@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "cca_mrpt/mapping/sensor_noise.hpp"
+#include "cca_mrpt/sensing/sensor_noise.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 
-#include "cca_mrpt/mapping/range_noise.hpp"
+#include "cca_mrpt/sensing/range_noise.hpp"
 
 namespace cca {
 namespace {

@@ -6,7 +6,7 @@
 #include <random>
 #include <vector>
 
-#include "cca_mrpt/mapping/scan.hpp"
+#include "cca_mrpt/sensing/scan.hpp"
 
 namespace cca {
 

@@ -4,8 +4,8 @@
 #include <Eigen/Core>
 #include <algorithm>
 
-#include "cca_mrpt/mapping/line_segment.hpp"
-#include "cca_mrpt/mapping/scan.hpp"
+#include "cca_mrpt/geometry/line_segment.hpp"
+#include "cca_mrpt/sensing/scan.hpp"
 
 namespace cca {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "cca_mrpt/mapping/range_noise.hpp"
+#include "cca_mrpt/sensing/range_noise.hpp"
 
 #include <algorithm>
 #include <cmath>

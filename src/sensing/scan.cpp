@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "cca_mrpt/mapping/scan.hpp"
+#include "cca_mrpt/sensing/scan.hpp"
 
 #include <algorithm>
 #include <utility>
 
-#include "cca_mrpt/mapping/gates.hpp"
+#include "cca_mrpt/sensing/gates.hpp"
 
 namespace cca {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "cca_mrpt/mapping/missing_returns.hpp"
+#include "cca_mrpt/sensing/missing_returns.hpp"
 
 namespace cca {
 namespace {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "cca_mrpt/mapping/scan.hpp"
+#include "cca_mrpt/sensing/scan.hpp"
 
 namespace cca {
 

@@ -1,11 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "cca_mrpt/navigation/place/past_scans.hpp"
+#include "cca_mrpt/slam/outer_corrections.hpp"
 
 #include <algorithm>
-#include <cassert>
 #include <cmath>
-#include <iterator>
-#include <limits>
 #include <utility>
 
 #include "cca_mrpt/mapping/line_map.hpp"
@@ -13,22 +10,6 @@
 
 namespace cca {
 namespace {
-
-constexpr double kEveryDistance = 0.2, kEveryTurn = M_PI / 18.0;  // m, rad, between kept scans
-
-void keep(std::vector<PastScans::Kept>& kept, const PastScans::Kept& candidate) {
-  const auto last = std::find_if(kept.rbegin(), kept.rend(), [&candidate](const auto& other) {
-    return other.sensor == candidate.sensor;
-  });
-  if (last != kept.rend()) {
-    const Pose2 &here = candidate.T_map_robot, &there = last->T_map_robot;
-    if ((here.position() - there.position()).norm() < kEveryDistance &&
-        std::abs(wrapAngle(here.theta - there.theta)) < kEveryTurn) {
-      return;
-    }
-  }
-  kept.push_back(candidate);
-}
 
 // Of map -> odom, between two scans: more than localisations correct at a step, and than wheels
 // err on the way between the two.
@@ -53,49 +34,6 @@ Pose2 between(const Pose2& a, const Pose2& b, double share, const Pose2& at) {
 double wayOf(const Pose2& step) { return step.position().norm() + kTurnWay * std::abs(step.theta); }
 
 }  // namespace
-
-void PastScans::add(const Scan& scan, const Pose2& T_map_robot, bool is_placed) {
-  const std::size_t step = steps_++;
-  keep(is_placed ? kept_ : unplaced_, {step, scan, T_map_robot, T_map_robot, is_placed});
-}
-
-void PastScans::addBeside(std::size_t step, const Scan& scan, const Pose2& T_map_robot,
-                          std::size_t sensor) {
-  keep(kept_, {step, scan, T_map_robot, T_map_robot, true, sensor});
-}
-
-void PastScans::correct(const std::vector<Pose2>& T_map_robot, const std::vector<bool>& is_placed) {
-  assert(T_map_robot.size() >= steps_ && is_placed.size() >= steps_);
-  for (Kept& kept : kept_) kept.was_placed = true;
-  std::vector<Kept> all;
-  std::merge(kept_.begin(), kept_.end(), unplaced_.begin(), unplaced_.end(),
-             std::back_inserter(all), [](const Kept& a, const Kept& b) { return a.step < b.step; });
-  kept_.clear();
-  unplaced_.clear();
-  for (Kept& kept : all) {
-    const Pose2 T_robot_sensor = kept.T_map_robot.inverse() * kept.scan.T_map_sensor;
-    kept.T_was_robot = kept.T_map_robot;
-    kept.T_map_robot = T_map_robot[kept.step];
-    kept.scan.T_map_sensor = kept.T_map_robot * T_robot_sensor;
-    (is_placed[kept.step] ? kept_ : unplaced_).push_back(std::move(kept));
-  }
-}
-
-Pose2 PastScans::correctionAt(const Eigen::Vector2d& p_was) const {
-  double least = std::numeric_limits<double>::infinity();
-  Pose2 T_map_was;
-  for (const Kept& kept : kept_) {
-    const double distance = (kept.T_was_robot.position() - p_was).norm();
-    if (!kept.was_placed || distance > least) continue;
-    least = distance;
-    T_map_was = kept.T_map_robot * kept.T_was_robot.inverse();
-  }
-  return T_map_was;
-}
-
-Pose2 PastScans::correctionHere() const {
-  return kept_.empty() ? Pose2{} : kept_.back().T_map_robot * kept_.back().T_was_robot.inverse();
-}
 
 bool OuterCorrections::add(const Scan& scan, const Pose2& T_map_robot, const Pose2& T_odom_robot,
                            double time) {

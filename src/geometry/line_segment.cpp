@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "cca_mrpt/mapping/line_segment.hpp"
+#include "cca_mrpt/geometry/line_segment.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-#include "cca_mrpt/mapping/cross.hpp"
+#include "cca_mrpt/geometry/cross.hpp"
 
 namespace cca {
 

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "cca_mrpt/mapping/arc.hpp"
-#include "cca_mrpt/mapping/cross.hpp"
+#include "cca_mrpt/geometry/arc.hpp"
+#include "cca_mrpt/geometry/cross.hpp"
 
 namespace cca {
 namespace {
