@@ -50,8 +50,8 @@ release() {
     { echo "the build has no ROS nodes"; return 1; }
 }
 
-# Many tests wait for a robot rather than for a processor: two at a time on each.
-tests() { (cd build && ctest -j$((2 * jobs)) --output-on-failure --no-tests=error "$@"); }
+# Many tests wait for a robot rather than for a processor: three at a time on each.
+tests() { (cd build && ctest -j$((3 * jobs)) --output-on-failure --no-tests=error "$@"); }
 
 # Also the proof that everything but the nodes builds where ROS is absent.
 sanitized() {  # DIR TARGET OPTIONS...

@@ -23,7 +23,6 @@ class ExploreRobot(unittest.TestCase):
     def setUpClass(cls):
         rospy.init_node("explore_robot")
         cls.status = Watch("status", String)
-        cls.lines = Watch("lines", LineMap)
         cls.commands = Watch("cmd_vel", Twist)
         cls.tf = Watch("/tf", TFMessage)
         cls.tf_static = Watch("/tf_static", TFMessage)
@@ -49,7 +48,7 @@ class ExploreRobot(unittest.TestCase):
 
     def test_5_lines_are_the_true_walls(self):
         truth = read_segments(rospy.get_param("~truth"))
-        lines = self.lines.messages[-1].lines
+        lines = rospy.wait_for_message("lines", LineMap, 20).lines  # the last: status may overtake it
         mapped = numpy.array([[l.start.x, l.start.y, l.end.x, l.end.y] for l in lines])
         middles = 0.5 * (mapped[:, :2] + mapped[:, 2:])
         self.assertLess(distance_to(truth, middles).max(), 0.1)
