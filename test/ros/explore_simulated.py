@@ -19,8 +19,8 @@ from tf2_msgs.msg import TFMessage
 from visualization_msgs.msg import Marker, MarkerArray
 
 from cca_mrpt.msg import LineMap
-from ros_watch import Watch, yaw
-from segments import cast, distance_to, read_segments
+from ros_watch import Watch, places, yaw
+from segments import cast, distance_to, in_view, read_segments
 
 
 class ExploreSimulated(unittest.TestCase):
@@ -181,26 +181,10 @@ class ExploreSimulated(unittest.TestCase):
             a, b, c, d = line.covariance
             self.assertTrue(a >= 0 and d >= 0 and a * d >= b * c, "a covariance")
             self.assertGreater(line.support, 2)
-        # Where the laser has seen the long walls well, lines are on them.
         mapped = numpy.array([[l.start.x, l.start.y, l.end.x, l.end.y] for l in lines])
-        long_walls = self.walls[numpy.hypot(*(self.walls[:, 2:] - self.walls[:, :2]).T) > 1.0]
-        seen = numpy.vstack([self.points_seen(w[:2], w[2:]) for w in long_walls])
+        seen = in_view(self.walls, places(Watch("trajectory", Path).wait(seconds=5)))
         self.assertGreater(len(seen), 100)
         self.assertGreater((distance_to(mapped, seen) < 0.05).mean(), 0.9)
-
-    def points_seen(self, start, end):
-        """Of 25 points along a wall, those that were in view within 6 m and not at a grazing angle."""
-        points = start + numpy.linspace(0.02, 0.98, 25)[:, None] * (end - start)
-        along = (end - start) / numpy.linalg.norm(end - start)
-        seen = numpy.zeros(len(points), bool)
-        for pose in Watch("trajectory", Path).wait(seconds=5).poses[::4]:
-            x, y = pose.pose.position.x, pose.pose.position.y
-            offset = points - (x, y)
-            distance = numpy.linalg.norm(offset, axis=1)
-            ranges = cast(self.walls, x, y, numpy.arctan2(offset[:, 1], offset[:, 0]))
-            steepness = numpy.abs(along[0] * offset[:, 1] - along[1] * offset[:, 0]) / distance
-            seen |= (numpy.abs(ranges - distance) < 0.01) & (distance < 6.0) & (steepness > 0.3)
-        return points[seen]
 
     def test_13_save_writes_the_folder(self):
         answer = self.call("save")

@@ -44,5 +44,10 @@ class Watch:
         self._subscriber.unregister()
 
 
+def places(path):
+    """m, n x 2: where a nav_msgs/Path has been, every fourth of its poses."""
+    return [(pose.pose.position.x, pose.pose.position.y) for pose in path.poses[::4]]
+
+
 def yaw(rotation):
     return 2.0 * math.atan2(rotation.z, rotation.w)

@@ -46,3 +46,22 @@ def distance_to(segments, points):
         t = numpy.clip(((points - start) @ d) / (d @ d), 0.0, 1.0)
         best = numpy.minimum(best, numpy.linalg.norm(points - start - t[:, None] * d, axis=1))
     return best
+
+
+def in_view(walls, places):
+    """Of points on the walls longer than a metre, those that were in view within 6 m, and not at a grazing angle, from
+    one of the places (m, n x 2): there a map has lines."""
+    seen = []
+    for x1, y1, x2, y2 in walls[numpy.hypot(*(walls[:, 2:] - walls[:, :2]).T) > 1.0]:
+        start, d = numpy.array([x1, y1]), numpy.array([x2 - x1, y2 - y1])
+        along = d / numpy.linalg.norm(d)
+        points = start + numpy.linspace(0.02, 0.98, 25)[:, None] * d
+        is_seen = numpy.zeros(len(points), bool)
+        for x, y in places:
+            offset = points - (x, y)
+            distance = numpy.linalg.norm(offset, axis=1)
+            ranges = cast(walls, x, y, numpy.arctan2(offset[:, 1], offset[:, 0]))
+            steepness = numpy.abs(along[0] * offset[:, 1] - along[1] * offset[:, 0]) / distance
+            is_seen |= (numpy.abs(ranges - distance) < 0.01) & (distance < 6.0) & (steepness > 0.3)
+        seen.append(points[is_seen])
+    return numpy.vstack(seen)
