@@ -34,6 +34,9 @@ def main():
     intel = arguments[arguments.index("--intel") + 1] if "--intel" in arguments else None
     if not arguments or arguments[0].startswith("-"):
         raise SystemExit(__doc__)
+    if intel and not os.path.exists(intel):
+        print("skipped, is missing: " + intel)
+        intel = None
     program = os.path.abspath(arguments[0])
     text = open(PAGE, encoding="utf-8").read()
     differs = []

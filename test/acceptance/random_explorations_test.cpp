@@ -89,7 +89,8 @@ constexpr double kLongestTime = 1800.0;
 struct Trial {
   LaserParameters laser;
   int movers = 0;
-  RobotParameters robot = {}, told = {};  ///< as it is, and as the planner is told
+  RobotParameters robot = {}, told = {};           ///< as it is, and as the planner is told
+  double period = RunParameters{}.control_period;  ///< s, between two scans
 };
 
 void explore(int seed, const Trial& trial, Outcome& outcome) {
@@ -115,7 +116,7 @@ void explore(int seed, const Trial& trial, Outcome& outcome) {
     coverage.look(simulation.T_map_robot());
     finished = action.status == ExplorationStatus::kFinished;
     reason = action.reason;
-    if (!finished) simulation.drive(action.velocity, parameters.run.control_period);
+    if (!finished) simulation.drive(action.velocity, trial.period);
   }
   const double seen = coverage.curve().back();
   EXPECT_TRUE(finished) << "not after " << simulation.distance() << " m";
@@ -247,6 +248,16 @@ TEST(RandomExplorations, WithCommandsLaterThanToldEndAndTouchNothing) {
 
 TEST(RandomExplorations, WithCommandsLessLateThanToldEndAndTouchNothing) {
   exploreAll(2, [](int seed) { return ofLateRobot(seed, 0.0, 0.15); });
+}
+
+TEST(RandomExplorations, WithSlowLasersEndAndTouchNothing) {
+  for (const double period : {0.2, 0.3}) {
+    exploreAll(2, [&](int seed) {
+      Trial trial = ofLateRobot(seed, 0.15, 0.15);
+      trial.period = period;
+      return trial;
+    });
+  }
 }
 
 TEST(RandomExplorations, WithBrakesWeakerThanToldEndAndTouchNothing) {

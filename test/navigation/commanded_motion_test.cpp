@@ -178,5 +178,22 @@ TEST(SentCommands, KnowNothingBeforeTheFirstAndAfterAGap) {
   EXPECT_EQ(sent.at(3.5)->linear, 0.4);
 }
 
+TEST(CommandedMotion, ACommandStandsForTheLongestTimeBetweenObservationsOfLate) {
+  CommandedMotion motion{RobotParameters{}};
+  EXPECT_DOUBLE_EQ(motion.period(), 0.1);  // until it is known
+  double time = 0.0;
+  const auto observe = [&](int times, double interval) {
+    for (int i = 0; i < times; ++i) motion.observe({}, time += interval);
+  };
+  observe(5, 0.02);
+  EXPECT_DOUBLE_EQ(motion.period(), 0.1);
+  observe(1, 0.2);
+  EXPECT_NEAR(motion.period(), 0.2, 1e-5);
+  observe(5, 0.1);
+  EXPECT_DOUBLE_EQ(motion.period(), 0.1);
+  observe(1, 60.0);  // a pause
+  EXPECT_DOUBLE_EQ(motion.period(), 1.0);
+}
+
 }  // namespace
 }  // namespace cca::testing::commanded_motion_test

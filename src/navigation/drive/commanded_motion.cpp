@@ -26,6 +26,10 @@ constexpr double kUnbraked = 0.5, kHardBraking = 0.6;  // of the brakes, before 
 
 constexpr double kSameLatency = 0.05;  // s: half a control period, which safeVelocity() allows for
 
+constexpr double kShortestPeriod = 0.1, kLongestPeriod = 1.0;  // s
+constexpr double kRounding = 1e-6;                             // s, of stamps
+constexpr std::size_t kIntervals = 5;
+
 }  // namespace
 
 void SentCommands::add(const Velocity& command, double time) {
@@ -183,7 +187,15 @@ void CommandedMotion::changeMotion(const RobotParameters& robot) {
 void CommandedMotion::observe(const Velocity& measured, double time) {
   shown_.observe(sent_, measured, time);
   measured_ = measured;
+  if (time_ >= 0.0) intervals_.push_back(time - time_);
+  if (intervals_.size() > kIntervals) intervals_.pop_front();
   time_ = time;
+}
+
+double CommandedMotion::period() const {
+  double longest = kShortestPeriod;
+  for (const double interval : intervals_) longest = std::max(longest, interval - kRounding);
+  return std::min(longest, kLongestPeriod);
 }
 
 Onset CommandedMotion::after(double latency) const {

@@ -31,9 +31,10 @@ struct Predicted {
 
 using StoppingPath = std::vector<Predicted>;
 
-// The command for one period, then braking until it stands.
-StoppingPath stoppingPath(const Onset& start, const Velocity& command, const Velocity& brakes,
-                          double period) {
+// The command for one period, to which the base turns as fast as it can, then braking until it
+// stands. @param turns_faster  rad/s^2.
+StoppingPath stoppingPath(const Onset& start, const Velocity& command, double turns_faster,
+                          const Velocity& brakes, double period) {
   StoppingPath path;
   Pose2 pose = start.T_now_then;
   const Velocity& present = start.velocity;
@@ -51,9 +52,13 @@ StoppingPath stoppingPath(const Onset& start, const Velocity& command, const Vel
     path.push_back({pose.position(), time});
   };
   // The command may act late by up to one period or at once: the faster of both is assumed.
-  const Velocity first{std::max(present.linear, command.linear), command.angular};
-  while (time < start.delay + period - 1e-9) advance(first);
-  velocity = {std::max(present.linear, command.linear), command.angular};
+  const double linear = std::max(present.linear, command.linear);
+  double turned_up = kStep;  // s: ahead by one, as turning at once would be
+  while (time < start.delay + period - 1e-9) {
+    advance({linear, towards(present.angular, command.angular, turns_faster * turned_up)});
+    turned_up += kStep;
+  }
+  velocity = {linear, command.angular};
   while (velocity.linear > kNoMotion || std::abs(velocity.angular) > kNoMotion) {
     advance({towards(velocity.linear, 0.0, brakes.linear * kStep),
              towards(velocity.angular, 0.0, brakes.angular * kStep)});
@@ -154,12 +159,14 @@ Velocity safeVelocity(const Velocity& wanted, const Velocity& present,
   };
   const auto near = hazardsInReach(hazards, present.linear + dv, radius, period, brakes, others);
   const Velocity braking = reachable(0.0, 0.0);
+  const double turns_faster = robot.max_angular_acceleration;
   // From each start, how near to each hazard the robot may come.
   std::vector<Onset> starts{{{}, present, 0.0}};
   starts.insert(starts.end(), others.begin(), others.end());
   std::vector<std::vector<double>> keep(starts.size());
   for (std::size_t i = 0; i < starts.size() && !near.empty(); ++i) {
-    const auto path = i > 0 ? stoppingPath(starts[i], braking, brakes, period) : StoppingPath{};
+    const auto path =
+        i > 0 ? stoppingPath(starts[i], braking, turns_faster, brakes, period) : StoppingPath{};
     for (const Hazard& hazard : near) {
       const double distance = hazard.p_robot.norm(), now = i > 0 ? nearest(path, hazard) : distance;
       const double deeper = i == 0 && distance < robot.radius ? kSlack : kDeeper;
@@ -168,7 +175,7 @@ Velocity safeVelocity(const Velocity& wanted, const Velocity& present,
   }
   const auto isAllowed = [&](const Velocity& command) {
     for (std::size_t i = 0; i < starts.size() && !near.empty(); ++i) {
-      const auto path = stoppingPath(starts[i], command, brakes, period);
+      const auto path = stoppingPath(starts[i], command, turns_faster, brakes, period);
       for (std::size_t k = 0; k < near.size(); ++k) {
         if (nearest(path, near[k]) < keep[i][k]) return false;
       }

@@ -21,7 +21,6 @@ constexpr double kPreciseSigma = 0.006;                      // m
 // m, beside the robot. Ways are planned around obstacle points that are thinned; from a corner that
 // this leaves out, the robot keeps no more than what may hide between two beams.
 constexpr double kBetweenBeams = 0.004;
-constexpr double kControlPeriod = 0.1;  // s
 // s, that a robot is held by what it is too near to, and that it then drives past it instead of
 // straight to its target. In passages of its own width it would turn to and fro between the walls.
 constexpr double kHeld = 1.0, kGettingAway = 3.0;
@@ -56,7 +55,7 @@ Velocity TargetDriver::step(const std::optional<DriveTarget>& target, const Velo
         {onset.T_now_then.inverse() * other.T_now_then, other.velocity, other.delay - onset.delay});
   }
   const Velocity command = safeVelocity(wish, onset.velocity, near, robot_, clearance,
-                                        kControlPeriod, motion_.shown().provenBrakes(), others);
+                                        motion_.period(), motion_.shown().provenBrakes(), others);
   motion_.note(command);
   noteWhetherHeld(velocity.linear < kStands && command.linear == 0.0 && wish.linear > 0.0, time);
   remember(view, heeded);

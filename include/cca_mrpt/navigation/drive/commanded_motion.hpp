@@ -119,6 +119,9 @@ class CommandedMotion {
   RobotParameters believed() const;
   double latency() const { return std::max(robot_.latency, shown_.latency()); }  ///< s
   double time() const { return time_; }  ///< s, of the last observation
+  /// s, how long a command stands until the next one: the longest time between two of the last six
+  /// observations, 0.1 to 1.
+  double period() const;
   const ShownMotion& shown() const { return shown_; }
 
  private:
@@ -129,6 +132,7 @@ class CommandedMotion {
   ShownMotion shown_;
   Velocity measured_;
   double time_ = -1.0;
+  std::deque<double> intervals_;  ///< s, the last ones
 };
 
 }  // namespace cca
