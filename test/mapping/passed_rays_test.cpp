@@ -4,11 +4,8 @@
 #include <cmath>
 #include <limits>
 #include <random>
-#include <set>
-#include <utility>
 
 #include "cca_mrpt/mapping/laser_evidence.hpp"
-#include "cca_mrpt/mapping/swept_cells.hpp"
 
 namespace cca {
 namespace {
@@ -19,34 +16,6 @@ Scan evenScan(std::size_t beams, double angle_min, double increment) {
   scan.angle_min = angle_min;
   scan.angle_increment = increment;
   return scan;
-}
-
-TEST(SweptCells, HoldEachCellThatARayCrosses) {
-  std::mt19937 random(3);
-  std::uniform_real_distribution<double> length(0.0, 12.0), place(-5.0, 5.0), chance(0.0, 1.0);
-  for (int trial = 0; trial < 50; ++trial) {
-    const Eigen::Vector2d origin(place(random), place(random));
-    SweptCells cells(origin, 12.0);
-    std::set<std::pair<int, int>> crossed, held;
-    for (double bearing = -3.1; bearing < 3.1; bearing += 0.02) {
-      if (chance(random) < 0.1) {
-        cells.breakOff();
-        continue;
-      }
-      const Eigen::Vector2d u(std::cos(bearing), std::sin(bearing));
-      const double reach = length(random);
-      cells.sweepTo(origin + reach * u);
-      for (double r = 0.0; r < reach; r += 0.05) {
-        const WallIndex::Cell cell = WallIndex::cellOf(origin + r * u);
-        crossed.insert({cell.x(), cell.y()});
-      }
-    }
-    cells.breakOff();
-    cells.forEach([&](const WallIndex::Cell& cell) {
-      EXPECT_TRUE(held.insert({cell.x(), cell.y()}).second) << "visited twice";
-    });
-    for (const auto& cell : crossed) EXPECT_EQ(held.count(cell), 1u);
-  }
 }
 
 /// Whether beams that meet the stretch lie in the ranges.

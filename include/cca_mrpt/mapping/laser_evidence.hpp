@@ -37,8 +37,8 @@ void depositReturns(const Scan& scan, const std::vector<Eigen::Vector2d>& beams,
 /// than noise and pose error could feign. A ray without return counts up to
 /// scan.free_range_without_return.
 ///
-/// Cost: O(beams + cells that the scan sweeps + beams towards each wall in them), whatever the size
-/// of the map.
+/// Cost: O(beams + cells of the rectangle that the rays span + beams towards each wall in them),
+/// whatever the size of the map.
 void passRays(const Scan& scan, const std::vector<Eigen::Vector2d>& beams, const MapNoise& noise,
               Walls& walls);
 
