@@ -23,19 +23,15 @@ std::optional<Eigen::Vector2d> intersection(const FittedLine& a, const FittedLin
   return a.centroid + a.direction * (cross(between, b.direction) / sine);
 }
 
-PrefixMoments::PrefixMoments(const std::vector<Eigen::Vector2d>& points) {
+PrefixMoments::PrefixMoments(const std::vector<Eigen::Vector2d>& points,
+                             const std::vector<double>& weights)
+    : sums_(points.size() + 1) {
   for (const Eigen::Vector2d& p : points) origin_ += p;
   if (!points.empty()) origin_ /= static_cast<double>(points.size());
-  sums_.resize(points.size() + 1);
-  Sums sums;
   for (std::size_t i = 0; i < points.size(); ++i) {
-    const double x = points[i].x() - origin_.x(), y = points[i].y() - origin_.y();
-    sums.x += x;
-    sums.y += y;
-    sums.xx += x * x;
-    sums.xy += x * y;
-    sums.yy += y * y;
-    sums_[i + 1] = sums;
+    const Eigen::Vector2d p = points[i] - origin_;
+    sums_[i + 1] = sums_[i];
+    sums_[i + 1].addPoint(p.x(), p.y(), weights.empty() ? 1.0 : weights[i]);
   }
 }
 

@@ -57,52 +57,29 @@ struct Telling {
 };
 
 /// Moments of any run of points, each of the weight of its variance.
-class WeighedRuns {
- public:
-  explicit WeighedRuns(const std::vector<CurvePoint>& points) : sums_(points.size() + 1) {
-    for (std::size_t i = 0; i < points.size(); ++i) {
-      sums_[i + 1] = sums_[i];
-      sums_[i + 1].addPoint(1.0 / points[i].variance, points[i].position - points[0].position);
-    }
+PrefixMoments weighedRuns(const std::vector<CurvePoint>& points) {
+  std::vector<Eigen::Vector2d> positions;
+  std::vector<double> weights;
+  for (const CurvePoint& p : points) {
+    positions.push_back(p.position);
+    weights.push_back(1.0 / p.variance);
   }
-  /// Chi-square of the best line through points first <= i < last.
-  double ofLine(int first, int last) const {
-    return principalAxis(moments(first, last)).residual_sum_sq;
-  }
+  return PrefixMoments(positions, weights);
+}
 
- private:
-  PointMoments moments(int first, int last) const {
-    Sums s = sums_[static_cast<std::size_t>(last)];
-    s.remove(sums_[static_cast<std::size_t>(first)]);
-    return {s.w, s.p / s.w, s.pp - s.p * s.p.transpose() / s.w};
-  }
-  struct Sums {
-    double w = 0.0;
-    Eigen::Vector2d p = Eigen::Vector2d::Zero();
-    Eigen::Matrix2d pp = Eigen::Matrix2d::Zero();
+/// Chi-square of the best line through points first <= i < last.
+double ofLine(const PrefixMoments& runs, int first, int last) {
+  return principalAxis(runs.run(first, last)).residual_sum_sq;
+}
 
-    void addPoint(double weight, const Eigen::Vector2d& at) {
-      w += weight;
-      p += weight * at;
-      pp += weight * at * at.transpose();
-    }
-    void remove(const Sums& o) {
-      w -= o.w;
-      p -= o.p;
-      pp -= o.pp;
-    }
-  };
-  std::vector<Sums> sums_;
-};
-
-Telling asTold(const std::vector<ChainLink>& links, const WeighedRuns& runs, int first, int last,
+Telling asTold(const std::vector<ChainLink>& links, const PrefixMoments& runs, int first, int last,
                const Prices& prices) {
   Telling told;
   for (int k = first; k < last; ++k) {
     const ChainLink& link = links[static_cast<std::size_t>(k)];
     const double points = link.last - link.first;
     if (link.is_line) {
-      told.addLine(points, runs.ofLine(link.first, link.last), prices);
+      told.addLine(points, ofLine(runs, link.first, link.last), prices);
     } else {
       told.price += kPointPrice * points;
     }
@@ -112,14 +89,14 @@ Telling asTold(const std::vector<ChainLink>& links, const WeighedRuns& runs, int
 
 /// The points as they would be told with the noise alone: by two lines that meet, wherever that is.
 /// @param free  they stand free, as the two faces of a box.
-Telling byCorner(const WeighedRuns& runs, int first, int last, bool free, const Prices& prices) {
+Telling byCorner(const PrefixMoments& runs, int first, int last, bool free, const Prices& prices) {
   Telling best;
   best.price = free ? prices.free_corner : prices.line + prices.next_line;
   best.freedom = last - first - 4.0;
   best.chi_square = std::numeric_limits<double>::infinity();
   for (int middle = first + 2; middle + 2 <= last; ++middle) {
     best.chi_square =
-        std::min(best.chi_square, runs.ofLine(first, middle) + runs.ofLine(middle, last));
+        std::min(best.chi_square, ofLine(runs, first, middle) + ofLine(runs, middle, last));
   }
   return best;
 }
@@ -175,7 +152,7 @@ std::vector<ArcOfLinks> arcsOfChain(const std::vector<CurvePoint>& points,
     Arc arc;
   };
   std::vector<Best> best(links.size() + 1);
-  const WeighedRuns runs(points);
+  const PrefixMoments runs = weighedRuns(points);
   const auto at = [](int i) { return static_cast<std::size_t>(i); };
   const auto consider = [&](int first, int last, const std::optional<Limbs>& touched) {
     const int from = links[at(first)].first, to = links[at(last - 1)].last;

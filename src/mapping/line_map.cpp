@@ -89,9 +89,9 @@ void LineMap::learn(const std::vector<NewLine>& lines) {
     const int middle = SupportProfile::binOf(m.x());
     if (!wall.profile.contains(middle - half) || !wall.profile.contains(middle + half)) continue;
     // Against the stretch of wall that it covers, so that no bend is taken for a pose error.
-    const BinSums seen = wall.profile.tally({middle - half, middle + half + 1}).fitted;
+    const PointSums seen = wall.profile.tally({middle - half, middle + half + 1}).fitted;
     if (seen.w < 0.5 * half) continue;
-    noise_.learnOffset(m.y() - seen.d / seen.w - wall.fit.slope * (m.x() - seen.t / seen.w),
+    noise_.learnOffset(m.y() - seen.y / seen.w - wall.fit.slope * (m.x() - seen.x / seen.w),
                        line.own_offset_variance);
     const Eigen::Vector2d u = line.segment.direction(), w = wall.fittedDirection();
     noise_.learnAngle(cross(w, u), line.own_angle_variance);

@@ -75,7 +75,7 @@ void addPoints(const Piece& piece, const MapNoise& noise, std::vector<CurvePoint
   const double variance = noise.lateralSigma() * noise.lateralSigma();
   for (int i = first; i < last; ++i) {
     const SupportBin& b = wall.profile.bin(i);
-    if (b.hits > 0.0) points->push_back({wall.toMap(b.t / b.hits, b.d / b.hits), variance});
+    if (b.hits() > 0.0) points->push_back({wall.toMap(b.mean()), variance});
   }
 }
 

@@ -46,9 +46,9 @@ struct LateralLine {
 };
 
 /// @param variance  m^2, of one bin.
-LateralLine lateralLine(const BinSums& sums, double variance) {
+LateralLine lateralLine(const PointSums& sums, double variance) {
   const LateralFit fit = sums.fit();
-  const double middle = sums.t / sums.w, spread = sums.tt - sums.t * middle;
+  const double middle = sums.x / sums.w, spread = sums.xx - sums.x * middle;
   return {middle, fit.at(middle), fit.slope, variance / sums.w,
           spread > variance ? variance / spread : 1.0};
 }
@@ -77,9 +77,9 @@ Difference difference(const LateralLine& a, const LateralLine& b) {
 }
 
 /// Mean squared distance [m^2] of what was added up from a line.
-double meanSquareOff(const BinSums& s, const LateralFit& line) {
+double meanSquareOff(const PointSums& s, const LateralFit& line) {
   const double o = line.offset, k = line.slope;
-  return (s.dd - 2.0 * (o * s.d + k * s.td) + 2.0 * o * k * s.t + k * k * s.tt) / s.w + o * o;
+  return (s.yy - 2.0 * (o * s.y + k * s.xy) + 2.0 * o * k * s.x + k * k * s.xx) / s.w + o * o;
 }
 
 /// Whether the two hold hits beside each other. In the bin where one ends and the other goes on,
@@ -88,8 +88,8 @@ bool standSideBySide(const Wall& wall, const Wall& other) {
   int common = 0;
   for (int i = other.profile.first(); i < other.profile.last(); ++i) {
     const SupportBin& bin = other.profile.bin(i);
-    if (bin.hits <= 0.0) continue;
-    if (wall.hitNear(other.toMap(bin.t / bin.hits, bin.d / bin.hits)) && ++common > 1) return true;
+    if (bin.hits() <= 0.0) continue;
+    if (wall.hitNear(other.toMap(bin.mean())) && ++common > 1) return true;
   }
   return false;
 }
@@ -100,7 +100,7 @@ double square(double x) { return x * x; }
 
 Memberships mapMemberships(const NewLine& line, const Wall& wall, const MapNoise& noise) {
   const double cosine = line.segment.direction().dot(wall.fittedDirection());
-  const BinSums& sums = wall.profile.sums();
+  const PointSums& sums = wall.profile.sums();
   if (std::abs(cosine) < kComparable || sums.w <= 0.0) return {};
   const Eigen::Vector2d a = wall.toWall(line.segment.start), b = wall.toWall(line.segment.end);
   const Extent seen{std::min(a.x(), b.x()), std::max(a.x(), b.x())}, known = extentOf(wall);
@@ -123,7 +123,7 @@ Memberships mapMemberships(const Wall& wall, const Wall& other, const MapNoise& 
   if (std::abs(cosine) < kComparable) return {};
   const Extent mine = extentOf(wall), theirs = extentOf(other, wall);
   if (outgrown(mine, theirs)) return {};
-  const BinSums &a = wall.profile.sums(), b = sumsInFrameOf(wall, other);
+  const PointSums &a = wall.profile.sums(), b = sumsInFrameOf(wall, other);
   if (a.w <= 0.0 || b.w <= 0.0) return {};
   const double sigma = noise.lateralSigma(), variance = sigma * sigma;
   const Difference apart = difference(lateralLine(a, variance), lateralLine(b, variance));
@@ -145,7 +145,7 @@ Memberships mapMemberships(const Wall& wall, const Wall& other, const MapNoise& 
   const double gate = (within ? 2.0 : 1.0) * kChiSquareGate1;
   mu.orientation = bell(apart.angle, gate);
   mu.offset = bell(apart.offset, gate);
-  BinSums joint = a;
+  PointSums joint = a;
   joint.add(b);
   const LateralFit line = joint.fit();
   const double off = std::max(meanSquareOff(a, line), meanSquareOff(b, line));

@@ -20,7 +20,7 @@ constexpr double kBenefitOfDoubt = 1000.0;
 
 bool stands(const Wall& wall, double t) {
   const int i = SupportProfile::binOf(t);
-  return wall.profile.contains(i) && wall.profile.bin(i).hits >= kFewestHits &&
+  return wall.profile.contains(i) && wall.profile.bin(i).hits() >= kFewestHits &&
          wall.profile.occupied(i);
 }
 

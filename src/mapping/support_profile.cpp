@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "cca_mrpt/mapping/support_profile.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -12,9 +11,62 @@ constexpr int kWindow = 2;            // bins on either side that speak for a pl
 constexpr double kFewestRays = 2.0;   // that can refute a place
 constexpr double kRaysPerHit = 0.5;   // from which on a place is free
 constexpr double kPartingRays = 2.0;  // that keep a gap open
-constexpr int kMostUpdates = 1000;    // of a tally, before it is added up anew
+
+/// The mean point of a bin that holds hits, with a weight below 1, so that one place does not
+/// outvote the others, that grows with the hits, so that one glance does not bend a wall.
+PointSums meanPoint(const SupportBin& bin) {
+  constexpr double kHitsOfHalfWeight = 2.0;
+  const PointSums& s = bin.returns;
+  const double share = 1.0 / (s.w + kHitsOfHalfWeight), per_hit = share / s.w;
+  return {share * s.w,         share * s.x,         share * s.y,
+          per_hit * s.x * s.x, per_hit * s.x * s.y, per_hit * s.y * s.y};
+}
 
 }  // namespace
+
+void SupportBin::hit(double t, double d) {
+  first = hits() > 0.0 ? std::min(first, t) : t;
+  last = hits() > 0.0 ? std::max(last, t) : t;
+  returns.addPoint(t, d);
+  bound();
+}
+
+void SupportBin::add(const SupportBin& other) {
+  if (other.hits() > 0.0) {
+    first = hits() > 0.0 ? std::min(first, other.first) : other.first;
+    last = hits() > 0.0 ? std::max(last, other.last) : other.last;
+  }
+  returns.add(other.returns);
+  passed += other.passed;
+  bound();
+}
+
+void SupportBin::bound() {
+  if (hits() <= kMostHits) return;
+  const double share = kMostHits / hits();
+  returns.scale(share);
+  passed *= share;
+}
+
+SupportBin SupportBin::part(double share, double t_first, double t_last) const {
+  const PointSums& s = returns;
+  const double t_mean = s.x / s.w, d_mean = s.y / s.w;
+  const double var_t = s.xx / s.w - t_mean * t_mean, cov = s.xy / s.w - t_mean * d_mean,
+               var_d = s.yy / s.w - d_mean * d_mean;
+  const double slope = var_t > 1e-9 ? cov / var_t : 0.0;
+  const double t = 0.5 * (t_first + t_last), d = d_mean + slope * (t - t_mean);
+  const double spread = (t_last - t_first) * (t_last - t_first) / 12.0;
+  const double across = std::max(0.0, var_d - slope * slope * (var_t - spread));
+  const double n = share * s.w;
+  const PointSums held{
+      n, n * t, n * d, n * (t * t + spread), n * (t * d + slope * spread), n * (d * d + across)};
+  SupportBin r;
+  r.returns = held;
+  r.passed = share * passed;
+  r.first = t_first;
+  r.last = t_last;
+  return r;
+}
 
 void SupportProfile::grow(int i) {
   if (contains(i)) return;
@@ -28,79 +80,31 @@ void SupportProfile::grow(int i) {
 
 const SupportBin& SupportProfile::hit(double t, double d) {
   const int i = binOf(t);
-  if (!open_ || i != open_bin_) {
-    settle();
-    grow(i);
-    if (tallied_) {
-      open_ = true;
-      open_bin_ = i;
-      before_ = at(i);
-    }
-  }
-  SupportBin& bin = at(i);
-  if (bin.hits + 1.0 > SupportBin::kMostHits && bin.passed > 0.0) parted_ = false;  // both scaled
-  bin.hit(t, d);
-  refuted_ = refuted_ || bin.isRefuted();  // where rays had gone before
-  return bin;
-}
-
-void SupportProfile::settle() const {
-  if (!std::exchange(open_, false)) return;
-  if (++updates_ > kMostUpdates) return forget();
-  BinTally change, old;
-  change.add(bin(open_bin_));
-  old.add(before_);
-  change.remove(old);
-  tally_.add(change);
-  if (!parted_) return;
-  Stretch* const stretch = stretchAt(open_bin_);
-  parted_ = stretch != nullptr && !movesPlace(open_bin_, change.returns.w, 0.0);
-  if (parted_) stretch->tally.add(change);
-}
-
-Stretch* SupportProfile::stretchAt(int i) const {
-  for (Stretch& stretch : stretches_) {
-    if (i >= stretch.range.first && i < stretch.range.last) return &stretch;
-  }
-  return nullptr;
+  grow(i);
+  added_up_ = false;
+  at(i).hit(t, d);
+  return bin(i);
 }
 
 bool SupportProfile::pass(double t, double rays) {
   const int i = binOf(t);
-  if (!contains(i) || at(i).passed >= SupportBin::kMostHits) return false;
-  settle();
-  const double before = at(i).passed;
+  if (!contains(i) || bin(i).passed >= SupportBin::kMostHits) return false;
+  const double before = bin(i).passed;
   at(i).passed = std::min(before + rays, SupportBin::kMostHits);
-  const bool refutes_bin = at(i).isRefuted();
-  refuted_ = refuted_ || refutes_bin;
-  const bool changes =
-      refutes_bin || before < kPartingRays || movesPlace(i, 0.0, at(i).passed - before);
-  if (changes) parted_ = false;
-  return changes;
-}
-
-bool SupportProfile::movesPlace(int i, double new_hits, double new_rays) const {
-  double rays_near = 0.0;
-  for (int k = std::max(first(), i - 2 * kWindow); k < std::min(last(), i + 2 * kWindow + 1); ++k) {
-    rays_near += bin(k).passed;
-  }
-  if (rays_near < kFewestRays) return false;
-  if (new_hits > 0.0 && bin(i).hits <= new_hits) return true;  // a place that was none
+  if (bin(i).isRefuted() || before < kPartingRays) return true;
   for (int k = std::max(first(), i - kWindow); k < std::min(last(), i + kWindow + 1); ++k) {
-    if (bin(k).hits <= 0.0) continue;
+    if (bin(k).hits() <= 0.0) continue;
     const Counts now = countsAround(k);
-    if (now.stand() != Counts{now.hits - new_hits, now.passed - new_rays}.stand()) return true;
+    if (now.stand() != Counts{now.hits, now.passed - bin(i).passed + before}.stand()) return true;
   }
   return false;
 }
 
 SupportProfile::Counts SupportProfile::countsAround(int i) const {
-  const SupportBin* from = bins_.data() + (std::max(first(), i - kWindow) - first_);
-  const SupportBin* to = bins_.data() + (std::min(last(), i + kWindow + 1) - first_);
   Counts counts;
-  for (const SupportBin* b = from; b < to; ++b) {
-    counts.hits += b->hits;
-    counts.passed += b->passed;
+  for (int k = std::max(first(), i - kWindow); k < std::min(last(), i + kWindow + 1); ++k) {
+    counts.hits += bin(k).hits();
+    counts.passed += bin(k).passed;
   }
   return counts;
 }
@@ -110,124 +114,97 @@ bool SupportProfile::Counts::stand() const {
 }
 
 void SupportProfile::add(const SupportBin& other) {
-  if (other.hits <= 0.0) return;
-  const int i = binOf(other.t_min), j = binOf(other.t_max);
+  if (other.hits() <= 0.0) return;
+  const int i = binOf(other.first), j = binOf(other.last);
   grow(i);
   grow(j);
-  forget();
-  if (i == j) {
-    at(i).add(other);
-  } else {
-    // The hits straddle two bins: they are shared out as if they were spread evenly. A last hit on
-    // the border may lie before it by a rounding error, and no bin may hold less than nothing.
-    const double border = j * kBinLength;
-    const double share = std::min((border - other.t_min) / (other.t_max - other.t_min), 1.0);
-    at(i).add(other.part(share, other.t_min, border));
-    if (share < 1.0) at(j).add(other.part(1.0 - share, border, other.t_max));
-  }
-  refuted_ = refuted_ || at(i).isRefuted() || at(j).isRefuted();
+  added_up_ = false;
+  if (i == j) return at(i).add(other);
+  // The hits straddle two bins: they are shared out as if they were spread evenly. A last hit on
+  // the border may lie before it by a rounding error, and no bin may hold less than nothing.
+  const double border = j * kBinLength;
+  const double share = std::min((border - other.first) / (other.last - other.first), 1.0);
+  at(i).add(other.part(share, other.first, border));
+  if (share < 1.0) at(j).add(other.part(1.0 - share, border, other.last));
 }
 
 SupportBin SupportProfile::take(int i) {
-  forget();
+  added_up_ = false;
   return std::exchange(at(i), SupportBin{});
 }
 
 SupportProfile SupportProfile::cutFrom(int from) {
-  forget();
+  added_up_ = false;
   SupportProfile tail;
   const auto begin = bins_.begin() + (from - first_);
   tail.first_ = from;
   tail.bins_.assign(begin, bins_.end());
-  tail.refuted_ = refuted_;
   bins_.erase(begin, bins_.end());
   return tail;
 }
 
 bool SupportProfile::prune() {
-  if (std::exchange(refuted_, false)) {
-    for (SupportBin& bin : bins_) {
-      if (!bin.isRefuted()) continue;
-      const double passed = bin.passed;
-      bin = SupportBin{};
-      bin.passed = passed;
-      forget();
-    }
+  bool changed = false;
+  for (SupportBin& bin : bins_) {
+    if (!bin.isRefuted()) continue;
+    bin = {{}, bin.passed};
+    changed = true;
   }
-  const auto stands = [](const SupportBin& bin) { return bin.hits > 0.0; };
-  if (bins_.empty() || (stands(bins_.front()) && stands(bins_.back()))) return false;
-  forget();
-  const auto begin = std::find_if(bins_.begin(), bins_.end(), stands);
+  const auto stands = [](const SupportBin& bin) { return bin.hits() > 0.0; };
   const auto end = std::find_if(bins_.rbegin(), bins_.rend(), stands).base();
-  if (begin == bins_.end()) {
-    bins_.clear();
-    return true;
-  }
+  const auto begin = std::find_if(bins_.begin(), end, stands);
+  changed = changed || begin != bins_.begin() || end != bins_.end();
+  if (changed) added_up_ = false;
   first_ += static_cast<int>(begin - bins_.begin());
   bins_.erase(end, bins_.end());
   bins_.erase(bins_.begin(), begin);
-  return true;
+  return changed;
 }
 
-bool SupportProfile::occupied(int i) const { return bin(i).hits > 0.0 && countsAround(i).stand(); }
+bool SupportProfile::occupied(int i) const {
+  return bin(i).hits() > 0.0 && countsAround(i).stand();
+}
 
-const std::vector<Stretch>& SupportProfile::stretches() const {
-  settle();
-  if (parted_) return stretches_;
-  tally();
-  parted_ = true;
-  stretches_.clear();
+std::vector<Stretch> SupportProfile::stretches() const {
+  std::vector<Stretch> found;
   double passed_since = 0.0;
-  int rays = first() - kWindow - 1;  // the last bin up to i + kWindow that any ray went through
-  for (int i = first() - kWindow; i < last(); ++i) {
-    if (i + kWindow < last() && bin(i + kWindow).passed > 0.0) rays = i + kWindow;
-    if (i < first()) continue;
-    const bool stands = rays < i - kWindow ? bin(i).hits > 0.0 : occupied(i);
-    if (!stands) {
+  for (int i = first(); i < last(); ++i) {
+    if (!occupied(i)) {
       passed_since += bin(i).passed;
       continue;
     }
-    const bool joins = !stretches_.empty() && i - stretches_.back().range.last <= kBridgedBins &&
+    const bool joins = !found.empty() && i - found.back().range.last <= kBridgedBins &&
                        passed_since < kPartingRays;
-    if (joins) {
-      stretches_.back().range.last = i + 1;
-    } else {
-      stretches_.push_back({{i, i + 1}, {}});
-    }
+    if (!joins) found.push_back({{i, i}, {}});
+    found.back().range.last = i + 1;
     passed_since = 0.0;
   }
-  for (Stretch& s : stretches_) {
-    const bool whole = s.range.first == first() && s.range.last == last();
-    s.tally = whole ? tally_ : tally(s.range);
-  }
-  return stretches_;
+  for (Stretch& stretch : found) stretch.tally = tally(stretch.range);
+  return found;
 }
 
-const BinTally& SupportProfile::tally() const {
-  settle();
-  if (!tallied_) {
-    tally_ = tally({first(), last()});
-    tallied_ = true;
-    updates_ = 0;
-  }
-  return tally_;
+const PointSums& SupportProfile::sums() const {
+  if (!std::exchange(added_up_, true)) sums_ = tally({first(), last()}).fitted;
+  return sums_;
 }
 
 BinTally SupportProfile::tally(const BinRange& range) const {
   BinTally tally;
-  for (int i = range.first; i < range.last; ++i) tally.add(bin(i));
+  for (int i = range.first; i < range.last; ++i) {
+    if (bin(i).hits() <= 0.0) continue;
+    tally.fitted.add(meanPoint(bin(i)));
+    tally.returns.add(bin(i).returns);
+  }
   return tally;
 }
 
 SupportProfile::Cut SupportProfile::bestCut() const {
-  BinSums left, right = sums();
+  PointSums left, right = sums();
   const double whole = right.residual();
   Cut best{first(), 0.0};
   for (int i = first(); i + 1 < last(); ++i) {
-    const SupportBin& b = bin(i);
-    if (b.hits <= 0.0) continue;
-    BinSums one;
-    one.addMeanPoint(b);
+    if (bin(i).hits() <= 0.0) continue;
+    const PointSums one = meanPoint(bin(i));
     left.add(one);
     right.remove(one);
     const double gain = whole - left.residual() - right.residual();

@@ -5,53 +5,27 @@
 #include <cmath>
 #include <utility>
 
+#include "cca_mrpt/geometry/cross.hpp"
+
 namespace cca {
 namespace {
 
-/// Rigid motion between two wall frames: t' = t0 + tt t + td d, d' = d0 + dt t + dd d.
+/// What lies in the frame of one wall, in that of another.
 struct FrameChange {
-  double t0, d0, tt, td, dt, dd;
+  Eigen::Vector2d shift;
+  double cosine, sine;
 
-  FrameChange(const Wall& to, const Wall& from) {
-    const Eigen::Vector2d shift = to.toWall(from.origin);
-    t0 = shift.x();
-    d0 = shift.y();
-    tt = to.direction.dot(from.direction);
-    dt = to.normal().dot(from.direction);
-    td = -dt;
-    dd = tt;
-  }
+  FrameChange(const Wall& to, const Wall& from)
+      : shift(to.toWall(from.origin)),
+        cosine(to.direction.dot(from.direction)),
+        sine(cross(to.direction, from.direction)) {}
 
+  PointSums operator()(const PointSums& s) const { return s.moved(shift, cosine, sine); }
   SupportBin operator()(const SupportBin& b) const {
-    SupportBin r;
-    const double t1 = tt * b.t + td * b.d, d1 = dt * b.t + dd * b.d;
-    r.hits = b.hits;
-    r.passed = b.passed;
-    r.t = b.hits * t0 + t1;
-    r.d = b.hits * d0 + d1;
-    r.tt =
-        b.hits * t0 * t0 + 2.0 * t0 * t1 + tt * tt * b.tt + 2.0 * tt * td * b.td + td * td * b.dd;
-    r.dd =
-        b.hits * d0 * d0 + 2.0 * d0 * d1 + dt * dt * b.tt + 2.0 * dt * dd * b.td + dd * dd * b.dd;
-    r.td = b.hits * t0 * d0 + t0 * d1 + d0 * t1 + tt * dt * b.tt + (tt * dd + td * dt) * b.td +
-           td * dd * b.dd;
-    const double d_mean = b.hits > 0.0 ? b.d / b.hits : 0.0;
-    r.t_min = t0 + tt * b.t_min + td * d_mean;
-    r.t_max = t0 + tt * b.t_max + td * d_mean;
-    if (r.t_min > r.t_max) std::swap(r.t_min, r.t_max);
-    return r;
-  }
-
-  BinSums operator()(const BinSums& s) const {
-    SupportBin b;
-    b.hits = s.w;
-    b.t = s.t;
-    b.d = s.d;
-    b.tt = s.tt;
-    b.td = s.td;
-    b.dd = s.dd;
-    const SupportBin r = (*this)(b);
-    return {r.hits, r.t, r.d, r.tt, r.td, r.dd};
+    const double d_mean = b.hits() > 0.0 ? b.mean().y() : 0.0;
+    const double a = shift.x() + cosine * b.first - sine * d_mean;
+    const double c = shift.x() + cosine * b.last - sine * d_mean;
+    return {(*this)(b.returns), b.passed, std::min(a, c), std::max(a, c)};
   }
 };
 
@@ -68,33 +42,28 @@ constexpr double kTrustInWall = 3.0;
 /// The line of a piece between t_first and t_last: that of its own bins, held to the wall's line by
 /// a few bins' worth. A wall is straight to its noise from end to end; a piece of it is nearer to
 /// its own returns, and ends where it ends at no further price.
-LateralFit fitOfPiece(const Wall& wall, BinSums sums, double t_first, double t_last) {
-  for (const double t : {t_first, t_last}) sums.addPoint(0.5 * kTrustInWall, t, wall.fit.at(t));
+LateralFit fitOfPiece(const Wall& wall, PointSums sums, double t_first, double t_last) {
+  for (const double t : {t_first, t_last}) sums.addPoint(t, wall.fit.at(t), 0.5 * kTrustInWall);
   return sums.fit();
 }
 
 LineSegment segmentOf(const Wall& wall, const Stretch& stretch, const MapNoise& noise) {
-  const BinSums& sum = stretch.tally.returns;
-  const double n = sum.w, visits = std::max(1.0, wall.visits);
   LineSegment s;
-  if (n <= 0.0) return s;
-  const double t = sum.t / n, d = sum.d / n;
-  const double tt = sum.tt - n * t * t, td = sum.td - n * t * d, dd = sum.dd - n * d * d;
-  const double t_first = wall.profile.bin(stretch.range.first).t_min;
-  const double t_last = wall.profile.bin(stretch.range.last - 1).t_max;
+  if (stretch.tally.returns.w <= 0.0) return s;
+  const PointMoments moments = stretch.tally.returns.moments();
+  const double t_first = wall.profile.bin(stretch.range.first).first;
+  const double t_last = wall.profile.bin(stretch.range.last - 1).last;
   const LateralFit fit = fitOfPiece(wall, stretch.tally.fitted, t_first, t_last);
-  s.start = wall.toMap(t_first, fit.at(t_first));
-  s.end = wall.toMap(t_last, fit.at(t_last));
-  s.moments.weight = n;
-  s.moments.mean = wall.toMap(t, d);
-  Eigen::Matrix2d axes, scatter;
+  s.start = wall.toMap({t_first, fit.at(t_first)});
+  s.end = wall.toMap({t_last, fit.at(t_last)});
+  Eigen::Matrix2d axes;
   axes << wall.direction, wall.normal();
-  scatter << tt, td, td, dd;
-  s.moments.scatter = axes * scatter * axes.transpose();
+  s.moments = {moments.weight, wall.toMap(moments.mean), axes * moments.scatter * axes.transpose()};
   // Returns of one scan share its pose error: only new scans make the line better.
-  s.covariance(0, 0) = noise.offsetVariance() / visits + noise.rangeVariance() / n;
-  s.covariance(1, 1) =
-      noise.angleVariance() / visits + (tt > 0.0 ? std::min(1.0, noise.rangeVariance() / tt) : 1.0);
+  const double visits = std::max(1.0, wall.visits), spread = moments.scatter(0, 0);
+  s.covariance(0, 0) = noise.offsetVariance() / visits + noise.rangeVariance() / moments.weight;
+  s.covariance(1, 1) = noise.angleVariance() / visits +
+                       (spread > 0.0 ? std::min(1.0, noise.rangeVariance() / spread) : 1.0);
   return s;
 }
 
@@ -136,16 +105,16 @@ void absorb(Wall& wall, const Wall& other) {
   const FrameChange change(wall, other);
   for (int i = other.profile.first(); i < other.profile.last(); ++i) {
     const SupportBin& bin = other.profile.bin(i);
-    if (bin.hits > 0.0) wall.profile.add(change(bin));
+    if (bin.hits() > 0.0) wall.profile.add(change(bin));
   }
   // A doorway has rays but no hits: it stands where it stood. Rays through a line that was off are
   // not held against what the wall itself has there.
   for (int i = other.profile.first(); i < other.profile.last(); ++i) {
     const SupportBin& bin = other.profile.bin(i);
-    if (bin.hits > 0.0 || bin.passed <= 0.0) continue;
+    if (bin.hits() > 0.0 || bin.passed <= 0.0) continue;
     const Eigen::Vector2d td = wall.toWall(other.onLine((i + 0.5) * SupportProfile::kBinLength));
     const int here = SupportProfile::binOf(td.x());
-    const bool stands = wall.profile.contains(here) && wall.profile.bin(here).hits > 0.0;
+    const bool stands = wall.profile.contains(here) && wall.profile.bin(here).hits() > 0.0;
     if (!stands && std::abs(wall.offLine(td)) < kSameDoor) wall.profile.pass(td.x(), bin.passed);
   }
 }
@@ -155,8 +124,8 @@ bool yieldOverlap(Wall& lesser, Wall& greater, const std::function<bool(double)>
   bool moved = false;
   for (int i = lesser.profile.first(); i < lesser.profile.last(); ++i) {
     const SupportBin& bin = lesser.profile.bin(i);
-    if (bin.hits <= 0.0) continue;
-    const Eigen::Vector2d p = lesser.toMap(bin.t / bin.hits, bin.d / bin.hits);
+    if (bin.hits() <= 0.0) continue;
+    const Eigen::Vector2d p = lesser.toMap(bin.mean());
     const Eigen::Vector2d td = greater.toWall(p);
     if (!greater.hitNear(p) || !alike(greater.offLine(td))) continue;
     greater.profile.add(change(lesser.profile.take(i)));
@@ -166,7 +135,7 @@ bool yieldOverlap(Wall& lesser, Wall& greater, const std::function<bool(double)>
   return moved;
 }
 
-BinSums sumsInFrameOf(const Wall& wall, const Wall& other) {
+PointSums sumsInFrameOf(const Wall& wall, const Wall& other) {
   return FrameChange(wall, other)(other.profile.sums());
 }
 

@@ -81,7 +81,7 @@ Walls::Slot Walls::hitBy(const Eigen::Vector2d& p, const Eigen::Vector2d& viewpo
     const double off = std::abs(wall.offLine(td));
     if (off >= nearest) continue;
     const int i = SupportProfile::binOf(td.x());
-    if (!wall.profile.contains(i) || wall.profile.bin(i).hits <= 0.0) continue;
+    if (!wall.profile.contains(i) || wall.profile.bin(i).hits() <= 0.0) continue;
     if (!wall.two_sided && wall.toWall(viewpoint).y() < 0.0) continue;
     nearest = off;
     best = slot;
@@ -95,7 +95,7 @@ void Walls::hit(Slot slot, const Eigen::Vector2d& p) {
   const SupportBin& bin = wall.profile.hit(td.x(), td.y());
   wall.hits += 1.0;
   touch(slot);
-  const bool is_new = bin.hits == 1.0 && bin.passed == 0.0;
+  const bool is_new = bin.hits() == 1.0 && bin.passed == 0.0;
   if (is_new && freed_.contains(p) && !standsBeside(slot, p)) {
     wall.profile.pass(td.x(), kRaysOfFreed);
   }
@@ -114,12 +114,9 @@ bool Walls::standsBeside(Slot slot, const Eigen::Vector2d& p) const {
 
 bool Walls::prune(Slot slot) {
   Wall& wall = (*this)[slot];
-  if (wall.profile.mayBeRefuted()) {
-    for (int i = wall.profile.first(); i < wall.profile.last(); ++i) {
-      const SupportBin& bin = wall.profile.bin(i);
-      const double middle = (i + 0.5) * SupportProfile::kBinLength;
-      if (bin.isRefuted()) freed_.add(wall.onLine(middle));
-    }
+  for (int i = wall.profile.first(); i < wall.profile.last(); ++i) {
+    const double middle = (i + 0.5) * SupportProfile::kBinLength;
+    if (wall.profile.bin(i).isRefuted()) freed_.add(wall.onLine(middle));
   }
   wall.profile.prune();
   return !wall.profile.empty();

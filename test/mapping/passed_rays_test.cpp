@@ -81,7 +81,7 @@ TEST(PassRays, SayNothingWhereBearingsAreNotFinite) {
     }
     ASSERT_FALSE(walls[slot].profile.empty());
     for (int i = walls[slot].profile.first(); i < walls[slot].profile.last(); ++i) {
-      EXPECT_GE(walls[slot].profile.bin(i).hits, 4.0);
+      EXPECT_GE(walls[slot].profile.bin(i).hits(), 4.0);
     }
   }
 }

@@ -40,7 +40,7 @@ TEST(Absorb, DoesNotHoldRaysThroughTheOtherLineAgainstHitsOfItsOwn) {
   Wall wall = wallAlongX(0.0, 1.0, 2.0);
   absorb(wall, wallWithAGapSeenThrough(0.05));
   EXPECT_DOUBLE_EQ(passed(wall, 1.525), 0.0);
-  EXPECT_DOUBLE_EQ(wall.profile.bin(SupportProfile::binOf(1.525)).hits, 10.0);
+  EXPECT_DOUBLE_EQ(wall.profile.bin(SupportProfile::binOf(1.525)).hits(), 10.0);
 }
 
 TEST(Absorb, ForgetsADoorwayOfALineThatWasFarOff) {
@@ -55,9 +55,9 @@ TEST(Absorb, KeepsEveryHitAndItsPlace) {
   absorb(wall, other);
   double hits = 0.0, t = 0.0, d = 0.0;
   for (int i = wall.profile.first(); i < wall.profile.last(); ++i) {
-    hits += wall.profile.bin(i).hits;
-    t += wall.profile.bin(i).t;
-    d += wall.profile.bin(i).d;
+    hits += wall.profile.bin(i).hits();
+    t += wall.profile.bin(i).returns.x;
+    d += wall.profile.bin(i).returns.y;
   }
   EXPECT_NEAR(hits, 200.0 + 500.0, 1e-9);
   EXPECT_NEAR(t, 200.0 * 0.5 + 500.0 * 1.75, 1e-6);

@@ -7,26 +7,9 @@
 #include <optional>
 #include <vector>
 
+#include "cca_mrpt/geometry/point_sums.hpp"
+
 namespace cca {
-
-/// Sufficient statistics of weighted points for a total-least-squares line: merges are exact, O(1).
-struct PointMoments {
-  double weight = 0.0;                                ///< sum of the weights; the number of points
-  Eigen::Vector2d mean = Eigen::Vector2d::Zero();     ///< m
-  Eigen::Matrix2d scatter = Eigen::Matrix2d::Zero();  ///< m^2, sum of w (p - mean)(p - mean)^T
-
-  void add(const Eigen::Vector2d& point, double point_weight = 1.0) {
-    add(PointMoments{point_weight, point, Eigen::Matrix2d::Zero()});
-  }
-  void add(const PointMoments& other) {
-    const double sum = weight + other.weight;
-    if (sum <= 0.0) return;
-    const Eigen::Vector2d offset = other.mean - mean;
-    scatter += other.scatter + (weight * other.weight / sum) * offset * offset.transpose();
-    mean += (other.weight / sum) * offset;
-    weight = sum;
-  }
-};
 
 /// A straight piece of wall with the statistics of the points that it stands on.
 ///
@@ -104,38 +87,34 @@ std::optional<Eigen::Vector2d> intersection(const FittedLine& a, const FittedLin
 /// Moments of any run of a sequence of points in O(1), by running sums about the common mean.
 class PrefixMoments {
  public:
-  explicit PrefixMoments(const std::vector<Eigen::Vector2d>& points);
+  /// @param weights  of the points; 1 each where none are given.
+  explicit PrefixMoments(const std::vector<Eigen::Vector2d>& points,
+                         const std::vector<double>& weights = {});
 
   /// Moments of points first <= i < last; empty where last <= first.
   PointMoments run(int first, int last) const {
-    PointMoments moments;
-    if (last <= first) return moments;
-    const Sums &a = sums_[static_cast<std::size_t>(first)],
-               &b = sums_[static_cast<std::size_t>(last)];
-    const double n = last - first, x = (b.x - a.x) / n, y = (b.y - a.y) / n;
-    const double xy = b.xy - a.xy - n * x * y;
-    moments.weight = n;
-    moments.mean = {origin_.x() + x, origin_.y() + y};
-    moments.scatter << b.xx - a.xx - n * x * x, xy, xy, b.yy - a.yy - n * y * y;
+    if (last <= first) return {};
+    PointMoments moments = sums(first, last).moments();
+    moments.mean += origin_;
     return moments;
   }
   /// m^2, a lower bound of the residual_sum_sq of points first <= i < last, at least one.
   double leastResidual(int first, int last) const {
-    const Sums &a = sums_[static_cast<std::size_t>(first)],
-               &b = sums_[static_cast<std::size_t>(last)];
-    const double n = last - first, x = b.x - a.x, y = b.y - a.y;
+    const PointSums s = sums(first, last);
     // The smaller eigenvalue is at least determinant / trace; here of n times the scatter.
-    const double xx = n * (b.xx - a.xx) - x * x, yy = n * (b.yy - a.yy) - y * y;
-    const double xy = n * (b.xy - a.xy) - x * y, trace = xx + yy;
-    return trace > 0.0 ? (xx * yy - xy * xy) / (n * trace) : 0.0;
+    const double xx = s.w * s.xx - s.x * s.x, yy = s.w * s.yy - s.y * s.y;
+    const double xy = s.w * s.xy - s.x * s.y, trace = xx + yy;
+    return trace > 0.0 ? (xx * yy - xy * xy) / (s.w * trace) : 0.0;
   }
 
  private:
-  struct Sums {
-    double x = 0.0, y = 0.0, xx = 0.0, xy = 0.0, yy = 0.0;
-  };
+  PointSums sums(int first, int last) const {
+    PointSums run = sums_[static_cast<std::size_t>(last)];
+    run.remove(sums_[static_cast<std::size_t>(first)]);
+    return run;
+  }
   Eigen::Vector2d origin_ = Eigen::Vector2d::Zero();
-  std::vector<Sums> sums_;
+  std::vector<PointSums> sums_;  ///< about origin_
 };
 
 }  // namespace cca

@@ -1,11 +1,46 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <algorithm>
 #include <vector>
 
-#include "cca_mrpt/mapping/support_bin.hpp"
+#include "cca_mrpt/geometry/point_sums.hpp"
 
 namespace cca {
+
+/// What the laser said about a few centimetres of a wall, in the wall's frame: x [m] along, y [m]
+/// across.
+struct SupportBin {
+  PointSums returns;    ///< those that lie here; bounded, so that the newest can overrule the old
+  double passed = 0.0;  ///< rays that went clearly through; bounded with the hits
+  double first = 0.0, last = 0.0;  ///< m along, extreme hits
+
+  static constexpr double kMostHits = 200.0;  ///< more would only make the past heavier
+
+  double hits() const { return returns.w; }
+  /// m, of at least one hit.
+  Eigen::Vector2d mean() const { return {returns.x / returns.w, returns.y / returns.w}; }
+  void hit(double t, double d);
+  void add(const SupportBin& other);
+  /// A share of the hits, those between t_first and t_last, on the bin's own lateral line.
+  SupportBin part(double share, double t_first, double t_last) const;
+  /// So many rays went through that the hits are no wall, or none any more.
+  bool isRefuted() const { return hits() > 0.0 && passed > 4.0 && passed > 2.0 * hits(); }
+
+ private:
+  void bound();
+};
+
+/// Half-open range of bins.
+struct BinRange {
+  int first = 0, last = 0;
+};
+
+/// What is added up over bins.
+struct BinTally {
+  PointSums fitted;   ///< of the bins' mean points, each with a bounded weight
+  PointSums returns;  ///< of the returns themselves; w is their number
+};
 
 /// A maximal occupied run of bins.
 struct Stretch {
@@ -14,9 +49,6 @@ struct Stretch {
 };
 
 /// The 1-D occupancy histogram along a wall.
-///
-/// What is asked of all bins is remembered, and kept up to date hit by hit: a scan that says
-/// nothing new about a wall costs what its own returns cost, not what the wall is long.
 class SupportProfile {
  public:
   static constexpr double kBinLength = 0.05;  ///< m
@@ -43,8 +75,6 @@ class SupportProfile {
   SupportBin take(int i);
   /// Cuts [from, last()) off and returns it.
   SupportProfile cutFrom(int from);
-  /// Whether rays may have refuted a bin since the last prune().
-  bool mayBeRefuted() const { return refuted_; }
   /// Forgets bins that rays have refuted, and empty ends. True where something went.
   bool prune();
 
@@ -52,11 +82,11 @@ class SupportProfile {
   bool occupied(int i) const;
   /// Maximal occupied runs; gaps up to kBridgedBins are closed where no ray went through them.
   static constexpr int kBridgedBins = 4;  // longer gaps without hits would be phantoms
-  const std::vector<Stretch>& stretches() const;
+  std::vector<Stretch> stretches() const;
 
-  const BinTally& tally() const;
   BinTally tally(const BinRange& range) const;
-  const BinSums& sums() const { return tally().fitted; }
+  /// The same of all bins, as they are fitted; remembered until the next hit.
+  const PointSums& sums() const;
   LateralFit fit() const { return sums().fit(); }
   /// The cut that lowers the residual sum of squares most.
   struct Cut {
@@ -67,31 +97,18 @@ class SupportProfile {
 
  private:
   void grow(int i);
-  void forget() const { tallied_ = parted_ = open_ = false; }
-  /// Enters into what is remembered what the open bin has received.
-  void settle() const;
-  Stretch* stretchAt(int i) const;
   /// What decides whether a place is occupied.
   struct Counts {
     double hits = 0.0, passed = 0.0;
     bool stand() const;
   };
   Counts countsAround(int i) const;
-  /// Whether what is new in bin i occupies or frees a place.
-  bool movesPlace(int i, double new_hits, double new_rays) const;
   SupportBin& at(int i) { return bins_[static_cast<std::size_t>(i - first_)]; }
 
   int first_ = 0;
   std::vector<SupportBin> bins_;
-  bool refuted_ = false;                           ///< a bin may have been since the last prune()
-  mutable bool tallied_ = false, parted_ = false;  ///< tally_ holds; stretches_ does
-  /// Neighbouring beams mostly hit one bin, whose hits are entered together: it held before_.
-  mutable bool open_ = false;
-  int open_bin_ = 0;
-  SupportBin before_;
-  mutable int updates_ = 0;
-  mutable BinTally tally_;
-  mutable std::vector<Stretch> stretches_;
+  mutable bool added_up_ = false;  ///< sums_ holds
+  mutable PointSums sums_;
 };
 
 }  // namespace cca

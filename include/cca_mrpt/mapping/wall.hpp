@@ -46,15 +46,17 @@ struct Wall {
     const Eigen::Vector2d v = p_map - origin;
     return {direction.dot(v), cross(direction, v)};
   }
-  Eigen::Vector2d toMap(double t, double d) const { return origin + t * direction + d * normal(); }
+  Eigen::Vector2d toMap(const Eigen::Vector2d& td) const {
+    return origin + td.x() * direction + td.y() * normal();
+  }
   /// The point of the fitted line at t.
-  Eigen::Vector2d onLine(double t) const { return toMap(t, fit.at(t)); }
+  Eigen::Vector2d onLine(double t) const { return toMap({t, fit.at(t)}); }
   /// Unit vector of the fitted line in the map frame.
   Eigen::Vector2d fittedDirection() const;
   /// True where the bin beside the point holds hits.
   bool hitNear(const Eigen::Vector2d& p_map) const {
     const int i = SupportProfile::binOf(toWall(p_map).x());
-    return profile.contains(i) && profile.bin(i).hits > 0.0;
+    return profile.contains(i) && profile.bin(i).hits() > 0.0;
   }
   /// Signed distance of (t, d) from the fitted line, m.
   double offLine(const Eigen::Vector2d& td) const { return td.y() - fit.at(td.x()); }
@@ -70,7 +72,7 @@ void absorb(Wall& wall, const Wall& other);
 /// question of their distance [m] from its line. True where something moved.
 bool yieldOverlap(Wall& lesser, Wall& greater, const std::function<bool(double)>& alike);
 /// The other wall's bin sums in this wall's frame.
-BinSums sumsInFrameOf(const Wall& wall, const Wall& other);
+PointSums sumsInFrameOf(const Wall& wall, const Wall& other);
 /// Fits the line, and moves the frame onto it where the two have drifted apart.
 void refit(Wall& wall);
 /// Renews `pieces`; a piece keeps the id of the old piece that it covers most, others

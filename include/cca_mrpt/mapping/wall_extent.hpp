@@ -21,8 +21,8 @@ inline Extent extentOf(const Wall& wall) {
 /// The same in another wall's frame.
 inline Extent extentOf(const Wall& other, const Wall& frame) {
   const Extent e = extentOf(other);
-  const double a = frame.toWall(other.toMap(e.first, 0.0)).x();
-  const double b = frame.toWall(other.toMap(e.last, 0.0)).x();
+  const double a = frame.toWall(other.toMap({e.first, 0.0})).x();
+  const double b = frame.toWall(other.toMap({e.last, 0.0})).x();
   return {std::min(a, b), std::max(a, b)};
 }
 
