@@ -143,22 +143,21 @@ SupportProfile SupportProfile::cutFrom(int from) {
   return tail;
 }
 
-bool SupportProfile::prune() {
-  bool changed = false;
-  for (SupportBin& bin : bins_) {
-    if (!bin.isRefuted()) continue;
-    bin = {{}, bin.passed};
-    changed = true;
+std::vector<int> SupportProfile::prune() {
+  std::vector<int> refuted;
+  for (int i = first(); i < last(); ++i) {
+    if (!bin(i).isRefuted()) continue;
+    at(i) = {{}, bin(i).passed};
+    refuted.push_back(i);
   }
+  if (!refuted.empty()) added_up_ = false;
   const auto stands = [](const SupportBin& bin) { return bin.hits() > 0.0; };
   const auto end = std::find_if(bins_.rbegin(), bins_.rend(), stands).base();
   const auto begin = std::find_if(bins_.begin(), end, stands);
-  changed = changed || begin != bins_.begin() || end != bins_.end();
-  if (changed) added_up_ = false;
   first_ += static_cast<int>(begin - bins_.begin());
   bins_.erase(end, bins_.end());
   bins_.erase(bins_.begin(), begin);
-  return changed;
+  return refuted;
 }
 
 bool SupportProfile::occupied(int i) const {
@@ -179,13 +178,16 @@ std::vector<Stretch> SupportProfile::stretches() const {
     found.back().range.last = i + 1;
     passed_since = 0.0;
   }
-  for (Stretch& stretch : found) stretch.tally = tally(stretch.range);
+  for (Stretch& s : found) {
+    const bool whole = s.range.first == first() && s.range.last == last();
+    s.tally = whole ? tally() : tally(s.range);
+  }
   return found;
 }
 
-const PointSums& SupportProfile::sums() const {
-  if (!std::exchange(added_up_, true)) sums_ = tally({first(), last()}).fitted;
-  return sums_;
+const BinTally& SupportProfile::tally() const {
+  if (!std::exchange(added_up_, true)) tally_ = tally({first(), last()});
+  return tally_;
 }
 
 BinTally SupportProfile::tally(const BinRange& range) const {

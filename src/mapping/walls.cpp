@@ -114,11 +114,9 @@ bool Walls::standsBeside(Slot slot, const Eigen::Vector2d& p) const {
 
 bool Walls::prune(Slot slot) {
   Wall& wall = (*this)[slot];
-  for (int i = wall.profile.first(); i < wall.profile.last(); ++i) {
-    const double middle = (i + 0.5) * SupportProfile::kBinLength;
-    if (wall.profile.bin(i).isRefuted()) freed_.add(wall.onLine(middle));
+  for (const int i : wall.profile.prune()) {
+    freed_.add(wall.onLine((i + 0.5) * SupportProfile::kBinLength));
   }
-  wall.profile.prune();
   return !wall.profile.empty();
 }
 

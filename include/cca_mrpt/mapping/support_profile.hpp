@@ -75,8 +75,8 @@ class SupportProfile {
   SupportBin take(int i);
   /// Cuts [from, last()) off and returns it.
   SupportProfile cutFrom(int from);
-  /// Forgets bins that rays have refuted, and empty ends. True where something went.
-  bool prune();
+  /// Forgets bins that rays have refuted, and empty ends. @return  the refuted ones.
+  std::vector<int> prune();
 
   /// Hits minus refuted ones within +-kWindow bins decide whether a place is occupied.
   bool occupied(int i) const;
@@ -85,8 +85,9 @@ class SupportProfile {
   std::vector<Stretch> stretches() const;
 
   BinTally tally(const BinRange& range) const;
-  /// The same of all bins, as they are fitted; remembered until the next hit.
-  const PointSums& sums() const;
+  /// Of all bins, remembered until the next hit.
+  const BinTally& tally() const;
+  const PointSums& sums() const { return tally().fitted; }
   LateralFit fit() const { return sums().fit(); }
   /// The cut that lowers the residual sum of squares most.
   struct Cut {
@@ -107,8 +108,8 @@ class SupportProfile {
 
   int first_ = 0;
   std::vector<SupportBin> bins_;
-  mutable bool added_up_ = false;  ///< sums_ holds
-  mutable PointSums sums_;
+  mutable bool added_up_ = false;  ///< tally_ holds
+  mutable BinTally tally_;
 };
 
 }  // namespace cca
