@@ -28,10 +28,11 @@ PrefixMoments::PrefixMoments(const std::vector<Eigen::Vector2d>& points,
     : sums_(points.size() + 1) {
   for (const Eigen::Vector2d& p : points) origin_ += p;
   if (!points.empty()) origin_ /= static_cast<double>(points.size());
+  PointSums sums;
   for (std::size_t i = 0; i < points.size(); ++i) {
-    const Eigen::Vector2d p = points[i] - origin_;
-    sums_[i + 1] = sums_[i];
-    sums_[i + 1].addPoint(p.x(), p.y(), weights.empty() ? 1.0 : weights[i]);
+    const double x = points[i].x() - origin_.x(), y = points[i].y() - origin_.y();
+    sums.addPoint(x, y, weights.empty() ? 1.0 : weights[i]);
+    sums_[i + 1] = sums;
   }
 }
 

@@ -91,28 +91,31 @@ class PrefixMoments {
   explicit PrefixMoments(const std::vector<Eigen::Vector2d>& points,
                          const std::vector<double>& weights = {});
 
+  // Sum by sum: taken away as a whole they go through memory, and K-means takes a tenth longer.
   /// Moments of points first <= i < last; empty where last <= first.
   PointMoments run(int first, int last) const {
-    if (last <= first) return {};
-    PointMoments moments = sums(first, last).moments();
-    moments.mean += origin_;
+    PointMoments moments;
+    if (last <= first) return moments;
+    const PointSums &a = at(first), &b = at(last);
+    const double w = b.w - a.w, x = (b.x - a.x) / w, y = (b.y - a.y) / w;
+    const double xy = b.xy - a.xy - w * x * y;
+    moments.weight = w;
+    moments.mean = {origin_.x() + x, origin_.y() + y};
+    moments.scatter << b.xx - a.xx - w * x * x, xy, xy, b.yy - a.yy - w * y * y;
     return moments;
   }
   /// m^2, a lower bound of the residual_sum_sq of points first <= i < last, at least one.
   double leastResidual(int first, int last) const {
-    const PointSums s = sums(first, last);
-    // The smaller eigenvalue is at least determinant / trace; here of n times the scatter.
-    const double xx = s.w * s.xx - s.x * s.x, yy = s.w * s.yy - s.y * s.y;
-    const double xy = s.w * s.xy - s.x * s.y, trace = xx + yy;
-    return trace > 0.0 ? (xx * yy - xy * xy) / (s.w * trace) : 0.0;
+    const PointSums &a = at(first), &b = at(last);
+    const double w = b.w - a.w, x = b.x - a.x, y = b.y - a.y;
+    // The smaller eigenvalue is at least determinant / trace; here of w times the scatter.
+    const double xx = w * (b.xx - a.xx) - x * x, yy = w * (b.yy - a.yy) - y * y;
+    const double xy = w * (b.xy - a.xy) - x * y, trace = xx + yy;
+    return trace > 0.0 ? (xx * yy - xy * xy) / (w * trace) : 0.0;
   }
 
  private:
-  PointSums sums(int first, int last) const {
-    PointSums run = sums_[static_cast<std::size_t>(last)];
-    run.remove(sums_[static_cast<std::size_t>(first)]);
-    return run;
-  }
+  const PointSums& at(int i) const { return sums_[static_cast<std::size_t>(i)]; }
   Eigen::Vector2d origin_ = Eigen::Vector2d::Zero();
   std::vector<PointSums> sums_;  ///< about origin_
 };
