@@ -25,28 +25,6 @@ struct Resemblance {
   double similarity;
 };
 
-/// Disjoint sets over the lines.
-class Neighbourhoods {
- public:
-  explicit Neighbourhoods(std::size_t size) : parent_(size) {
-    std::iota(parent_.begin(), parent_.end(), 0);
-  }
-  int root(int i) {
-    while (parent_[static_cast<std::size_t>(i)] != i) {
-      int& up = parent_[static_cast<std::size_t>(i)];
-      i = up = parent_[static_cast<std::size_t>(up)];
-    }
-    return i;
-  }
-  void join(int i, int j) {
-    const int a = root(i), b = root(j);
-    parent_[static_cast<std::size_t>(std::max(a, b))] = std::min(a, b);
-  }
-
- private:
-  std::vector<int> parent_;
-};
-
 /// Whether walls explain the line, but for less than kNewLength.
 bool isExplained(const NewLine& line, const MapNoise& noise, const Walls& walls) {
   const double length = line.segment.length();
@@ -169,41 +147,26 @@ std::vector<Resemblance> resemblances(const std::vector<NewLine>& lines, const A
   return all;
 }
 
-/// A line that shares no wall with another and resembles one at most needs no clustering; false
-/// where it does.
-bool assignAlone(NewLine& line, int index, const std::vector<Resemblance>& alike,
-                 const MapNoise& noise, Walls& walls) {
-  const auto before = [](const Resemblance& r, int i) { return r.line < i; };
-  const auto own = std::lower_bound(alike.begin(), alike.end(), index, before);
-  const auto end = std::lower_bound(own, alike.end(), index + 1, before);
-  if (end - own > 1) return false;
-  if (own == end) {
-    found(line, noise, walls);
-  } else {
-    line.wall = own->wall;
-  }
-  return true;
-}
-
 }  // namespace
 
 void clusterIntoMap(std::vector<NewLine>& lines, const AlphaCut& cut, const MapNoise& noise,
                     Walls& walls) {
   const std::vector<Resemblance> alike = resemblances(lines, cut, noise, walls);
-  Neighbourhoods sets(lines.size());
+  // Each line is in the set of the first line that it shares walls with, directly or through
+  // others.
+  std::vector<int> set_of(lines.size());
+  std::iota(set_of.begin(), set_of.end(), 0);
   for (std::size_t i = 0; i < alike.size(); ++i) {
     for (std::size_t j = i + 1; j < alike.size(); ++j) {
-      if (alike[i].wall == alike[j].wall) sets.join(alike[i].line, alike[j].line);
+      if (alike[i].wall != alike[j].wall) continue;
+      const auto [first, other] = std::minmax({set_of[alike[i].line], set_of[alike[j].line]});
+      std::replace(set_of.begin(), set_of.end(), other, first);
     }
   }
-  const int n = static_cast<int>(lines.size());
   std::vector<std::vector<int>> members(lines.size());
-  for (int i = 0; i < n; ++i) members[static_cast<std::size_t>(sets.root(i))].push_back(i);
+  for (std::size_t i = 0; i < lines.size(); ++i) members[set_of[i]].push_back(static_cast<int>(i));
   for (std::vector<int>& m : members) {
     if (m.empty()) continue;
-    if (m.size() == 1 &&
-        assignAlone(lines[static_cast<std::size_t>(m[0])], m[0], alike, noise, walls))
-      continue;
     const Neighbourhood neighbourhood(std::move(m), alike);
     const Eigen::MatrixXd s = neighbourhood.matrix(alike, noise, cut, walls);
     const std::vector<int> group_of = groupsOf(s, cut);

@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "cca_mrpt/geometry/cross.hpp"
-#include "cca_mrpt/mapping/wall_extent.hpp"
 #include "cca_mrpt/sensing/gates.hpp"
 
 namespace cca {

@@ -5,28 +5,6 @@
 #include <cmath>
 
 namespace cca {
-WallIndex::WallIndex(const WallIndex& other) {
-  for (const auto& [key, block] : other.blocks_) blocks_[key] = std::make_unique<Block>(*block);
-}
-
-WallIndex& WallIndex::operator=(const WallIndex& other) {
-  WallIndex copy(other);
-  return *this = std::move(copy);
-}
-
-bool WallIndex::find(std::int64_t key) const {
-  const auto found = blocks_.find(key);
-  if (found == blocks_.end()) return false;
-  last_key_ = key;
-  last_block_ = found->second.get();
-  return true;
-}
-
-std::vector<WallIndex::Slot>& WallIndex::touch(const Cell& cell) {
-  std::unique_ptr<Block>& block = blocks_[keyOf(cell)];
-  if (!block) block = std::make_unique<Block>();
-  return block->cells[inBlock(cell)];
-}
 
 void WallIndex::insert(Slot slot, const Eigen::Vector2d& from, const Eigen::Vector2d& to,
                        double margin, std::vector<Cell>& cells) {
@@ -37,7 +15,7 @@ void WallIndex::insert(Slot slot, const Eigen::Vector2d& from, const Eigen::Vect
     const Cell high = cellOf(p + Eigen::Vector2d::Constant(margin));
     for (int y = low.y(); y <= high.y(); ++y) {
       for (int x = low.x(); x <= high.x(); ++x) {
-        std::vector<Slot>& slots = touch({x, y});
+        std::vector<Slot>& slots = cells_[keyOf({x, y})];
         if (std::find(slots.begin(), slots.end(), slot) != slots.end()) continue;
         slots.push_back(slot);
         cells.push_back({x, y});
@@ -48,7 +26,7 @@ void WallIndex::insert(Slot slot, const Eigen::Vector2d& from, const Eigen::Vect
 
 void WallIndex::remove(Slot slot, const std::vector<Cell>& cells) {
   for (const Cell& cell : cells) {
-    std::vector<Slot>& slots = touch(cell);
+    std::vector<Slot>& slots = cells_[keyOf(cell)];
     slots.erase(std::remove(slots.begin(), slots.end(), slot), slots.end());
   }
 }

@@ -6,7 +6,6 @@
 
 #include "cca_mrpt/mapping/map_similarity.hpp"
 #include "cca_mrpt/mapping/rank_order_clustering.hpp"
-#include "cca_mrpt/mapping/wall_extent.hpp"
 
 namespace cca {
 namespace {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <functional>
 #include <vector>
@@ -61,6 +62,25 @@ struct Wall {
   /// Signed distance of (t, d) from the fitted line, m.
   double offLine(const Eigen::Vector2d& td) const { return td.y() - fit.at(td.x()); }
 };
+
+/// The stretch of a wall's frame that the bins of a wall cover.
+struct Extent {
+  double first = 0.0, last = 0.0;  ///< m
+  double length() const { return last - first; }
+};
+
+inline Extent extentOf(const Wall& wall) {
+  return {wall.profile.first() * SupportProfile::kBinLength,
+          wall.profile.last() * SupportProfile::kBinLength};
+}
+
+/// The same in another wall's frame.
+inline Extent extentOf(const Wall& other, const Wall& frame) {
+  const Extent e = extentOf(other);
+  const double a = frame.toWall(other.toMap({e.first, 0.0})).x();
+  const double b = frame.toWall(other.toMap({e.last, 0.0})).x();
+  return {std::min(a, b), std::max(a, b)};
+}
 
 /// A wall does not grow beyond this [m], so that the work on a wall is bounded; what goes on behind
 /// it is another wall.
