@@ -13,6 +13,11 @@ constexpr int kSlack = 10;          // bins that a wall may grow before it is in
 // themselves, or no return of it would ever count.
 constexpr double kRaysOfFreed = 4.0;
 constexpr double kBeside = 0.1;  // m, within which walls with one front are merged
+constexpr double kFreed = 0.3;   // m, cell of a freed place: a chair's leg and its next place
+
+std::pair<long, long> freedPlace(const Eigen::Vector2d& p_map) {
+  return {std::lround(std::floor(p_map.x() / kFreed)), std::lround(std::floor(p_map.y() / kFreed))};
+}
 
 }  // namespace
 
@@ -96,7 +101,7 @@ void Walls::hit(Slot slot, const Eigen::Vector2d& p) {
   wall.hits += 1.0;
   touch(slot);
   const bool is_new = bin.hits() == 1.0 && bin.passed == 0.0;
-  if (is_new && freed_.contains(p) && !standsBeside(slot, p)) {
+  if (is_new && freed_.count(freedPlace(p)) > 0 && !standsBeside(slot, p)) {
     wall.profile.pass(td.x(), kRaysOfFreed);
   }
 }
@@ -115,7 +120,7 @@ bool Walls::standsBeside(Slot slot, const Eigen::Vector2d& p) const {
 bool Walls::prune(Slot slot) {
   Wall& wall = (*this)[slot];
   for (const int i : wall.profile.prune()) {
-    freed_.add(wall.onLine((i + 0.5) * SupportProfile::kBinLength));
+    freed_.insert(freedPlace(wall.onLine((i + 0.5) * SupportProfile::kBinLength)));
   }
   return !wall.profile.empty();
 }

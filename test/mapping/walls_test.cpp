@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <utility>
+
 namespace cca {
 namespace {
 
@@ -70,6 +72,37 @@ TEST_F(PlaceThatWasFreed, SpeaksAgainstWhatLiesBesideAWallThatDoesNotStandYet) {
 TEST_F(PlaceThatWasFreed, SpeaksAgainstWhatLiesFurtherOffThanWhatIsMerged) {
   standingWallAt(kPlace.y() + 0.15, 10);
   EXPECT_EQ(raysAgainstNewcomer(kPlace.y()), 4.0);
+}
+
+TEST(FreedPlaces, AreToldApartAcrossTheWholeMap) {
+  Walls walls;
+  const auto wallAt = [&](const Eigen::Vector2d& p) {
+    const Walls::Slot slot = walls.create();
+    walls[slot].origin = p;
+    walls.hit(slot, p);
+    return slot;
+  };
+  const auto isFreed = [&](double x, double y) {
+    return walls[wallAt({x, y})].profile.bin(0).passed > 0.0;
+  };
+  const double far = 9.9e6;  // m
+  EXPECT_FALSE(isFreed(far, -0.1));
+  for (const double x : {far, 1.0}) {
+    const Walls::Slot slot = wallAt({x, -0.1});
+    walls[slot].profile.pass(0.01, 9.0);
+    ASSERT_FALSE(walls.prune(slot));
+  }
+  EXPECT_TRUE(isFreed(far, -0.1));
+  EXPECT_TRUE(isFreed(1.1, -0.15));
+  for (const auto& [x, y] : {std::pair{far, 0.1},
+                             {-far, -0.1},
+                             {far - 0.4, -0.1},
+                             {-0.1, far},
+                             {1.0, 0.1},
+                             {-1.0, -0.1},
+                             {1.3, -0.1},
+                             {1.0, -0.4}})
+    EXPECT_FALSE(isFreed(x, y)) << x << ", " << y;
 }
 
 }  // namespace

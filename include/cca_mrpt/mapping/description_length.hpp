@@ -111,11 +111,27 @@ inline bool areNeighbours(const ScanPoints& points, const FittedRun& a, const Fi
 class RunFitter {
  public:
   RunFitter(const std::vector<Eigen::Vector2d>& points, const PointNoise& noise,
-            double vertex_price = CcaParameters().vertex_price);
+            double vertex_price = CcaParameters().vertex_price)
+      : prefix_(points),
+        noise_(noise),
+        vertex_price_(vertex_price),
+        line_price_(cca::linePrice(vertex_price)) {
+    double farthest_sq = 0.0;
+    for (const Eigen::Vector2d& p : points) farthest_sq = std::max(farthest_sq, p.squaredNorm());
+    most_variance_ = noise.mostAcross(farthest_sq);
+  }
 
   FittedRun fit(int first, int last) const { return {fit(prefix_.run(first, last)), first, last}; }
   /// The price of a run alone: the same as fit(first, last).price, cheaper; 0 of an empty run.
-  double price(int first, int last) const;
+  double price(int first, int last) const {
+    const double alone = kPointPrice * std::max(0, last - first);
+    if (last - first < kFewestPoints) return alone;
+    const PointMoments moments = prefix_.run(first, last);
+    const PrincipalAxis axis = principalAxis(moments);
+    const LineNoise noise = noise_.onLine(moments.mean, axis);
+    if (!isDrawnOut(moments.weight, axis.spread_sum_sq, noise)) return alone;
+    return std::min(alone, line_price_ + 0.5 * axis.residual_sum_sq / noise.across);
+  }
   /// A lower bound of price(), without roots: most partings are not worth more.
   double leastPrice(int first, int last) const {
     const double points = last - first, alone = kPointPrice * points;
