@@ -26,32 +26,21 @@ double gapToNext(const ScanPoints& points, const FittedRun& a, const FittedRun& 
   return none ? 0.0 : std::numeric_limits<double>::infinity();
 }
 
-/// Similarity of two neighbours, below the cut a bound of it: gap and fit are asked first, which
-/// mostly fail.
+/// Similarity of two neighbours: the gap is asked first, for nothing else need be where there is
+/// one.
 double similarityOf(const RunFitter& fitter, const AlphaCut& cut, const FittedRun& run,
-                    const FittedRun& next, double gap, bool* is_bound) {
-  *is_bound = false;
+                    const FittedRun& next, double gap) {
   if (gap > 0.0 && !cut.without(Part::kGap)) return 0.0;
-  if (!cut.without(Part::kFit)) {
-    const double least = fitter.prefix().leastResidual(run.first, next.last);
-    const double most =
-        mostFitMembership(run, next, least, fitter.mostVariance(), fitter.linePrice());
-    *is_bound = most < cut.value;
-    if (*is_bound) return most;
-  }
   const JointFit joint = fitter.fitJointly(fitter.prefix().run(run.first, next.last));
   return cut.similarity(memberships(run, next, joint, gap, fitter.linePrice()));
 }
 
-/// Similarity of a run to the next one, remembered until either changes; where it is below the cut,
-/// a bound may stand for it.
+/// Similarity of a run to the next one, remembered until either changes.
 double similarityToNext(const ScanPoints& points, const RunFitter& fitter, const AlphaCut& cut,
                         const FittedRun& next, FittedRun* run) {
-  const bool bound_will_do = !run->similarity_is_bound || run->similarity < cut.value;
-  if (run->compared_with == next.last && bound_will_do) return run->similarity;
+  if (run->compared_with == next.last) return run->similarity;
   run->compared_with = next.last;
-  const double gap = gapToNext(points, *run, next);
-  run->similarity = similarityOf(fitter, cut, *run, next, gap, &run->similarity_is_bound);
+  run->similarity = similarityOf(fitter, cut, *run, next, gapToNext(points, *run, next));
   return run->similarity;
 }
 
@@ -67,8 +56,7 @@ SimilarityMatrix similarityOfRow(const ScanPoints& points, const RunFitter& fitt
       if (next >= last || next > i + kNeighbours) break;
       const double gap = gapToNext(points, runs[j], runs[next]);
       const FittedRun row = fitter.fit(runs[i].first, runs[j].last);
-      bool is_bound = false;
-      similarity = similarityOf(fitter, cut, row, runs[next], gap, &is_bound);
+      similarity = similarityOf(fitter, cut, row, runs[next], gap);
     }
   }
   return s;

@@ -86,7 +86,6 @@ struct FittedRun : FittedSegment {
   int kept_to = -1;          ///< to which this one was not shared out
   int compared_with = -1;    ///< end of the next run, to which this is the similarity:
   double similarity = 0.0;
-  bool similarity_is_bound = false;  ///< it is not known, but not above that
 
   FittedRun() = default;
   FittedRun(const FittedSegment& segment, int from, int to)
