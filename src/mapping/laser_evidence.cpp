@@ -3,7 +3,6 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <tuple>
 #include <utility>
@@ -49,8 +48,6 @@ std::vector<Slot> wallsOfReturns(const Scan& scan, const std::vector<Eigen::Vect
   return slots;
 }
 
-constexpr std::size_t kFewWalls = 64;  // room for those of most scans
-
 /// What the rays of a scan can say about places where they did not end.
 struct Rays {
   Eigen::Vector2d origin;
@@ -73,7 +70,6 @@ Rays raysOf(const Scan& scan, const std::vector<Eigen::Vector2d>& beams, const M
 std::vector<Slot> wallsNear(const Rays& rays, const std::vector<Eigen::Vector2d>& beams,
                             Walls& walls) {
   std::vector<Slot> found;
-  found.reserve(kFewWalls);
   Eigen::AlignedBox2d swept(rays.origin);
   for (std::size_t beam = 0; beam < beams.size(); ++beam) {
     if (rays.reach[beam] > 0.0) swept.extend(rays.origin + rays.reach[beam] * beams[beam]);
@@ -112,8 +108,7 @@ bool passThrough(const Scan& scan, const Rays& rays, const std::vector<Eigen::Ve
     facing = -facing;
   }
   bool telling = false;
-  const double start = wall.profile.first() * SupportProfile::kBinLength;
-  const double end = wall.profile.last() * SupportProfile::kBinLength;
+  const auto [start, end] = extentOf(wall);
   for (const BeamRange& range : beamsTowards(scan, wall.onLine(start), wall.onLine(end), 0.0)) {
     for (std::size_t beam = range.first; beam < range.last; ++beam) {
       const double closing = facing.dot(beams[beam]), reach = rays.reach[beam];
@@ -191,7 +186,6 @@ void passRays(const Scan& scan, const std::vector<Eigen::Vector2d>& beams, const
               Walls& walls) {
   const Rays rays = raysOf(scan, beams, noise);
   std::vector<FirstPass> passes;
-  passes.reserve(kFewWalls);
   for (const Slot slot : wallsNear(rays, beams, walls)) {
     FirstPass first;
     if (!passThrough(scan, rays, beams, walls[slot], &first)) continue;

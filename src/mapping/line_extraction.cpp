@@ -30,25 +30,24 @@ struct ClusteredScan {
   ScanPoints points;
   RunFitter fitter;
   Runs runs;
-};
 
-/// Lets a closed scan begin with another run.
-void beginAtRun(std::size_t index, const PointNoise& noise, ScanPoints* points, RunFitter* fitter,
-                Runs* runs) {
-  const auto first_run = runs->begin() + static_cast<std::ptrdiff_t>(index);
-  const int corner = first_run->first, n = static_cast<int>(points->size());
-  std::rotate(runs->begin(), first_run, runs->end());
-  for (FittedRun& run : *runs) {
-    const int shift = run.first >= corner ? -corner : n - corner;
-    run.first += shift;
-    run.last += shift;
-    for (int* key : {&run.settled_with, &run.compared_with, &run.kept_from, &run.kept_to}) {
-      if (*key >= 0) *key += shift;
+  /// Lets a closed scan begin with another run.
+  void beginWith(std::size_t index) {
+    const auto first_run = runs.begin() + static_cast<std::ptrdiff_t>(index);
+    const int corner = first_run->first, n = static_cast<int>(points.size());
+    std::rotate(runs.begin(), first_run, runs.end());
+    for (FittedRun& run : runs) {
+      const int shift = run.first >= corner ? -corner : n - corner;
+      run.first += shift;
+      run.last += shift;
+      for (int* key : {&run.settled_with, &run.compared_with, &run.kept_from, &run.kept_to}) {
+        if (*key >= 0) *key += shift;
+      }
     }
+    reopen(corner, &points);
+    fitter = RunFitter(points.positions, noise, fitter.vertexPrice());
   }
-  reopen(corner, points);
-  *fitter = RunFitter(points->positions, noise, fitter->vertexPrice());
-}
+};
 
 /// Clusters a scan again and again, until no two runs are alike and every corner is in its place.
 ClusteredScan cluster(const Scan& scan, const CcaParameters& parameters) {
@@ -56,36 +55,36 @@ ClusteredScan cluster(const Scan& scan, const CcaParameters& parameters) {
   PointNoise noise = rangeNoise(scan);
   noise.straightness = parameters.straightness;
   if (without(Part::kScanNoise)) noise.range_sigma = kSetSigma;
-  ScanPoints points = scanPoints(scan, std::max(noise.range_sigma, noise.straightness));
-  RunFitter fitter(points.positions, noise, parameters.vertex_price);
-  Runs runs = pointClusters(points, fitter, without);
+  const ScanPoints points = scanPoints(scan, std::max(noise.range_sigma, noise.straightness));
+  const RunFitter fitter(points.positions, noise, parameters.vertex_price);
+  ClusteredScan s{noise, points, fitter, pointClusters(points, fitter, without)};
 
   const AlphaCut cut(parameters);
   for (const double share : kOdds) {
     const AlphaCut higher(1.0 / (1.0 + share * (1.0 / cut.value - 1.0)), without);
-    while (!without(Part::kRounds) && mergeConsecutive(points, fitter, higher, &runs)) {
+    while (!without(Part::kRounds) && mergeConsecutive(s.points, s.fitter, higher, &s.runs)) {
     }
   }
   bool changed = true;
   for (int round = 0; changed && round < kMostRounds; ++round) {
     changed = false;
-    while (mergeConsecutive(points, fitter, cut, &runs)) {
+    while (mergeConsecutive(s.points, s.fitter, cut, &s.runs)) {
       changed = true;
       if (without(Part::kRounds)) break;
     }
     if (without(Part::kCorners)) continue;
-    if (refineCorners(points, fitter, &runs, without)) changed = true;
-    if (round > 0 || !points.closed || runs.size() < 3) continue;
+    if (refineCorners(s.points, s.fitter, &s.runs, without)) changed = true;
+    if (round > 0 || !s.points.closed || s.runs.size() < 3) continue;
     // The circle was cut before its walls were known: it is opened on the far side of the scan, so
     // that the old seam is refined like any other place.
-    beginAtRun(runs.size() / 2, noise, &points, &fitter, &runs);
+    s.beginWith(s.runs.size() / 2);
     changed = true;
   }
   if (!without(Part::kCorners)) {
-    meetAtCorners(points, fitter, &runs);
-    tellEdgesBetween(points, fitter, &runs);
+    meetAtCorners(s.points, s.fitter, &s.runs);
+    tellEdgesBetween(s.points, s.fitter, &s.runs);
   }
-  return {noise, std::move(points), std::move(fitter), std::move(runs)};
+  return s;
 }
 
 std::vector<LineSegment> linesOf(const ClusteredScan& s, const CcaParameters& parameters) {
@@ -97,7 +96,7 @@ std::vector<LineSegment> linesOf(const ClusteredScan& s, const CcaParameters& pa
 void beginBehindBreak(ClusteredScan* s) {
   for (std::size_t k = 1; s->points.closed && k < s->runs.size(); ++k) {
     if (areNeighbours(s->points, s->runs[k - 1], s->runs[k])) continue;
-    return beginAtRun(k, s->noise, &s->points, &s->fitter, &s->runs);
+    return s->beginWith(k);
   }
 }
 

@@ -31,7 +31,7 @@ double gapToNext(const ScanPoints& points, const FittedRun& a, const FittedRun& 
 double similarityOf(const RunFitter& fitter, const AlphaCut& cut, const FittedRun& run,
                     const FittedRun& next, double gap) {
   if (gap > 0.0 && !cut.without(Part::kGap)) return 0.0;
-  const JointFit joint = fitter.fitJointly(fitter.prefix().run(run.first, next.last));
+  const FittedSegment joint = fitter.fit(run.first, next.last);
   return cut.similarity(memberships(run, next, joint, gap, fitter.linePrice()));
 }
 
@@ -73,10 +73,9 @@ struct Interrupted {
 };
 
 /// Rays on the way from run i on to run j that speak against a wall there: they pass it, they do
-/// not return, or they end before it on what no other line explains. Counted up to the first beyond
-/// `most`.
+/// not return, or they end before it on what no other line explains.
 double raysAgainst(const ScanPoints& points, const FittedSegment& joint, const Runs& runs, int i,
-                   int j, double most) {
+                   int j) {
   const bool over_seam = j < i;
   double against = over_seam ? points.silentAtSeam() +
                                    points.silentBetween(runs[i].last - 1, runs.back().last - 1) +
@@ -86,7 +85,7 @@ double raysAgainst(const ScanPoints& points, const FittedSegment& joint, const R
   const double distance = normal.dot(joint.line.centroid);
   const double gate = kNormalGate * std::sqrt(joint.variance);
   const int n = static_cast<int>(runs.size());
-  for (int k = (i + 1) % n; k != j && against <= most; k = (k + 1) % n) {
+  for (int k = (i + 1) % n; k != j; k = (k + 1) % n) {
     for (int p = runs[k].first; p < runs[k].last; ++p) {
       const double off = normal.dot(points.positions[p]) - distance;
       const double behind = distance < 0.0 ? -off : off;
@@ -106,9 +105,9 @@ bool interlaced(const Interrupted& a, const Interrupted& b) {
 }
 
 /// Evidence against one wall through both, in rays: those of the gap, and the hidden length.
-/// Infinite where the field of view does not hold the gap. Beyond `most` it is at least that much.
+/// Infinite where the field of view does not hold the gap.
 double gapEvidence(const ScanPoints& points, const FittedSegment& joint, const Runs& runs,
-                   const Interrupted& a, const Interrupted& b, double most) {
+                   const Interrupted& a, const Interrupted& b) {
   const auto first = [&](const Interrupted& l) {
     return points.positions[runs[l.runs.front()].first];
   };
@@ -120,9 +119,8 @@ double gapEvidence(const ScanPoints& points, const FittedSegment& joint, const R
   const Interrupted &from = forward ? a : b, &to = forward ? b : a;
   const Eigen::Vector2d& u = joint.line.direction;
   const double hidden = std::abs(u.dot(first(to) - last(from)));
-  const double by_length = hidden / kHiddenToEvenOdds;
-  if (by_length > most) return by_length;
-  return by_length + raysAgainst(points, joint, runs, from.runs.back(), to.runs.front(), most);
+  return hidden / kHiddenToEvenOdds +
+         raysAgainst(points, joint, runs, from.runs.back(), to.runs.front());
 }
 
 /// Scan order, begun after the turn away from the line: a wall may lie across the seam.
@@ -141,29 +139,17 @@ bool mergeInterrupted(const ScanPoints& points, const RunFitter& fitter, const A
                       const Runs& runs, std::vector<Interrupted>* lines) {
   const int n = static_cast<int>(lines->size());
   SimilarityMatrix s(n);
-  // With more, the gap alone is below the cut.
-  const double most = cut.without(Part::kGap) ? std::numeric_limits<double>::infinity()
-                                              : kGapGate * (1.0 / cut.value - 1.0) + 1e-9;
   for (int i = 0; i < n; ++i) {
     for (int j = i + 1; j < n; ++j) {
       const Interrupted &a = (*lines)[i], &b = (*lines)[j];
+      if (interlaced(a, b)) continue;
       PointMoments moments = a.fit.moments;
       moments.add(b.fit.moments);
-      if (!cut.without(Part::kFit)) {
-        const double bound = mostFitMembership(a.fit, b.fit, leastResidual(moments),
-                                               fitter.mostVariance(), fitter.linePrice());
-        if (bound < cut.value) continue;
-      }
-      if (interlaced(a, b)) continue;
-      const JointFit fitted = fitter.fitJointly(moments);
-      const auto alike = [&](const JointFit& joint, double against) {
-        return cut.similarity(memberships(a.fit, b.fit, joint, against, fitter.linePrice()));
-      };
-      if (alike(fitted, 0.0) < cut.value) continue;
       const FittedSegment joint = fitter.fit(moments);
-      const double against = gapEvidence(points, joint, runs, a, b, most);
-      if (against > most) continue;
-      s.set(i, j, alike(joint, against));
+      Memberships mu = memberships(a.fit, b.fit, joint, 0.0, fitter.linePrice());
+      if (cut.similarity(mu) < cut.value) continue;
+      mu.gap = bell(gapEvidence(points, joint, runs, a, b), kGapGate);
+      if (cut.similarity(mu) >= cut.value) s.set(i, j, cut.similarity(mu));
     }
   }
   if (s.entries().empty()) return false;

@@ -40,8 +40,7 @@ bool isExplained(const NewLine& line, const MapNoise& noise, const Walls& walls)
 }
 
 void found(NewLine& line, const MapNoise& noise, Walls& walls) {
-  if (std::sqrt(line.own_angle_variance) > kSteepest) return;
-  if (isExplained(line, noise, walls)) return;
+  if (std::sqrt(line.own_angle_variance) > kSteepest || isExplained(line, noise, walls)) return;
   line.wall = walls.create();
   Wall& wall = walls[line.wall];
   wall.origin = line.segment.moments.mean;
@@ -80,8 +79,7 @@ class Neighbourhood {
     }
     for (int i = w; i < n; ++i) {
       for (int j = i + 1; j < n; ++j) {
-        // The extraction has parted the two; a wall that both are alike speaks for what lies
-        // between.
+        // The extraction parted the two; a wall that both are alike speaks for what lies between.
         double alike = 0.0;
         for (int k = 0; k < w; ++k) alike = std::max(alike, std::min(s(i, k), s(j, k)));
         set(i, j, alike);
@@ -108,12 +106,9 @@ class Neighbourhood {
         line.wall = walls_[at(m)];
       }
       if (!of_map.empty()) continue;
-      if (founded < 0) {
-        found(line, noise, walls);
-        founded = line.wall;
-      } else {
-        line.wall = founded;
-      }
+      line.wall = founded;
+      if (founded < 0) found(line, noise, walls);
+      founded = line.wall;
     }
   }
 
@@ -152,8 +147,7 @@ std::vector<Resemblance> resemblances(const std::vector<NewLine>& lines, const A
 void clusterIntoMap(std::vector<NewLine>& lines, const AlphaCut& cut, const MapNoise& noise,
                     Walls& walls) {
   const std::vector<Resemblance> alike = resemblances(lines, cut, noise, walls);
-  // Each line is in the set of the first line that it shares walls with, directly or through
-  // others.
+  // Each line is in the set of the first one that it shares walls with, directly or not.
   std::vector<int> set_of(lines.size());
   std::iota(set_of.begin(), set_of.end(), 0);
   for (std::size_t i = 0; i < alike.size(); ++i) {

@@ -38,23 +38,18 @@ void shareOverlap(Slot a, Slot b, Walls& walls, const MapNoise& noise, const Alp
 std::vector<Slot> groupOf(Slot slot, const std::vector<Slot>& near, const Walls& walls,
                           const MapNoise& noise, const AlphaCut& cut) {
   if (cut.without(Part::kWallsToWalls)) return {};
+  const auto similarity = [&](Slot a, Slot b) {
+    return cut.similarity(mapMemberships(walls[a], walls[b], noise));
+  };
   std::vector<Slot> members{slot};
-  std::vector<double> to_slot{1.0};
   for (const Slot other : near) {
     if (other == slot || walls[other].profile.empty()) continue;
-    const double s = cut.similarity(mapMemberships(walls[slot], walls[other], noise));
-    if (s < cut.value) continue;
-    members.push_back(other);
-    to_slot.push_back(s);
+    if (similarity(slot, other) >= cut.value) members.push_back(other);
   }
-  const int n = static_cast<int>(members.size());
-  SimilarityMatrix sim(n);
-  for (int i = 1; i < n; ++i) {
-    sim.set(0, i, to_slot[static_cast<std::size_t>(i)]);
-    for (int j = i + 1; j < n; ++j) {
-      const Wall &a = walls[members[static_cast<std::size_t>(i)]],
-                 &b = walls[members[static_cast<std::size_t>(j)]];
-      sim.set(i, j, cut.similarity(mapMemberships(a, b, noise)));
+  SimilarityMatrix sim(static_cast<int>(members.size()));
+  for (std::size_t i = 0; i < members.size(); ++i) {
+    for (std::size_t j = i + 1; j < members.size(); ++j) {
+      sim.set(static_cast<int>(i), static_cast<int>(j), similarity(members[i], members[j]));
     }
   }
   const std::vector<int> group_of = rankOrderGroups(sim, cut);

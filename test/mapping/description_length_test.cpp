@@ -20,7 +20,7 @@ TEST(RunFitter, PricesARunAsItsFitDoes) {
   EXPECT_EQ(fitter.price(5, 5), 0.0);
 }
 
-TEST(RunFitter, BoundsPricesResidualsAndJointFitsFromBelow) {
+TEST(RunFitter, BoundsPricesAndResidualsFromBelow) {
   std::mt19937 random(4);
   const ScanPoints points = scanPoints(turnIn(rectangle(-2.0, -1.0, 3.0, 2.0), 0.03, &random));
   const RunFitter fitter(points.positions, {0.035, 0.001, 0.0});
@@ -31,9 +31,6 @@ TEST(RunFitter, BoundsPricesResidualsAndJointFitsFromBelow) {
       const double bound = fitter.leastHalfChiSquare(first, last);
       EXPECT_LE(bound, 0.5 * run.chi_square + 1e-6);
       EXPECT_NEAR(fitter.prefix().leastResidual(first, last), leastResidual(run.moments), 1e-9);
-      EXPECT_LE(run.variance, fitter.mostVariance());
-      const double residual_sum_sq = fitter.fitJointly(run.moments).residual_sum_sq;
-      EXPECT_NEAR(residual_sum_sq, run.line.residual_sum_sq, 1e-9);
     }
   }
 }

@@ -141,26 +141,6 @@ TEST(FitMembership, TakesNoWallForBentBecauseItIsMetAtManyAngles) {
   EXPECT_LE(parted, 2);
 }
 
-TEST(FitMembership, IsNeverAboveItsBound) {
-  std::mt19937 random(5);
-  std::normal_distribution<double> noise(0.0, kSigma);
-  int rejected = 0;
-  for (int trial = 0; trial < 200; ++trial) {
-    std::vector<Eigen::Vector2d> points;
-    const double bend = 0.005 * trial;
-    for (int i = 0; i < 40; ++i) {
-      points.emplace_back(0.05 * i, 2.0 + bend * std::max(0, i - 20) * 0.05 + noise(random));
-    }
-    const RunFitter fitter(points, {kSigma, 0.001});
-    const FittedRun a = fitter.fit(0, 20), b = fitter.fit(20, 40), joint = fitter.fit(0, 40);
-    const double bound = mostFitMembership(a, b, fitter.prefix().leastResidual(0, 40),
-                                           fitter.mostVariance(), kLinePrice);
-    EXPECT_LE(fitMembership(a, b, joint, kLinePrice), bound * (1.0 + 1e-9));
-    rejected += bound < 0.5 ? 1 : 0;
-  }
-  EXPECT_GT(rejected, 50);
-}
-
 TEST(FitMembership, OfTwoStrayPointsIsZero) {
   PointMoments a, b;
   a.add(Eigen::Vector2d(1.0, 0.0));

@@ -60,21 +60,6 @@ struct FittedSegment {
   }
 };
 
-/// What one line through the points of two segments leaves over: all that their similarity asks of
-/// it.
-struct JointFit {
-  double points;           ///< their number
-  double variance;         ///< m^2, > 0, of one point's distance from the line
-  double residual_sum_sq;  ///< m^2, of their distances from the line
-
-  JointFit(const FittedSegment& s)
-      : points(s.moments.weight), variance(s.variance), residual_sum_sq(s.line.residual_sum_sq) {}
-  JointFit(const PointMoments& moments, const PrincipalAxis& axis, const PointNoise& noise)
-      : points(moments.weight),
-        variance(noise.onLine(moments.mean, axis).across),
-        residual_sum_sq(axis.residual_sum_sq) {}
-};
-
 /// A run of neighbouring points of a scan, first <= i < last.
 struct FittedRun : FittedSegment {
   int first = 0;
@@ -141,10 +126,6 @@ class RunFitter {
     const FittedLine line = fitLine(moments);
     return {moments, line, noise_.onLine(line.centroid, line.direction), line_price_};
   }
-  /// The same without the line's direction, cheaper.
-  JointFit fitJointly(const PointMoments& moments) const {
-    return {moments, principalAxis(moments), noise_};
-  }
   /// Whether the points are spread over more than their noise, however many there are.
   bool hasDirection(const FittedSegment& s) const {
     return isDrawnOut(s.moments.weight, s.line.spread_sum_sq,
@@ -154,8 +135,6 @@ class RunFitter {
   double leastHalfChiSquare(int first, int last) const {
     return 0.5 * prefix_.leastResidual(first, last) / most_variance_;
   }
-  /// m^2, > 0, the largest of any line through these points.
-  double mostVariance() const { return most_variance_; }
   const PrefixMoments& prefix() const { return prefix_; }
   double vertexPrice() const { return vertex_price_; }  ///< nats
   double linePrice() const { return line_price_; }      ///< nats

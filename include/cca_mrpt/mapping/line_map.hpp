@@ -22,8 +22,7 @@ class LineMap {
 
   /// Takes a scan at its T_map_sensor. Cost does not depend on the size of the map.
   /// @return  false where the pose is not finite or further than 10 000 km from the map's origin:
-  /// the
-  ///          scan is then left out.
+  ///          the scan is then left out.
   bool insert(const Scan& scan);
   /// The same with lines (sensor frame, in any order) that were extracted elsewhere.
   bool insert(const Scan& scan, const std::vector<LineSegment>& lines);

@@ -51,19 +51,14 @@ struct AlphaCut {
 /// mu_4 alone: the cheapest, and the first to fail.
 /// @param joint  fit of the points of both.
 /// @param line_price  nats, > 0: see linePrice().
-double fitMembership(const FittedSegment& a, const FittedSegment& b, const JointFit& joint,
+double fitMembership(const FittedSegment& a, const FittedSegment& b, const FittedSegment& joint,
                      double line_price);
-/// What mu_4 cannot exceed, before the points of both are fitted.
-/// @param least_residual  m^2, residual_sum_sq of the joint fit is not less.
-/// @param most_variance   m^2, > 0, that of a point's distance from any line is not more.
-double mostFitMembership(const FittedSegment& a, const FittedSegment& b, double least_residual,
-                         double most_variance, double line_price);
 
 /// Of two pieces of a scan. Orientation and offset are 1, for what they would ask is in the fit; so
 /// is overlap, for from one place no two are seen side by side.
 /// @param joint        fit of the points of both.
 /// @param gap_evidence rays, >= 0: that pass where the joint line is, or end before it unexplained.
-Memberships memberships(const FittedSegment& a, const FittedSegment& b, const JointFit& joint,
+Memberships memberships(const FittedSegment& a, const FittedSegment& b, const FittedSegment& joint,
                         double gap_evidence, double line_price);
 
 /// The Similarity Index Matrix: symmetric, in [0, 1], unit diagonal, 0 where nothing is set.
