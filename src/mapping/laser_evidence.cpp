@@ -101,12 +101,9 @@ bool passThrough(const Scan& scan, const Rays& rays, const std::vector<Eigen::Ve
                  Wall& wall, FirstPass* first) {
   const Eigen::Vector2d viewpoint = wall.toWall(rays.origin);
   // The line is off = distance * (facing . ray) away along a ray.
-  double off = wall.offLine(viewpoint);
-  Eigen::Vector2d facing = wall.fit.slope * wall.direction - wall.normal();
-  if (off < 0.0) {
-    off = -off;
-    facing = -facing;
-  }
+  const double side = wall.offLine(viewpoint) < 0.0 ? -1.0 : 1.0;
+  const double off = side * wall.offLine(viewpoint);
+  const Eigen::Vector2d facing = side * (wall.fit.slope * wall.direction - wall.normal());
   bool telling = false;
   const auto [start, end] = extentOf(wall);
   for (const BeamRange& range : beamsTowards(scan, wall.onLine(start), wall.onLine(end), 0.0)) {

@@ -139,12 +139,16 @@ bool mergeInterrupted(const ScanPoints& points, const RunFitter& fitter, const A
                       const Runs& runs, std::vector<Interrupted>* lines) {
   const int n = static_cast<int>(lines->size());
   SimilarityMatrix s(n);
+  // Residuals that grow by more than this, m^2, no fit bears: most need no root to be told apart.
+  const double most = 2.0 * fitter.linePrice() * (1.0 / cut.value - 1.0) * fitter.mostVariance();
   for (int i = 0; i < n; ++i) {
     for (int j = i + 1; j < n; ++j) {
       const Interrupted &a = (*lines)[i], &b = (*lines)[j];
-      if (interlaced(a, b)) continue;
       PointMoments moments = a.fit.moments;
       moments.add(b.fit.moments);
+      const double told = a.fit.line.residual_sum_sq + b.fit.line.residual_sum_sq;
+      if (leastResidual(moments) > told + most && !cut.without(Part::kFit)) continue;
+      if (interlaced(a, b)) continue;
       const FittedSegment joint = fitter.fit(moments);
       Memberships mu = memberships(a.fit, b.fit, joint, 0.0, fitter.linePrice());
       if (cut.similarity(mu) < cut.value) continue;

@@ -22,15 +22,12 @@ std::pair<long, long> freedPlace(const Eigen::Vector2d& p_map) {
 }  // namespace
 
 Walls::Slot Walls::create() {
-  Slot slot;
   if (free_.empty()) {
-    slot = static_cast<Slot>(walls_.size());
+    free_.push_back(static_cast<Slot>(walls_.size()));
     walls_.emplace_back();
-  } else {
-    slot = free_.back();
-    free_.pop_back();
-    (*this)[slot] = Wall{};
   }
+  const Slot slot = free_.back();
+  free_.pop_back();
   (*this)[slot].alive = true;
   return slot;
 }

@@ -135,6 +135,7 @@ class RunFitter {
   double leastHalfChiSquare(int first, int last) const {
     return 0.5 * prefix_.leastResidual(first, last) / most_variance_;
   }
+  double mostVariance() const { return most_variance_; }  ///< m^2, > 0, across any line
   const PrefixMoments& prefix() const { return prefix_; }
   double vertexPrice() const { return vertex_price_; }  ///< nats
   double linePrice() const { return line_price_; }      ///< nats
