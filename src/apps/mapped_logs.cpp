@@ -42,7 +42,8 @@ MappedLogs::MappedLogs(const LogsToMap& logs, const LocalLog& first, const CcaPa
       map_(mapping),
       grid_(first.start()),
       origin_(first.origin()),
-      replay_(fileName(logs.paths.front())) {}
+      replay_(fileName(logs.paths.front())),
+      drawing_(std::make_unique<BackgroundWork>()) {}
 
 void MappedLogs::take(const std::string& path, LocalLog& log, const IcpParameters& icp,
                       const Interruption& interruption) try {
@@ -106,6 +107,8 @@ void MappedLogs::finish() {
     }
     warn(tellOfSlam({is_placed.begin() + slam_->remembered(), is_placed.end()}));
   }
+  drawing_->wait();
+  drawing_.reset();
   warn(straysTold());
 }
 
@@ -131,12 +134,12 @@ void MappedLogs::addMoment(const LogRecord& record, const Pose2& T_map_robot) {
   moment.distance = distance_;
   moment.T_map_robot = T_map_robot;
   moment.truth = referencePose(record);
-  replay_.add(moment, record.scan, map_);
+  drawing_->add([this, moment, scan = record.scan] { replay_.add(moment, scan, map_); });
 }
 
 void MappedLogs::insert(const LogRecord& record, const Pose2& T_map_robot, bool is_placed) {
   if (is_placed) {
-    map_.insert(record.scan);
+    drawing_->add([this, scan = record.scan] { map_.insert(scan); });
     grid_.insert(record.scan);
   }
   unplaced_ += !is_placed;

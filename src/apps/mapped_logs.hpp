@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "background_work.hpp"
 #include "cca_mrpt/io/local_frame.hpp"
 #include "cca_mrpt/io/map_products.hpp"
 #include "cca_mrpt/io/memory_file.hpp"
@@ -70,6 +72,8 @@ class MappedLogs {
   std::size_t unplaced_ = 0;  ///< scans that nobody knows the place of, and that are in no map
   std::string warnings_;      ///< what could not be read, or was missed
   bool interrupted_ = false;
+  /// Draws lines and the replay while the log is read on; until finish().
+  std::unique_ptr<BackgroundWork> drawing_;
 };
 
 }  // namespace cca::apps
