@@ -48,7 +48,7 @@ struct ViewTourParameters {
   /// Weight of the gain-weighted mean arrival against the length of the tour. Measured on the
   /// worlds: 0 (shortest tour) is late at 90 % coverage, 30 leaves too many rests behind.
   double hurry = 10.0;
-  double worth = 80.0;        ///< m of way that an unseen square metre is worth
+  double worth = 60.0;        ///< m of way that an unseen square metre is worth
   int fields_per_choice = 2;  ///< distance fields computed anew at most, each choice
 };
 
