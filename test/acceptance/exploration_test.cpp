@@ -27,9 +27,8 @@ World shipped(const std::string& name) {
 
 /// The loop of `cca-mrpt explore`, without its files.
 Result explore(const World& world, const Pose2& start, int seed, double longest_time,
-               const std::vector<Mover>& movers = {}) {
+               const std::vector<Mover>& movers = {}, SimulationParameters simulated = {}) {
   const Parameters parameters;
-  SimulationParameters simulated;
   simulated.seed = static_cast<std::uint64_t>(seed);
   Simulation simulation(world, start, simulated, movers);
   Explorer explorer(parameters.mapping, parameters.robot, parameters.exploration);
@@ -102,6 +101,23 @@ TEST(CrowdedPlaces, AreLookedIntoFromWhereverTheRobotCanGo) {
     EXPECT_GE(result.coverage, 0.985) << seed;
     EXPECT_EQ(result.collisions, 0) << seed;
   }
+}
+
+// What was not worth its way may seem to be, once the ways between what is left are known better: a
+// robot that is still asking what is left must not go there by what it knew before. It stood for
+// hours at a place that it had seen.
+TEST(NoisyPlaces, EndWithoutALongStandstill) {
+  SimulationParameters simulated;
+  simulated.laser.range = 20.0;
+  simulated.laser.range_noise = 0.03;
+  simulated.laser.angle_noise_deg = 0.5;
+  simulated.laser.dropout = 0.01;
+  const World world = rasterise(generateFloorPlan("apartment", 2), 0.05);
+  const Result result = explore(world, *world.start, 1, 1200.0, {}, simulated);
+  EXPECT_TRUE(result.finished);
+  EXPECT_GE(result.coverage, 0.995);
+  EXPECT_LT(longestStandstill(result.trajectory), 60.0);
+  EXPECT_EQ(result.collisions, 0);
 }
 
 struct Case {

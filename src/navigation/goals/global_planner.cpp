@@ -119,10 +119,12 @@ void GlobalPlanner::decide(const Eigen::Vector2d& robot_map) {
   revealed_then_ = grid().revealed();
   plan_ = {};
   if (!drivesInVain()) {
-    if (!last_look_.isUnderWay()) findViews();
-    if (const auto chosen = choose()) {
-      is_last_look_ = false;
-      return driveTo(*chosen, robot_map, "to see what is behind a frontier");
+    if (!last_look_.isUnderWay()) {  // the views of before it began would be out of date
+      findViews();
+      if (const auto chosen = choose()) {
+        is_last_look_ = false;
+        return driveTo(*chosen, robot_map, "to see what is behind a frontier");
+      }
     }
     if (lookLast(robot_map)) return;
   }
