@@ -119,9 +119,13 @@ void MappedLogs::insertMemory(const std::vector<Pose2>& T_map_robot) {
   for (std::size_t k = 0; k < keys.size(); ++k) {
     Scan scan = keys[k].scan;
     scan.T_map_sensor = T_map_robot[k] * keys[k].T_robot_sensor;
-    map_.insert(scan);
-    grid_.insert(scan);
+    draw(scan);
   }
+}
+
+void MappedLogs::draw(const Scan& scan) {
+  drawing_->add([this, scan] { map_.insert(scan); });
+  grid_.insert(scan);
 }
 
 void MappedLogs::addMoment(const LogRecord& record, const Pose2& T_map_robot) {
@@ -138,10 +142,7 @@ void MappedLogs::addMoment(const LogRecord& record, const Pose2& T_map_robot) {
 }
 
 void MappedLogs::insert(const LogRecord& record, const Pose2& T_map_robot, bool is_placed) {
-  if (is_placed) {
-    drawing_->add([this, scan = record.scan] { map_.insert(scan); });
-    grid_.insert(record.scan);
-  }
+  if (is_placed) draw(record.scan);
   unplaced_ += !is_placed;
   beams_ += record.scan.size();
   trajectory_.push_back(T_map_robot);

@@ -48,6 +48,7 @@ class MappedLogs {
   void addMoment(const LogRecord& record, const Pose2& T_map_robot);
   /// @param record  its scan at the place where it belongs in the map.
   void insert(const LogRecord& record, const Pose2& T_map_robot, bool is_placed = true);
+  void draw(const Scan& scan);
   void insertMemory(const std::vector<Pose2>& T_map_robot);
   std::string locateScanByScan(LocalLog& log, const IcpParameters& icp,
                                const Interruption& interruption);

@@ -25,8 +25,8 @@ GlobalPlanner::GlobalPlanner(const GlobalPlannerParameters& parameters)
       place_(parameters.clearance),
       views_(parameters.smallest_gain, parameters.smallest_frontier),
       view_tour_(parameters.tour),
-      last_look_(parameters.smallest_gain, parameters.smallest_frontier, parameters.worth),
-      unpaid_way_(parameters.worth) {}
+      last_look_(parameters.smallest_gain, parameters.smallest_frontier, parameters.tour.worth),
+      unpaid_way_(parameters.tour.worth) {}
 
 const Plan& GlobalPlanner::update(const Scan& scan, const Eigen::Vector2d& robot_map,
                                   bool is_placed) {
@@ -119,12 +119,9 @@ void GlobalPlanner::decide(const Eigen::Vector2d& robot_map) {
   revealed_then_ = grid().revealed();
   plan_ = {};
   if (!drivesInVain()) {
-    if (!last_look_.isUnderWay()) {  // the views of before it began would be out of date
-      findViews();
-      if (const auto chosen = choose()) {
-        is_last_look_ = false;
-        return driveTo(*chosen, robot_map, "to see what is behind a frontier");
-      }
+    if (const auto chosen = choose()) {
+      is_last_look_ = false;
+      return driveTo(*chosen, robot_map, "to see what is behind a frontier");
     }
     if (lookLast(robot_map)) return;
   }
@@ -219,7 +216,10 @@ void GlobalPlanner::lookAround() {
   plan_.reason = "to look around";
 }
 
+// While the last look is under way the views of before it would be out of date.
 std::optional<ViewPoint> GlobalPlanner::choose() {
+  if (last_look_.isUnderWay()) return {};
+  findViews();
   const std::vector<ViewPoint>&views = views_.viewPoints(), &entries = views_.entries();
   if (parameters_.strategy != Strategy::kViewTour) {
     const auto best = selectGoal(parameters_.strategy, views);
@@ -239,7 +239,7 @@ void GlobalPlanner::correct(const PastScans& past) {
   if (goal_) goal_->target = moved(goal_->target);
   view_tour_ = ViewTour(parameters_.tour);
   last_look_ =
-      LastLook(parameters_.smallest_gain, parameters_.smallest_frontier, parameters_.worth);
+      LastLook(parameters_.smallest_gain, parameters_.smallest_frontier, parameters_.tour.worth);
   revealed_at_last_look_.reset();
   is_corrected_ = true;
 }
