@@ -10,6 +10,7 @@
 #include "cca_mrpt/evaluation/log_score.hpp"
 #include "cca_mrpt/io/log_reader.hpp"
 #include "cca_mrpt/mapping/line_map.hpp"
+#include "cca_mrpt/mapping/scan_agreement.hpp"
 
 namespace cca {
 namespace {
@@ -31,7 +32,14 @@ TEST_P(RealLog, MapIsCompleteCleanAndOnTheWalls) {
   const auto reader = openLog(path.string());
   while (const auto record = reader->next()) scans.push_back(record->scan);
   LineMap map;
-  for (const Scan& scan : scans) map.insert(scan);
+  ScanAgreement agreement;
+  double lowest_agreement = 1.0;
+  for (const Scan& scan : scans) {
+    agreement.add(compareWithMap(scan, map.walls()));
+    lowest_agreement = std::min(lowest_agreement, agreement.recent());
+    map.insert(scan);
+  }
+  EXPECT_GT(lowest_agreement, 0.998);  // of 0.99 that stop an exploration
   std::vector<Segment2> segments;
   for (const MapLine& line : map.lines())
     segments.push_back({line.segment.start, line.segment.end});
