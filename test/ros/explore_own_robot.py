@@ -121,9 +121,10 @@ class ExploreOwnRobot(OwnMaster):
         self.check(world, report, summary, lines, lies_off=lies_off)
 
     def test_corridor_loop_with_nobody_who_tells_where_it_is_and_again_with_its_map(self):
-        """The second drive begins elsewhere, and its map is that of both, in the frame of the first."""
+        """The first drive ends where it began, which closes its loop whatever the way. The second one begins elsewhere,
+        and its map is that of both, in the frame of the first."""
         world, first = os.path.join(MAPS, "corridor_loop.yaml"), self.out
-        self.with_nobody_who_tells_where_it_is(world, "1.2,1.2,0", launch=["latency:=0"])
+        self.with_nobody_who_tells_where_it_is(world, "1.2,1.2,0", launch=["latency:=0", "return_to_start:=true"])
         self.assertIn("robot/latency says 0.00 s", self.told)
         self.out = first + "_2"
         report, summary, lines = self.explore(world, "22.8,7.7,180", launch=["resume:=" + first])
