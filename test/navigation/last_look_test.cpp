@@ -43,15 +43,7 @@ struct Look {
   static bool takesAll(const ViewPoint&) { return true; }
   /// m^2 that a place promises behind frontiers of five cells and more.
   double gainFrom(Cell from) {
-    std::vector<Cell> openings;
-    for (const Frontier& frontier : place.frontiers()) {
-      if (frontier.cells.size() < 5) continue;
-      openings.insert(openings.end(), frontier.cells.begin(), frontier.cells.end());
-    }
-    const auto is_opening = [&](Cell c) {
-      return std::find(openings.begin(), openings.end(), c) != openings.end();
-    };
-    return viewFrom(place.grid(), from, place.laserRange(), is_opening).gain;
+    return viewFrom(place.grid(), from, place.laserRange(), place.openings(5)).gain;
   }
 };
 

@@ -6,6 +6,7 @@
 #include <random>
 
 #include "box_world.hpp"
+#include "cca_mrpt/navigation/place/beam.hpp"
 
 namespace cca::testing::tangent_graph_test {
 namespace {
@@ -39,7 +40,7 @@ TEST(ConfigurationSpace, PassesAPointAtTheTangentsBearing) {
 TEST(ConfigurationSpace, AllBearingsAtOnceEqualEachOneAlone) {
   for (unsigned seed = 0; seed < 20; ++seed) {
     const ConfigurationSpace space = randomSpace(seed);
-    const auto ranges = space.freeRanges({0, 0}, 360, 4.0);
+    const auto ranges = space.freeRanges({0, 0}, directionsAround(360, 0.0), 4.0);
     for (int k = 0; k < 360; ++k) {
       const double a = 2.0 * M_PI * k / 360;
       const double alone = space.freeDistance({0, 0}, {std::cos(a), std::sin(a)}, 4.0);
@@ -67,7 +68,7 @@ constexpr double kRadius = 0.3;
 std::vector<TangentNode> graph(const BoxWorld& world, const Pose2& pose, double range) {
   const LocalView view = makeLocalView(world.scan(pose, range), {}, pose, 2.0 * kRadius);
   const ConfigurationSpace space{view.obstacles, kRadius - 0.02};
-  const auto ranges = space.freeRanges(pose.position(), 360, range);
+  const auto ranges = space.freeRanges(pose.position(), directionsAround(360, 0.0), range);
   return localTangentGraph(view, space, ranges, kRadius);
 }
 

@@ -63,6 +63,15 @@ void FrontierViews::find(const KnownPlace& place, Cell here) {
   for (const ViewPoint& rest : rests) {
     if (only_rests_ || rest.distance < kInPassing) view_points_.push_back(rest);
   }
+  // Who looks at a rest sees what the smallest frontiers hide as well.
+  openings_ = only_rests_ ? place.openings(1) : Openings{};
+  for (ViewPoint& view : view_points_) expect(place, view);
+}
+
+// What lies around the target of a rest is mostly the inside of what hides it.
+void FrontierViews::expect(const KnownPlace& place, ViewPoint& view) const {
+  if (!only_rests_) return;
+  view.expected = viewFrom(place.grid(), view.cell, reach(place), openings_).expected;
 }
 
 // In the order of the grid's history where all can be looked at, else the nearest first.
@@ -130,6 +139,7 @@ bool FrontierViews::keep(const KnownPlace& place, const ViewPoint& goal) {
     view_point->distance = way;
   }
   view_point->gain = unknownAreaInView(place.grid(), goal.target, kGainRange);
+  expect(place, *view_point);
   double nearest = kMuchTheSame;
   ViewPoint* same = nullptr;
   for (ViewPoint& v : view_points_) {

@@ -27,22 +27,21 @@ std::vector<Cell> placesIn(const KnownPlace& place, Cell block) {
 }  // namespace
 
 void LastLook::begin(const KnownPlace& place) {
-  openings_ = openings(place);
+  unseen_ = place.openings(smallest_frontier_).cells();
   blocks_.clear();
   found_.clear();
   is_block_ = TiledGrid<char>{0};
-  is_under_way_ = !openings_.empty();
+  is_under_way_ = !unseen_.empty();
 }
 
 std::optional<ViewPoint> LastLook::next(const KnownPlace& place, Strategy strategy,
                                         const Filter& filter) {
   if (!is_under_way_ && found_.empty()) return {};
   looks_left_ = kLooksAtATime;
-  is_opening_ = TiledGrid<char>{0};
-  for (const Cell c : openings(place)) is_opening_[c] = 1;
+  openings_ = place.openings(smallest_frontier_);
   findPlaces(place);
   askPlaces(place);
-  is_under_way_ = !openings_.empty() || !blocks_.empty();
+  is_under_way_ = !unseen_.empty() || !blocks_.empty();
   return is_under_way_ ? std::nullopt : choose(place, strategy, filter);
 }
 
@@ -59,18 +58,9 @@ std::string LastLook::whatIsLeft() const {
   return text.str();
 }
 
-std::vector<Cell> LastLook::openings(const KnownPlace& place) const {
-  std::vector<Cell> cells;
-  for (const Frontier& frontier : place.frontiers()) {
-    if (frontier.cells.size() >= smallest_frontier_)
-      cells.insert(cells.end(), frontier.cells.begin(), frontier.cells.end());
-  }
-  return cells;
-}
-
 void LastLook::findPlaces(const KnownPlace& place) {
-  for (; !openings_.empty() && looks_left_ > 0; openings_.pop_back(), --looks_left_) {
-    eachBlockInView(place.grid(), openings_.back(), place.laserRange(), [&](Cell block) {
+  for (; !unseen_.empty() && looks_left_ > 0; unseen_.pop_back(), --looks_left_) {
+    eachBlockInView(place.grid(), unseen_.back(), place.laserRange(), [&](Cell block) {
       if (std::exchange(is_block_[block], 1)) return;
       blocks_.push_back(block);
     });
@@ -78,7 +68,7 @@ void LastLook::findPlaces(const KnownPlace& place) {
 }
 
 void LastLook::askPlaces(const KnownPlace& place) {
-  for (; openings_.empty() && !blocks_.empty() && looks_left_ > 0; blocks_.pop_back()) {
+  for (; unseen_.empty() && !blocks_.empty() && looks_left_ > 0; blocks_.pop_back()) {
     if (place.scanned().containsBlock(blocks_.back())) continue;
     std::optional<ViewPoint> best;
     for (const Cell c : placesIn(place, blocks_.back())) {
@@ -123,8 +113,7 @@ std::optional<ViewPoint> LastLook::choose(const KnownPlace& place, Strategy stra
 
 ViewPoint LastLook::lookFrom(const KnownPlace& place, Cell cell) {
   --looks_left_;
-  ViewPoint view = viewFrom(place.grid(), cell, place.laserRange(),
-                            [&](Cell c) { return is_opening_.at(c) != 0; });
+  ViewPoint view = viewFrom(place.grid(), cell, place.laserRange(), openings_);
   view.distance = place.ways().distanceTo(cell);
   return view;
 }

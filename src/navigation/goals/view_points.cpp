@@ -21,14 +21,8 @@ constexpr double kCut = 1.0;
 /// Unit vectors all around.
 using Rays = std::vector<Eigen::Vector2d>;
 
-Rays rays(int count) {
-  Rays unit;
-  for (int k = 0; k < count; ++k) {
-    const double angle = 2.0 * M_PI * (k + 0.5) / count;  // never along an axis: no ties at corners
-    unit.emplace_back(std::cos(angle), std::sin(angle));
-  }
-  return unit;
-}
+/// Never along an axis: no ties at corners.
+Rays rays(int count) { return directionsAround(count, M_PI / count); }
 
 const Rays kViewRays = rays(90), kGainRays = rays(72), kFineRays = rays(360);
 
@@ -63,14 +57,17 @@ double followRay(const ExplorationGrid& grid, Cell from, const Eigen::Vector2d& 
 /// See viewFrom().
 /// @param cut         see followRay.
 /// @param is_opening  bool(Cell).
-template <class IsOpening>
+/// @param counts_ray  bool(ray): whether it may meet one.
+template <class CountsRay, class IsOpening>
 ViewPoint look(const ExplorationGrid& grid, Cell from, double range, const Rays& directions,
-               double cut, IsOpening&& is_opening) {
+               double cut, CountsRay&& counts_ray, IsOpening&& is_opening) {
   ViewPoint view{from, from};
   const double free_way = kFreeWay / grid.resolution();
   const auto count = static_cast<double>(directions.size());
   double longest = 0.0;
-  for (const Eigen::Vector2d& direction : directions) {
+  for (std::size_t k = 0; k < directions.size(); ++k) {
+    if (!counts_ray(k)) continue;
+    const Eigen::Vector2d& direction = directions[k];
     double unknown_since = -1.0;
     bool counts = true;
     Cell last = from;  // that is known, and no obstacle
@@ -99,6 +96,22 @@ ViewPoint look(const ExplorationGrid& grid, Cell from, double range, const Rays&
   view.gain *= grid.resolution() * grid.resolution();
   view.expected *= grid.resolution() * grid.resolution();
   return view;
+}
+
+/// Marks the rays (of as many as `marks` all around) from the middle of a cell that may enter
+/// another one within `reach` cells.
+void markRays(Cell from, Cell to, double reach, std::vector<bool>& marks) {
+  const Eigen::Vector2d way = middleOf(to) - middleOf(from);
+  const double squared = way.squaredNorm(), farthest = reach + 1.0;
+  if (squared > farthest * farthest) return;
+  const auto count = static_cast<int>(marks.size());
+  const double rays_per_rad = count / (2.0 * M_PI);
+  const double half = squared > 2.0 ? std::asin(std::sqrt(0.5 / squared)) : M_PI;
+  const double middle = std::atan2(way.y(), way.x());
+  const int first = static_cast<int>(std::floor((middle - half) * rays_per_rad - 0.5));
+  const int last = static_cast<int>(std::ceil((middle + half) * rays_per_rad - 0.5));
+  for (int k = first; k <= std::min(last, first + count - 1); ++k)
+    marks[static_cast<std::size_t>((k % count + count) % count)] = true;
 }
 
 constexpr double kPerMetre = 0.2;     // lambda of [Gonzalez-Banos & Latombe 2002]
@@ -181,9 +194,15 @@ std::optional<ViewPoint> nearestViewPoint(const ExplorationGrid& grid, const Fre
                                           const DistanceField& field, const ScannedPlaces& scanned,
                                           Cell target, double range) {
   std::optional<ViewPoint> best;
+  const double reach = range / grid.resolution();
+  const Eigen::Vector2d to_start = middleOf(field.start()) - middleOf(target);
   for (const Eigen::Vector2d& direction : kViewRays) {
+    // Ways lead from block to block, and none is shorter than the straight line.
+    const double ahead = std::clamp(to_start.dot(direction), 0.0, reach);
+    const double least = (to_start - ahead * direction).norm() - std::sqrt(2.0) * FreeSpace::kBlock;
+    if (best && least * grid.resolution() >= best->distance) continue;
     bool in_known = false;
-    walkBeam(middleOf(target), direction, range / grid.resolution(), [&](Cell c, double) {
+    walkBeam(middleOf(target), direction, reach, [&](Cell c, double) {
       if (c == target) return true;
       const CellState state = grid.at(c);
       if (isOpaque(state) || (in_known && state == CellState::kUnknown)) return false;
@@ -199,12 +218,16 @@ std::optional<ViewPoint> nearestViewPoint(const ExplorationGrid& grid, const Fre
 }
 
 double unknownAreaInView(const ExplorationGrid& grid, Cell from, double range) {
-  return look(grid, from, range, kGainRays, 0.0, [](Cell) { return true; }).gain;
+  const auto any = [](auto) { return true; };
+  return look(grid, from, range, kGainRays, 0.0, any, any).gain;
 }
 
-ViewPoint viewFrom(const ExplorationGrid& grid, Cell from, double range,
-                   const std::function<bool(Cell)>& is_opening) {
-  return look(grid, from, range, kFineRays, kCut, is_opening);
+ViewPoint viewFrom(const ExplorationGrid& grid, Cell from, double range, const Openings& openings) {
+  std::vector<bool> counts(kFineRays.size(), false);
+  for (const Cell c : openings.cells()) markRays(from, c, range / grid.resolution(), counts);
+  return look(
+      grid, from, range, kFineRays, kCut, [&](std::size_t k) { return counts[k]; },
+      [&](Cell c) { return openings.contains(c); });
 }
 
 double discountedGain(const ViewPoint& view_point) {

@@ -210,11 +210,7 @@ std::vector<ViewTour::Stop> ViewTour::cover(const ExplorationGrid& grid,
       stop.gain += view_points[b].gain;
       if (present && view_points[b].target == *present) stop.sees_present = true;
     }
-    // What lies around the target of a rest is mostly the inside of what hides it.
-    stop.promise = only_rests ? viewFrom(grid, view_points[best].cell, reach,
-                                         [&](Cell c) { return isFrontier(grid, c); })
-                                    .expected
-                              : stop.gain;
+    stop.promise = only_rests ? view_points[best].expected : stop.gain;
     stops.push_back(stop);
   }
   return stops;

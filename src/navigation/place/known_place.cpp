@@ -129,6 +129,15 @@ void KnownPlace::findWays(const Eigen::Vector2d& from_map, std::optional<Cell> u
                until);
 }
 
+Openings KnownPlace::openings(std::size_t smallest_frontier) const {
+  Openings openings;
+  for (const Frontier& frontier : frontiers()) {
+    if (frontier.cells.size() < smallest_frontier) continue;
+    for (const Cell c : frontier.cells) openings.add(c);
+  }
+  return openings;
+}
+
 double KnownPlace::unreached() const {
   int cells = 0;
   const Cell low = FreeSpace::blockOf(grid_.lowest()), high = FreeSpace::blockOf(grid_.highest());

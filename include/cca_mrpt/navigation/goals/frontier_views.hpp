@@ -53,6 +53,7 @@ class FrontierViews {
  private:
   std::vector<Frontier> nearestFrontiers(const KnownPlace& place, Cell here) const;
   std::optional<ViewPoint> viewOf(const KnownPlace& place, const Frontier& frontier) const;
+  void expect(const KnownPlace& place, ViewPoint& view) const;
   std::optional<Cell> entryAt(const KnownPlace& place, Cell middle) const;
 
   double smallest_gain_;
@@ -60,6 +61,7 @@ class FrontierViews {
   std::vector<Eigen::Vector2d> limits_;
   std::vector<ViewPoint> view_points_, entries_;
   bool only_rests_ = false;
+  Openings openings_;  ///< where there are only rests
 };
 
 }  // namespace cca

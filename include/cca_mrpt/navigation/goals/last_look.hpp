@@ -50,7 +50,6 @@ class LastLook {
   bool isUnderWay() const { return is_under_way_; }
 
  private:
-  std::vector<Cell> openings(const KnownPlace& place) const;
   void findPlaces(const KnownPlace& place);
   void askPlaces(const KnownPlace& place);
   std::optional<ViewPoint> choose(const KnownPlace& place, Strategy strategy, const Filter& filter);
@@ -60,11 +59,11 @@ class LastLook {
   std::size_t smallest_frontier_;
   double worth_;
   bool is_under_way_ = false;
-  int looks_left_ = 0;             ///< that may be made in this call
-  std::vector<Cell> openings_;     ///< frontier cells that were not asked yet for who sees them
-  std::vector<Cell> blocks_;       ///< that see one, and were not asked yet
-  TiledGrid<char> is_block_{0};    ///< whether a block was ever put among them
-  TiledGrid<char> is_opening_{0};  ///< whether a cell is an opening now
+  int looks_left_ = 0;           ///< that may be made in this call
+  Openings openings_;            ///< of now
+  std::vector<Cell> unseen_;     ///< frontier cells that were not asked yet for who sees them
+  std::vector<Cell> blocks_;     ///< that see one, and were not asked yet
+  TiledGrid<char> is_block_{0};  ///< whether a block was ever put among them
   /// As they were when they were asked: gains only become less as more is seen.
   std::vector<ViewPoint> found_;
 };

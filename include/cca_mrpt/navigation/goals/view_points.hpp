@@ -55,13 +55,11 @@ double unknownAreaInView(const ExplorationGrid& grid, Cell from, double range);
 /// Of a stretch of u metres of the unknown, a ray is expected to see (1 - exp(-2 u)) / 2: it ends
 /// there after half a metre on average. In furnished buildings a rest shows some 0.25 m^2, whether
 /// the area in view is 0.3 or 3 m^2; a gap into a room shows what its width lets through.
-/// @param is_opening  whether what lies behind a known cell counts: a missing cell of a wall would
-///                    promise all that is behind it.
+/// @param openings  what lies behind these cells counts.
 /// @return the place with its gain and what is expected of it, no distance; the target is the
-/// middle
-///         of the longest unknown stretch, or the place itself where nothing unknown is in view.
-ViewPoint viewFrom(const ExplorationGrid& grid, Cell from, double range,
-                   const std::function<bool(Cell)>& is_opening);
+///         middle of the longest unknown stretch, or the place itself where nothing unknown is in
+///         view. Cost: O(openings), and O(range / resolution) for each ray that meets one.
+ViewPoint viewFrom(const ExplorationGrid& grid, Cell from, double range, const Openings& openings);
 
 /// How the next goal is chosen, among view points with their way and gain.
 enum class Strategy {

@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <cmath>
 #include <limits>
+#include <vector>
 
 #include "cca_mrpt/navigation/place/cell.hpp"
 #include "cca_mrpt/sensing/scan.hpp"
@@ -17,6 +18,16 @@ inline double beamAt(double bearing, double angle_min, double angle_increment) {
   const double turn = 2.0 * M_PI / std::abs(angle_increment);
   const double beam = std::fmod((bearing - angle_min) / angle_increment, turn);
   return beam < -0.5 ? beam + turn : beam;
+}
+
+/// Unit vectors all around, counter-clockwise, `first` (rad) the bearing of the first one.
+inline std::vector<Eigen::Vector2d> directionsAround(int count, double first) {
+  std::vector<Eigen::Vector2d> directions;
+  for (int k = 0; k < count; ++k) {
+    const double bearing = first + 2.0 * M_PI * k / count;
+    directions.emplace_back(std::cos(bearing), std::sin(bearing));
+  }
+  return directions;
 }
 
 /// Unit vector of a beam, map frame.

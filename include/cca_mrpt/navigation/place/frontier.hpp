@@ -16,6 +16,21 @@ struct Frontier {
   Cell middle;  ///< the member nearest to the mean of all
 };
 
+/// Cells behind which there may be something to see.
+class Openings {
+ public:
+  void add(Cell c) {
+    cells_.push_back(c);
+    is_one_[c] = 1;
+  }
+  const std::vector<Cell>& cells() const { return cells_; }
+  bool contains(Cell c) const { return is_one_.at(c) != 0; }
+
+ private:
+  std::vector<Cell> cells_;
+  TiledGrid<char> is_one_{0};
+};
+
 /// The first unknown side neighbour of a cell.
 std::optional<Cell> unknownBeside(const ExplorationGrid& grid, Cell c);
 

@@ -101,6 +101,9 @@ class KnownPlace {
 
   /// See FrontierCells::frontiers(); those longer than 2 m are several.
   std::vector<Frontier> frontiers() const { return frontier_cells_.frontiers(kFrontierExtent); }
+  /// The cells of all frontiers of at least so many cells: a small one may be a missing cell of a
+  /// wall, which would promise all that is behind it. Cost: O(frontier cells).
+  Openings openings(std::size_t smallest_frontier) const;
 
   const ExplorationGrid& grid() const { return grid_; }
   const FreeSpace& space() const { return space_; }

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "cca_mrpt/geometry/cross.hpp"
+#include "cca_mrpt/navigation/place/beam.hpp"
 #include "cca_mrpt/sensing/range_noise.hpp"
 
 namespace cca {
@@ -28,7 +29,7 @@ constexpr double kLost = 1.0;             // s
 constexpr int kMostTries = 10;
 constexpr double kWaitFor = 2.5;  // m
 constexpr double kNear = 0.15;    // m, beyond the radius
-constexpr int kBearings = 360;
+const std::vector<Eigen::Vector2d> kDirections = directionsAround(360, 0.0);
 
 }  // namespace
 
@@ -123,7 +124,7 @@ void TangentBug::observe(const Scan& raw_scan, const Pose2& T_map_robot, double 
                                  radius - kSlack * robot_.safety_margin);
   trace_space_ = {view_.obstacles,
                   way_space_.radius + (kSlack - kTraceSlack) * robot_.safety_margin};
-  free_ranges_ = way_space_.freeRanges(x, kBearings, view_.horizon);
+  free_ranges_ = way_space_.freeRanges(x, kDirections, view_.horizon);
   nodes_ = localTangentGraph(view_, way_space_, free_ranges_, radius);
   findReach();
 }
@@ -142,11 +143,8 @@ void TangentBug::findReach() {
     d_reach_ = distance;
     reach_map_ = p;
   };
-  for (int k = 0; k < kBearings; ++k) {
-    const double bearing = 2.0 * M_PI * k / kBearings;
-    consider({std::cos(bearing), std::sin(bearing)},
-             free_ranges_[static_cast<std::size_t>(k)].distance);
-  }
+  for (std::size_t k = 0; k < kDirections.size(); ++k)
+    consider(kDirections[k], free_ranges_[k].distance);
   for (const TangentNode& node : nodes_) {
     const double length = (node.p_map - x).norm();
     if (length > 0.0) consider((node.p_map - x) / length, length);

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "cca_mrpt/geometry/cross.hpp"
+
 namespace cca {
 namespace {
 
@@ -50,10 +52,12 @@ double ConfigurationSpace::freeDistance(const Eigen::Vector2d& from,
   return free;
 }
 
-std::vector<FreeRange> ConfigurationSpace::freeRanges(const Eigen::Vector2d& from, int bearings,
-                                                      double longest) const {
-  std::vector<FreeRange> ranges(static_cast<std::size_t>(bearings), {longest, -1});
-  const double step = 2.0 * M_PI / bearings;
+std::vector<FreeRange> ConfigurationSpace::freeRanges(
+    const Eigen::Vector2d& from, const std::vector<Eigen::Vector2d>& directions,
+    double longest) const {
+  std::vector<FreeRange> ranges(directions.size(), {longest, -1});
+  const int count = static_cast<int>(directions.size());
+  const double step = 2.0 * M_PI / count;
   for (std::size_t i = 0; i < obstacles.size(); ++i) {
     const Eigen::Vector2d to = obstacles[i] - from;
     const double distance = to.norm();
@@ -63,13 +67,14 @@ std::vector<FreeRange> ConfigurationSpace::freeRanges(const Eigen::Vector2d& fro
     const double half = std::asin(disc / distance);
     const int last = static_cast<int>(std::floor((bearing + half) / step));
     for (int k = static_cast<int>(std::ceil((bearing - half) / step)); k <= last; ++k) {
-      FreeRange& range = ranges[static_cast<std::size_t>((k % bearings + bearings) % bearings)];
+      const auto bearing_index = static_cast<std::size_t>((k % count + count) % count);
+      FreeRange& range = ranges[bearing_index];
       if (range.distance < distance - disc - kTouch) continue;  // nearer than the whole disc
-      const double off = k * step - bearing;
-      const double aside = distance * std::sin(off);
+      const Eigen::Vector2d& direction = directions[bearing_index];
+      const double aside = cross(direction, to);
       const double inside = disc * disc - aside * aside;
       if (inside < 0.0) continue;
-      const double free = std::max(0.0, distance * std::cos(off) - std::sqrt(inside));
+      const double free = std::max(0.0, direction.dot(to) - std::sqrt(inside));
       if (free < range.distance) range = {free, static_cast<int>(i)};
     }
   }
