@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "cca_mrpt/navigation/drive/motion_control.hpp"
-#include "cca_mrpt/navigation/place/beam.hpp"
+#include "cca_mrpt/sensing/beam.hpp"
 
 namespace cca {
 namespace {
@@ -15,7 +15,7 @@ constexpr double kHome = 0.3;                      // m
 constexpr double kReachedWayPoint = 0.15;          // m, a little more than Tangent Bug stops at
 constexpr int kHomeNumber = -2, kTurnNumber = -3;  // among the numbers of goals
 
-constexpr double kAround = 0.8;             // m, of the robot: what may stand beside it
+constexpr double kAround = 2.0;             // m, of the robot: what a narrow laser saw before
 constexpr double kLookAround = 0.5;         // of the full turning rate
 constexpr double kTurn = 2.0 / 3.0 * M_PI;  // rad: three make one round, and none is ambiguous
 

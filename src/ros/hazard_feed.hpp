@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "cca_mrpt/navigation/drive/short_memory.hpp"
 #include "cca_mrpt/ros/transforms.hpp"
+#include "cca_mrpt/sensing/hazard_memory.hpp"
 
 namespace cca {
 

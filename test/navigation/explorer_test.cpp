@@ -6,7 +6,7 @@
 #include <functional>
 #include <optional>
 
-#include "cca_mrpt/navigation/drive/short_memory.hpp"
+#include "cca_mrpt/sensing/hazard_memory.hpp"
 #include "known_world.hpp"
 
 namespace cca {

@@ -6,7 +6,7 @@
 #include <random>
 
 #include "box_world.hpp"
-#include "cca_mrpt/navigation/place/beam.hpp"
+#include "cca_mrpt/sensing/beam.hpp"
 
 namespace cca::testing::tangent_graph_test {
 namespace {

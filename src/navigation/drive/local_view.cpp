@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "cca_mrpt/navigation/place/beam.hpp"
+#include "cca_mrpt/sensing/beam.hpp"
 
 namespace cca {
 namespace {

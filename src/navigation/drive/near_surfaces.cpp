@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "cca_mrpt/geometry/cross.hpp"
-#include "cca_mrpt/navigation/place/beam.hpp"
+#include "cca_mrpt/sensing/beam.hpp"
 
 namespace cca {
 namespace {

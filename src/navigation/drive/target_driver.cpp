@@ -8,7 +8,7 @@
 
 #include "cca_mrpt/navigation/drive/motion_control.hpp"
 #include "cca_mrpt/navigation/drive/near_surfaces.hpp"
-#include "cca_mrpt/navigation/place/beam.hpp"
+#include "cca_mrpt/sensing/beam.hpp"
 
 namespace cca {
 namespace {

@@ -10,9 +10,9 @@
 #include "cca_mrpt/navigation/drive/commanded_motion.hpp"
 #include "cca_mrpt/navigation/drive/local_view.hpp"
 #include "cca_mrpt/navigation/drive/motion_control.hpp"
-#include "cca_mrpt/navigation/drive/moving_points.hpp"
 #include "cca_mrpt/navigation/drive/progress.hpp"
 #include "cca_mrpt/navigation/drive/robot.hpp"
+#include "cca_mrpt/sensing/moving_points.hpp"
 
 namespace cca {
 

@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "cca_mrpt/geometry/cross.hpp"
-#include "cca_mrpt/navigation/place/beam.hpp"
+#include "cca_mrpt/sensing/beam.hpp"
 #include "cca_mrpt/sensing/range_noise.hpp"
 
 namespace cca {
@@ -104,13 +104,9 @@ void TangentBug::observe(const Scan& raw_scan, const Pose2& T_map_robot, double 
   const Scan smooth = smoothScan(raw_scan, sigma);
   const std::vector<bool> moving = moving_points_.update(smooth, sigma, time);
   const Scan scan = near_surfaces_.update(raw_scan, smooth, moving, sigma);
-  LocalView view = makeLocalView(scan, moving, T_map_robot, 2.0 * radius);
-  view.range_sigma = sigma;
-  memory_.update(view_, view, time);
-  view_ = std::move(view);
-  for (const auto& points : {memory_.points(), shut_map_}) {
-    view_.obstacles.insert(view_.obstacles.end(), points.begin(), points.end());
-  }
+  view_ = makeLocalView(scan, moving, T_map_robot, 2.0 * radius);
+  view_.range_sigma = sigma;
+  view_.obstacles.insert(view_.obstacles.end(), shut_map_.begin(), shut_map_.end());
   for (const Eigen::Vector2d& p_map : known_map_) {
     if (!view_.inFieldOfView(p_map)) view_.obstacles.push_back(p_map);
   }

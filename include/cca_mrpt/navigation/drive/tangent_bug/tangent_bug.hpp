@@ -7,15 +7,14 @@
 #include <vector>
 
 #include "cca_mrpt/navigation/drive/local_view.hpp"
-#include "cca_mrpt/navigation/drive/moving_points.hpp"
 #include "cca_mrpt/navigation/drive/near_surfaces.hpp"
 #include "cca_mrpt/navigation/drive/progress.hpp"
 #include "cca_mrpt/navigation/drive/robot.hpp"
-#include "cca_mrpt/navigation/drive/short_memory.hpp"
 #include "cca_mrpt/navigation/drive/tangent_bug/boundary_follower.hpp"
 #include "cca_mrpt/navigation/drive/tangent_bug/motion_to_goal.hpp"
 #include "cca_mrpt/navigation/drive/tangent_bug/tangent_graph.hpp"
 #include "cca_mrpt/navigation/drive/target_driver.hpp"
+#include "cca_mrpt/sensing/moving_points.hpp"
 #include "cca_mrpt/sensing/scan.hpp"
 
 namespace cca {
@@ -46,7 +45,7 @@ class TangentBug {
   void setGoal(const Eigen::Vector2d& goal_map);
 
   /// Obstacles (m, map frame) around the robot that are known from elsewhere. Steps heed those out
-  /// of the laser's view, which a memory of the last seconds of a narrow view does not hold.
+  /// of the laser's view: what a narrow one saw before the robot turned or drove on.
   void setKnownObstacles(std::vector<Eigen::Vector2d> obstacles_map) {
     known_map_ = std::move(obstacles_map);
   }
@@ -96,7 +95,6 @@ class TangentBug {
   double time_ = 0.0;
   MovingPoints moving_points_;
   NearSurfaces near_surfaces_;
-  ShortMemory memory_;
   std::vector<Eigen::Vector2d> known_map_;  ///< around the robot, from elsewhere
   std::vector<Eigen::Vector2d> hazards_map_;
   LocalView view_;

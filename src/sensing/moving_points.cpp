@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "cca_mrpt/navigation/drive/moving_points.hpp"
+#include "cca_mrpt/sensing/moving_points.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
-#include "cca_mrpt/navigation/place/beam.hpp"
+#include "cca_mrpt/sensing/beam.hpp"
 
 namespace cca {
 namespace {

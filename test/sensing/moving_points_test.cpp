@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "cca_mrpt/navigation/drive/moving_points.hpp"
+#include "cca_mrpt/sensing/moving_points.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <random>
 
-#include "random_worlds.hpp"
+#include "../navigation/random_worlds.hpp"
 
 namespace cca::testing {
 namespace {

@@ -3,10 +3,9 @@
 
 #include <Eigen/Core>
 #include <cmath>
-#include <limits>
+#include <cstddef>
 #include <vector>
 
-#include "cca_mrpt/navigation/place/cell.hpp"
 #include "cca_mrpt/sensing/scan.hpp"
 
 namespace cca {
@@ -60,41 +59,6 @@ inline auto transformBy(const Pose2& T) {
 inline int beamTowards(const Scan& scan, const Eigen::Vector2d& p_sensor) {
   return static_cast<int>(std::lround(
       beamAt(std::atan2(p_sensor.y(), p_sensor.x()), scan.angle_min, scan.angle_increment)));
-}
-
-/// Visits the cells that a straight line crosses, in order [Amanatides & Woo 1987].
-///
-/// @param origin     start, in cells (metres / resolution).
-/// @param direction  unit vector.
-/// @param length     in cells; the visit ends with the last cell entered before it.
-/// @param visit      bool(Cell, double entered): false ends the visit. `entered`: the distance from
-///                   the origin, in cells, at which the line enters the cell (0 for the first).
-/// Cost: O(length).
-template <class Visit>
-void walkBeam(const Eigen::Vector2d& origin, const Eigen::Vector2d& direction, double length,
-              Visit&& visit) {
-  constexpr double kNever = std::numeric_limits<double>::infinity();
-  Cell c = cellAt(origin);
-  const int step_x = direction.x() > 0.0 ? 1 : -1, step_y = direction.y() > 0.0 ? 1 : -1;
-  const double spacing_x = direction.x() != 0.0 ? std::abs(1.0 / direction.x()) : kNever;
-  const double spacing_y = direction.y() != 0.0 ? std::abs(1.0 / direction.y()) : kNever;
-  double next_x = kNever, next_y = kNever;
-  if (spacing_x < kNever)
-    next_x = (direction.x() > 0.0 ? c.x + 1 - origin.x() : origin.x() - c.x) * spacing_x;
-  if (spacing_y < kNever)
-    next_y = (direction.y() > 0.0 ? c.y + 1 - origin.y() : origin.y() - c.y) * spacing_y;
-  double entered = 0.0;
-  while (entered <= length && visit(c, entered)) {
-    if (next_x < next_y) {
-      entered = next_x;
-      next_x += spacing_x;
-      c.x += step_x;
-    } else {
-      entered = next_y;
-      next_y += spacing_y;
-      c.y += step_y;
-    }
-  }
 }
 
 }  // namespace cca
