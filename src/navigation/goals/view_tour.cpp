@@ -8,86 +8,16 @@
 namespace cca {
 namespace {
 
-constexpr int kSweeps = 8;
-constexpr double kWorthwhile = 1e-9;  // m: less is rounding, and could go round in circles
-
-using Stops = std::vector<std::size_t>;
-
-double costOf(const Eigen::MatrixXd& distance, const TourObjective& objective, const Stops& stops) {
-  double length = 0.0, waiting = 0.0;
-  Eigen::Index from = 0;
-  for (const std::size_t stop : stops) {
-    const auto to = static_cast<Eigen::Index>(stop) + 1;
-    length += distance(from, to);
-    waiting += objective.weights[stop] * length;
-    from = to;
-  }
-  return length + objective.hurry * waiting;
-}
-
-/// Cheapest insertion, stop by stop, nowhere before position `fixed`.
-Stops inserted(const Eigen::MatrixXd& distance, const TourObjective& objective, Stops stops,
-               std::size_t fixed) {
-  const auto n = static_cast<std::size_t>(distance.rows()) - 1;
-  for (std::size_t stop = 0; stop < n; ++stop) {
-    if (std::find(stops.begin(), stops.end(), stop) != stops.end()) continue;
-    Stops best;
-    double least = std::numeric_limits<double>::infinity();
-    for (std::size_t at = fixed; at <= stops.size(); ++at) {
-      Stops longer = stops;
-      longer.insert(longer.begin() + static_cast<std::ptrdiff_t>(at), stop);
-      const double cost = costOf(distance, objective, longer);
-      if (cost >= least) continue;
-      least = cost;
-      best = std::move(longer);
-    }
-    stops = std::move(best);
-  }
-  return stops;
-}
-
-/// One sweep over all moves; each that helps is made at once. @return whether one helped.
-bool improve(const Eigen::MatrixXd& distance, const TourObjective& objective, Tour& tour,
-             std::size_t fixed) {
-  const std::size_t n = tour.stops.size();
-  bool helped = false;
-  Stops trial;
-  const auto tryIt = [&] {
-    const double cost = costOf(distance, objective, trial);
-    if (cost >= tour.cost - kWorthwhile) return;
-    tour = {trial, cost};
-    helped = true;
-  };
-  const auto at = [](Stops& stops, std::size_t i) {
-    return stops.begin() + static_cast<std::ptrdiff_t>(i);
-  };
-  for (std::size_t i = fixed; i < n; ++i) {
-    for (std::size_t j = i + 2; j <= n; ++j) {
-      trial = tour.stops;
-      std::reverse(at(trial, i), at(trial, j));
-      tryIt();
-    }
-    for (std::size_t length = 1; length <= 3 && i + length <= n; ++length) {
-      for (std::size_t to = fixed; to + length <= n; ++to) {
-        if (to == i) continue;
-        trial = tour.stops;
-        if (to < i) {
-          std::rotate(at(trial, to), at(trial, i), at(trial, i + length));
-        } else {
-          std::rotate(at(trial, i), at(trial, i + length), at(trial, to + length));
-        }
-        tryIt();
-      }
-    }
-  }
-  return helped;
-}
-
 constexpr double kStay = 0.5;             // m, by which another tour must cost less than going on
-constexpr std::size_t kMostStops = 16;    // of a tour
+constexpr std::size_t kMostStops = 12;    // of a tour: 0.3 ms
 constexpr double kHorizon = 40.0;         // m, beyond which ways between stops are only estimated
 constexpr std::uint32_t kFieldLife = 30;  // choices: known space grows, so ways get shorter
 constexpr std::size_t kMostFields = 32;
+
+const Tour& cheapest(const std::vector<Tour>& tours) {
+  return *std::min_element(tours.begin(), tours.end(),
+                           [](const Tour& a, const Tour& b) { return a.cost < b.cost; });
+}
 
 /// Per view point, the view points whose targets it sees; its own always.
 std::vector<std::vector<std::size_t>> visibility(const ExplorationGrid& grid,
@@ -107,54 +37,48 @@ std::vector<std::vector<std::size_t>> visibility(const ExplorationGrid& grid,
 
 }  // namespace
 
-Tour findTour(const Eigen::MatrixXd& distance, const TourObjective& objective,
-              std::optional<std::size_t> first) {
-  const std::size_t fixed = first ? 1 : 0;
-  Tour tour;
-  tour.stops = inserted(distance, objective, first ? Stops{*first} : Stops{}, fixed);
-  tour.cost = costOf(distance, objective, tour.stops);
-  for (int sweep = 0; sweep < kSweeps && improve(distance, objective, tour, fixed); ++sweep) {
-  }
-  return tour;
-}
-
-std::vector<std::size_t> worthTheWay(const Eigen::MatrixXd& distance,
-                                     const std::vector<double>& worth,
-                                     std::vector<std::size_t> stops) {
-  const auto way = [&](std::size_t position) {  // to the stop there, from the one before
-    const auto row = [&](std::size_t at) { return static_cast<Eigen::Index>(stops[at]) + 1; };
-    return distance(position > 0 ? row(position - 1) : 0, row(position));
-  };
-  // m, by which the tour without a stop falls short of the tour with it.
-  const auto value = [&](std::size_t position) {
-    const std::size_t stop = stops[position];
-    double detour = way(position);
-    if (position + 1 < stops.size()) {
-      detour += way(position + 1);
-      stops.erase(stops.begin() + static_cast<std::ptrdiff_t>(position));
-      detour -= way(position);
-      stops.insert(stops.begin() + static_cast<std::ptrdiff_t>(position), stop);
+std::vector<Tour> findTours(const Eigen::MatrixXd& distance, const TourObjective& objective) {
+  const auto n = static_cast<std::size_t>(distance.rows()) - 1;
+  const auto bit = [](std::size_t stop) { return std::size_t{1} << stop; };
+  const auto row = [](std::size_t stop) { return static_cast<Eigen::Index>(stop) + 1; };
+  const std::size_t all = bit(n) - 1;
+  // Of a way driven now, the cost of a metre; of a tour that ends now, what is left out; and what
+  // is still to come at the least: by the stops that were visited, and the last of them.
+  std::vector<double> pace(all + 1, 1.0), left_out(all + 1, 0.0), to_come(n << n);
+  const auto next = [&](std::size_t visited, std::size_t last, double& cost) {
+    std::size_t best = n;  // it ends here
+    cost = left_out[visited];
+    for (std::size_t k = 0; k < n; ++k) {
+      if (visited & bit(k)) continue;
+      const double through =
+          pace[visited] * distance(row(last), row(k)) + to_come[(visited | bit(k)) * n + k];
+      if (through >= cost) continue;
+      cost = through;
+      best = k;
     }
-    return worth[stop] - detour;
+    return best;
   };
-  while (!stops.empty()) {
-    std::size_t worst = 0;
-    for (std::size_t i = 1; i < stops.size(); ++i) {
-      if (value(i) < value(worst)) worst = i;
+  for (std::size_t visited = all + 1; visited-- > 0;) {
+    for (std::size_t k = 0; k < n; ++k) {
+      if (visited & bit(k)) continue;
+      pace[visited] += objective.hurry * objective.weights[k];
+      left_out[visited] += objective.worth[k];
     }
-    if (value(worst) >= 0.0) break;
-    stops.erase(stops.begin() + static_cast<std::ptrdiff_t>(worst));
+    for (std::size_t last = 0; last < n; ++last) {
+      if (visited & bit(last)) next(visited, last, to_come[visited * n + last]);
+    }
   }
-  double sum = 0.0, most = 0.0;
-  std::size_t kept = 0;
-  for (std::size_t i = 0; i < stops.size(); ++i) {
-    sum += worth[stops[i]] - way(i);
-    if (sum <= most) continue;
-    most = sum;
-    kept = i + 1;
+  std::vector<Tour> tours(n);
+  for (std::size_t first = 0; first < n; ++first) {
+    std::size_t visited = 0;
+    double cost = pace[0] * distance(0, row(first)) + to_come[bit(first) * n + first];
+    tours[first].cost = cost;
+    for (std::size_t stop = first; stop < n; stop = next(visited, stop, cost)) {
+      tours[first].stops.push_back(stop);
+      visited |= bit(stop);
+    }
   }
-  stops.resize(kept);
-  return stops;
+  return tours;
 }
 
 std::optional<std::size_t> ViewTour::choose(const ExplorationGrid& grid, const FreeSpace& space,
@@ -165,24 +89,31 @@ std::optional<std::size_t> ViewTour::choose(const ExplorationGrid& grid, const F
   const std::vector<Stop> stops = cover(grid, view_points, reach, present, only_rests);
   const Eigen::MatrixXd distance = distances(grid, space, view_points, stops);
   TourObjective objective;
-  objective.hurry = only_rests ? 0.0 : parameters_.hurry;
-  double sum = 0.0;
+  double sum = 0.0, worth_of_all = 0.0;
   for (const Stop& stop : stops) sum += stop.gain;
-  std::vector<double> worth;
   for (const Stop& stop : stops) {
     objective.weights.push_back(sum > 0.0 ? stop.gain / sum : 0.0);
-    worth.push_back(parameters_.worth * stop.promise);
+    objective.worth.push_back(parameters_.worth * stop.promise);
+    worth_of_all += objective.worth.back();
   }
-
-  const Tour best = findTour(distance, objective);
-  const std::vector<std::size_t> driven = worthTheWay(distance, worth, best.stops);
-  if (driven.empty()) return {};
-  for (const std::size_t k : driven) {
-    if (!stops[k].sees_present) continue;
-    const Tour same = findTour(distance, objective, k);
-    if (same.cost < best.cost + kStay) return stops[k].view_point;
+  std::vector<Tour> tours = findTours(distance, objective);
+  Tour best = cheapest(tours);
+  if (best.cost >= worth_of_all) return {};
+  if (!only_rests) {
+    // What is worth its way is decided; now in which order.
+    objective.hurry = parameters_.hurry;
+    for (std::size_t k = 0; k < stops.size(); ++k) {
+      const bool is_driven = std::count(best.stops.begin(), best.stops.end(), k) > 0;
+      objective.worth[k] = is_driven ? std::numeric_limits<double>::infinity() : 0.0;
+      if (!is_driven) objective.weights[k] = 0.0;
+    }
+    tours = findTours(distance, objective);
+    best = cheapest(tours);
   }
-  return stops[driven.front()].view_point;
+  for (const std::size_t k : best.stops) {
+    if (stops[k].sees_present && tours[k].cost < best.cost + kStay) return stops[k].view_point;
+  }
+  return stops[best.stops.front()].view_point;
 }
 
 std::vector<ViewTour::Stop> ViewTour::cover(const ExplorationGrid& grid,

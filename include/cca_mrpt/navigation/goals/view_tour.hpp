@@ -11,38 +11,28 @@
 
 namespace cca {
 
-/// What a tour costs: length + hurry * sum_k weight_k * arrival_k, where arrival_k is the way to
-/// stop k along the tour. hurry = 0: the open travelling salesman; hurry -> inf: the travelling
-/// repairman, who serves the heaviest stops early.
+/// What a tour costs: length + hurry * sum_k weight_k * arrival_k + the worth of the stops that it
+/// leaves out, where arrival_k is the way to stop k along the tour, or all of it where k is left
+/// out. Where all must be visited, hurry = 0 is the open travelling salesman, hurry -> inf the
+/// travelling repairman, who serves the heaviest stops early.
 struct TourObjective {
   double hurry = 0.0;
-  std::vector<double> weights;  ///< of the stops; they need not add up to one
+  std::vector<double> weights;  ///< of the stops
+  std::vector<double> worth;    ///< m, of each stop; +inf: it must be visited
 };
 
 struct Tour {
-  std::vector<std::size_t> stops;  ///< each once, in order
+  std::vector<std::size_t> stops;  ///< in order, none twice
   double cost = 0.0;
 };
 
-/// An open tour from a start through all stops: cheapest insertion, then moving of chains (Or-opt)
-/// and reversing (2-opt) until neither helps.
+/// The best open tours from a start, exactly, one for each stop that it may begin with [Held & Karp
+/// 1962].
 ///
 /// @param distance  (n + 1) x (n + 1), metres, finite; row and column 0 are the start, k + 1 is
 ///                  stop k.
-/// @param first     a stop that must come first.
-/// @return          every stop once; empty for n = 0.
-/// Cost: O(n^3) a sweep, a few sweeps.
-Tour findTour(const Eigen::MatrixXd& distance, const TourObjective& objective,
-              std::optional<std::size_t> first = {});
-
-/// What of a tour is worth its way: a stop whose detour is longer than its worth is left out, and
-/// so are the last stops from where on the way costs more than all of them are worth.
-///
-/// @param distance  as for findTour(). @param worth  of each stop, m. @param stops  a tour.
-/// @return          its stops that are left, in order. Cost: O(n^2).
-std::vector<std::size_t> worthTheWay(const Eigen::MatrixXd& distance,
-                                     const std::vector<double>& worth,
-                                     std::vector<std::size_t> stops);
+/// @return          by first stop. To stay costs the worth of all stops. Cost: O(2^n n^2).
+std::vector<Tour> findTours(const Eigen::MatrixXd& distance, const TourObjective& objective);
 
 struct ViewTourParameters {
   /// Weight of the gain-weighted mean arrival against the length of the tour. Measured on the
@@ -56,9 +46,9 @@ struct ViewTourParameters {
 /// the first stop of a tour that sees everything soon.
 ///
 /// 1. Few view points that see all frontiers between them are kept (greedy set cover).
-/// 2. An open tour through them is found, see TourObjective; weights are gains.
-/// 3. What of it is not worth its way is left out, see worthTheWay().
-/// 4. The tour that begins with the present goal is kept unless another is clearly cheaper.
+/// 2. The best open tour through those that are worth their way is found, see TourObjective; then,
+///    where there is something to hurry for, the best order of its stops; weights are gains.
+/// 3. The tour that begins with the present goal is kept unless another is clearly cheaper.
 class ViewTour {
  public:
   explicit ViewTour(const ViewTourParameters& parameters = {}) : parameters_(parameters) {}
