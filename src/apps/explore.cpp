@@ -109,7 +109,7 @@ std::string share(const std::optional<double>& seen) {
 /// How far the robot still has to go, as far as it knows: to each frontier.
 double metresLeft(const Simulation& simulation, const Explorer& explorer) {
   std::vector<Eigen::Vector2d> frontier;
-  for (const Cell& cell : explorer.planner().frontierCells().cells()) {
+  for (const Cell& cell : explorer.planner().place().frontierCells().cells()) {
     frontier.push_back(explorer.grid().centreOf(cell));
   }
   return tourLeft(simulation.T_map_robot().position(), frontier);

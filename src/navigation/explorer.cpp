@@ -100,7 +100,7 @@ void Explorer::map(const Scan& scan) {
 
 void Explorer::addBeside(const Scan& scan, const Pose2& T_map_robot) {
   map(scan);
-  planner_.observe(scan, T_map_robot.position());
+  planner_.place().observe(scan, T_map_robot.position());
 }
 
 void Explorer::correctMap(const PastScans& past) {
@@ -135,9 +135,9 @@ Action Explorer::navigate(const Observation& observation) {
 Action Explorer::decide(const Observation& observation) {
   const Eigen::Vector2d robot = observation.T_map_robot.position();
   if (!T_map_start_ && robot.allFinite()) T_map_start_ = observation.T_map_robot;
-  if (!observation.hazards.empty()) planner_.heed(observation.hazards);
+  if (!observation.hazards.empty()) planner_.place().heed(observation.hazards);
   if (is_paused_) {
-    if (observation.is_placed) planner_.observe(observation.scan, robot);
+    if (observation.is_placed) planner_.place().observe(observation.scan, robot);
     progress_.excuse(observation.time);
     return {{}, {}, ExplorationStatus::kPaused, "paused"};
   }
@@ -243,7 +243,7 @@ Action Explorer::lookAround(const Observation& observation) {
 Action Explorer::goHome(const Observation& observation) {
   const Eigen::Vector2d robot = observation.T_map_robot.position(),
                         start = T_map_start_->position();
-  planner_.observe(observation.scan, robot);
+  planner_.place().observe(observation.scan, robot);
   const std::string why = why_finished_.empty() ? "called back" : why_finished_;
   const bool is_back = leaves_driving_ && outcome_ == DriveOutcome::kReached;
   if ((robot - start).norm() < kHome || is_back)
@@ -256,7 +256,7 @@ Action Explorer::goHome(const Observation& observation) {
   if (leaves_driving_) return action;
   const std::size_t next = nextWayPoint(path, robot);
   action.velocity = driveTo(next + 1 < path.size() ? path[next] : start, observation);
-  if (progress_.isStuck(observation.time)) planner_.bar(progress_.shortest());
+  if (progress_.isStuck(observation.time)) planner_.place().bar(progress_.shortest());
   return action;
 }
 
@@ -270,7 +270,7 @@ Velocity Explorer::driveTo(const Eigen::Vector2d& way_point_map, const Observati
     way_point_ = way_point;
   }
   if (!seesAllAround(observation.scan)) {
-    auto obstacles = obstaclesAround(planner_.grid(), observation.T_map_robot.position());
+    auto obstacles = obstaclesAround(planner_.place().grid(), observation.T_map_robot.position());
     for (Eigen::Vector2d& p : obstacles) p = T_drive_map_ * p;
     tangent_bug_.setKnownObstacles(std::move(obstacles));
   }

@@ -71,7 +71,7 @@ void ExplorationPublisher::showAll(const Explorer& explorer,
   map_metadata_.publish(map.info);
   std::vector<Eigen::Vector2d> frontier;
   const auto& exploration_grid = explorer.grid();
-  for (const Cell cell : explorer.planner().frontierCells().cells()) {
+  for (const Cell cell : explorer.planner().place().frontierCells().cells()) {
     frontier.push_back(exploration_grid.centreOf(cell));
   }
   frontiers_.publish(frontierMarkers(frontier, exploration_grid.resolution(), header(stamp)));

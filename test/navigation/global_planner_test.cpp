@@ -65,7 +65,7 @@ TEST_P(EveryStrategy, SeesTwoRoomsToTheLastSquareAndFinishes) {
   for (int y = 0; y < kTwoRooms.height(); ++y) {
     for (int x = 0; x < kTwoRooms.width(); ++x) {
       if (kTwoRooms.isOccupied({x, y})) continue;
-      const CellState state = planner.grid().at({x, y});
+      const CellState state = planner.place().grid().at({x, y});
       unseen += state != CellState::kFree && state != CellState::kPresumedFree;
     }
   }
@@ -100,7 +100,8 @@ TEST(GlobalPlanner, LooksAtLastAsFarAsItCanWhereItCannotGo) {
                           11};
   GlobalPlanner planner;
   EXPECT_TRUE(drive(planner, window, {1.7, 1.375}).last.isFinished());
-  EXPECT_EQ(planner.grid().at(planner.grid().cellOf({6.3, 1.376})), CellState::kFree);
+  EXPECT_EQ(planner.place().grid().at(planner.place().grid().cellOf({6.3, 1.376})),
+            CellState::kFree);
   EXPECT_GT(planner.plan().unreached, 0.5);
 }
 
@@ -153,13 +154,13 @@ TEST(GlobalPlanner, TriesAPassageOfItsOwnWidthWhenNothingElseIsLeft) {
   GlobalPlanner planner(parameters);
   const Eigen::Vector2d start(1.0, 1.0);
   update(planner, kNarrowPassage.scanFrom({start.x(), start.y(), 0.0}, 4.0), start);
-  EXPECT_FALSE(planner.space().isTraversable(planner.grid().cellOf({3.5, 1.4})));
+  EXPECT_FALSE(planner.place().space().isTraversable(planner.place().grid().cellOf({3.5, 1.4})));
   const Drive d = drive(planner, kNarrowPassage, start);
   EXPECT_TRUE(d.last.isFinished());
   double farthest = 0.0;
   for (const Eigen::Vector2d& goal : d.goals) farthest = std::max(farthest, goal.x());
   EXPECT_GT(farthest, 3.75) << "beyond the passage";
-  EXPECT_EQ(planner.grid().at(planner.grid().cellOf({3.9, 2.4})), CellState::kFree);
+  EXPECT_EQ(planner.place().grid().at(planner.place().grid().cellOf({3.9, 2.4})), CellState::kFree);
 }
 
 // What stands beside the robot at the start is in nobody's memory.
@@ -221,8 +222,8 @@ TEST(GlobalPlanner, WaysLeadAroundThePlaceWhereItGotStuckWhileThereIsAnother) {
   std::vector<Cell> known = kTwoWays.freeCells();
   const auto is_in_the_corner = [](Cell c) { return c.x > 140 && c.y < 24; };
   known.erase(std::remove_if(known.begin(), known.end(), is_in_the_corner), known.end());
-  planner.seed(known, CellState::kFree);
-  planner.seed(kTwoWays.walls(), CellState::kOccupied);
+  planner.place().seed(known, CellState::kFree);
+  planner.place().seed(kTwoWays.walls(), CellState::kOccupied);
   const auto highest = [&] {
     double y = 0.0;
     for (const Eigen::Vector2d& corner : planner.plan().path) y = std::max(y, corner.y());
@@ -241,14 +242,14 @@ TEST(GlobalPlanner, WaysLeadAroundThePlaceWhereItGotStuckWhileThereIsAnother) {
 
 TEST(GlobalPlanner, AWayHomeLeadsAlongABarredPlaceWhereThereIsNoOther) {
   GlobalPlanner planner;
-  planner.seed(kTwoWays.freeCells(), CellState::kFree);
-  planner.seed(kTwoWays.walls(), CellState::kOccupied);
+  planner.place().seed(kTwoWays.freeCells(), CellState::kFree);
+  planner.place().seed(kTwoWays.walls(), CellState::kOccupied);
   const Eigen::Vector2d from(1.0, 0.8), to(6.8, 0.8);
   const double lower = pathLength(planner.pathTo(from, to));
   EXPECT_NEAR(lower, 5.8, 0.1);
-  planner.bar({{4.0, 0.8}, {7.0, 0.8}});
+  planner.place().bar({{4.0, 0.8}, {7.0, 0.8}});
   EXPECT_GT(pathLength(planner.pathTo(from, to)), 8.0);
-  planner.bar({{4.0, 2.8}, {7.0, 2.8}});
+  planner.place().bar({{4.0, 2.8}, {7.0, 2.8}});
   EXPECT_NEAR(pathLength(planner.pathTo(from, to)), lower, 1e-9);
 }
 
@@ -263,17 +264,17 @@ TEST(GlobalPlanner, LeavesAGoalWhoseWayIsLostTwice) {
       planner.noteArrival();
       continue;
     }
-    const Cell goal = planner.grid().cellOf(goal_map);
+    const Cell goal = planner.place().grid().cellOf(goal_map);
     std::vector<Cell> shut;
     for (int y = -2; y <= 2; ++y) {
       for (int x = -2; x <= 2; ++x) {
         const Cell c = goal + Cell{x, y};
-        if (planner.grid().at(c) == CellState::kFree) shut.push_back(c);
+        if (planner.place().grid().at(c) == CellState::kFree) shut.push_back(c);
       }
     }
-    planner.seed(shut, CellState::kOccupied);
+    planner.place().seed(shut, CellState::kOccupied);
     planner.update(scan, robot);
-    planner.seed(shut, CellState::kFree);
+    planner.place().seed(shut, CellState::kFree);
   }
   EXPECT_TRUE(planner.plan().isFinished());
   EXPECT_GT(goals, 0);
@@ -294,8 +295,8 @@ TEST(GlobalPlanner, HasNothingToDoInAPlaceKnownFromASavedMap) {
     for (int x = -1; x <= kTwoRooms.width(); ++x)
       (kTwoRooms.isOccupied({x, y}) ? occupied : free).push_back({x, y});
   }
-  planner.seed(free, CellState::kFree);
-  planner.seed(occupied, CellState::kOccupied);
+  planner.place().seed(free, CellState::kFree);
+  planner.place().seed(occupied, CellState::kOccupied);
   EXPECT_TRUE(update(planner, kTwoRooms.scanFrom({1.0, 1.0, 0.0}, 4.0), {1.0, 1.0}).isFinished());
 }
 

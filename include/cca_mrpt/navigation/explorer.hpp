@@ -132,14 +132,16 @@ class Explorer {
   /// Exploration stays inside a polygon (m, map frame). To be called before the first step.
   void limitTo(std::vector<Eigen::Vector2d> polygon) { planner_.limitTo(std::move(polygon)); }
   /// Cells known from a saved map. To be called before the first step.
-  void seed(const std::vector<Cell>& cells, CellState state) { planner_.seed(cells, state); }
+  void seed(const std::vector<Cell>& cells, CellState state) {
+    planner_.place().seed(cells, state);
+  }
 
   /// What the odometry has shown of how the base obeys.
   const ShownMotion& shownMotion() const { return tangent_bug_.motion().shown(); }
   const LineMap& lineMap() const { return line_map_; }
   /// How far the scans agree with the line map that the earlier ones made.
   const ScanAgreement& agreement() const { return agreement_; }
-  const ExplorationGrid& grid() const { return planner_.grid(); }
+  const ExplorationGrid& grid() const { return planner_.place().grid(); }
   const GlobalPlanner& planner() const { return planner_; }
   /// Whether it has finished although much is in view that no way leads to: places where the robot
   /// could stand of a square metre at least, and of a twentieth of all that was seen.

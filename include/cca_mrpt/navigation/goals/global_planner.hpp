@@ -62,13 +62,9 @@ class GlobalPlanner {
   /// costs O(known blocks) for the ways, and a bounded number of view points.
   const Plan& update(const Scan& scan, const Eigen::Vector2d& robot_map, bool is_placed = true);
 
-  /// Takes a scan and decides nothing.
-  void observe(const Scan& scan, const Eigen::Vector2d& robot_map) {
-    place_.observe(scan, robot_map);
-  }
-
-  /// See KnownPlace::heed().
-  void heed(const std::vector<Eigen::Vector2d>& places_map) { place_.heed(places_map); }
+  /// What is known. What is added to it counts from the next update on.
+  KnownPlace& place() { return place_; }
+  const KnownPlace& place() const { return place_; }
 
   /// Exploration stays inside a polygon (m, map frame); fewer than three corners: no limit.
   void limitTo(std::vector<Eigen::Vector2d> polygon) { views_.limitTo(std::move(polygon)); }
@@ -82,12 +78,9 @@ class GlobalPlanner {
   /// third one of the last look that this happens to at the same place ends the exploration.
   void setGoalAside();
 
-  /// Says that the robot got no farther on a way (m, map frame), from its beginning on: further
-  /// ways lead around that place.
-  void bar(const std::vector<Eigen::Vector2d>& way) { place_.bar(way); }
-
-  /// The same, where what the present goal is to show can be seen on another way. A goal that this
-  /// happens to twice is set aside.
+  /// Says that the robot got no farther on a way (m, map frame), from its beginning on: bars it
+  /// where what the present goal is to show can be seen on another way. A goal that this happens to
+  /// twice is set aside.
   /// @return whether there is another way. Cost: a search over the known blocks.
   bool goAround(const std::vector<Eigen::Vector2d>& way);
 
@@ -103,17 +96,13 @@ class GlobalPlanner {
   std::vector<Eigen::Vector2d> pathTo(const Eigen::Vector2d& robot_map,
                                       const Eigen::Vector2d& goal_map);
 
-  /// Declares cells as known from a saved map.
-  void seed(const std::vector<Cell>& cells, CellState state) { place_.seed(cells, state); }
-
-  const ExplorationGrid& grid() const { return place_.grid(); }
-  const FreeSpace& space() const { return place_.space(); }
-  const FrontierCells& frontierCells() const { return place_.frontierCells(); }
   const Plan& plan() const { return plan_; }
   /// Number of goals set so far.
   int goals() const { return goals_; }
 
  private:
+  const ExplorationGrid& grid() const { return place_.grid(); }
+  const FreeSpace& space() const { return place_.space(); }
   bool isScanned(const Eigen::Vector2d& p_map) const;
   bool isGoalUnseen() const;
   bool goalStands() const;
