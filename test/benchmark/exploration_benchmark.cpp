@@ -9,7 +9,7 @@
 #include <limits>
 
 #include "cca_mrpt/navigation/goals/global_planner.hpp"
-#include "cca_mrpt/sensing/beam.hpp"
+#include "cca_mrpt/navigation/place/cell.hpp"
 
 namespace {
 

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "cca_mrpt/navigation/place/cell.hpp"
 #include "cca_mrpt/navigation/place/exploration_grid.hpp"
-#include "cca_mrpt/sensing/beam.hpp"
 #include "cca_mrpt/sensing/scan.hpp"
 
 namespace cca {

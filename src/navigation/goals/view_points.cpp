@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "cca_mrpt/navigation/place/cell.hpp"
 #include "cca_mrpt/sensing/beam.hpp"
 
 namespace cca {

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "cca_mrpt/geometry/cross.hpp"
+#include "cca_mrpt/navigation/place/cell.hpp"
 #include "cca_mrpt/sensing/beam.hpp"
 #include "cca_mrpt/sensing/range_noise.hpp"
 

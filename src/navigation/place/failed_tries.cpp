@@ -5,7 +5,7 @@
 #include <cstdlib>
 #include <utility>
 
-#include "cca_mrpt/sensing/beam.hpp"
+#include "cca_mrpt/navigation/place/cell.hpp"
 
 namespace cca {
 namespace {

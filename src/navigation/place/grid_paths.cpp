@@ -6,7 +6,7 @@
 #include <queue>
 #include <utility>
 
-#include "cca_mrpt/sensing/beam.hpp"
+#include "cca_mrpt/navigation/place/cell.hpp"
 
 namespace cca {
 namespace {

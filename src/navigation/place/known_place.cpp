@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cca_mrpt/navigation/place/cell.hpp"
 #include "cca_mrpt/navigation/place/free_space.hpp"
-#include "cca_mrpt/sensing/beam.hpp"
 
 namespace cca {
 namespace {
