@@ -17,7 +17,7 @@ constexpr double kGate = 4.0;      // sigmas, from what the present scan says
 constexpr double kSlope = 1.0;     // usual slope of a surface against the beam's normal
 constexpr double kDisagree = 2.0;  // deviations, of one side from the other
 // Deviations that a surface may be nearer, and how much of that the least clearance allows for, m.
-constexpr double kSure = 3.0, kAllowedFor = 0.008;
+constexpr double kSure = 3.5, kAllowedFor = 0.008;
 
 // As many scans as make the face of a surface at kClose, m, known to within kWanted, m; but one
 // that reads far must never be enough to go a step nearer: a robot that waits beside a wall would
