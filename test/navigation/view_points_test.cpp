@@ -25,9 +25,9 @@ ExplorationGrid room(bool has_gap) {
   return grid;
 }
 
-Openings theGap() {
-  Openings openings;
-  openings.add(kGap);
+CellSet theGap() {
+  CellSet openings;
+  openings.insert(kGap);
   return openings;
 }
 
@@ -41,9 +41,9 @@ TEST(ViewFrom, CutsTheCornersOfAGapButGoesThroughNoWall) {
   EXPECT_GT(gainFrom(open, {7, 28}), 0.0);
   EXPECT_GT(gainFrom(open, {7, 12}), 0.0);
   EXPECT_EQ(unknownAreaInView(open, {7, 28}, kRange), 0.0) << "without cutting";
-  Openings everywhere;
+  CellSet everywhere;
   for (int y = 0; y < kSide; ++y) {
-    for (int x = 0; x < kSide; ++x) everywhere.add({x, y});
+    for (int x = 0; x < kSide; ++x) everywhere.insert({x, y});
   }
   for (int y = 1; y < kSide - 1; ++y) {
     for (int x = 1; x < kSide - 1; ++x)
@@ -54,7 +54,7 @@ TEST(ViewFrom, CutsTheCornersOfAGapButGoesThroughNoWall) {
 TEST(ViewFrom, CountsOnlyWhatLiesBehindAnOpening) {
   const ExplorationGrid grid = room(true);
   EXPECT_GT(gainFrom(grid, {10, 20}), 0.0);
-  EXPECT_EQ(viewFrom(grid, {10, 20}, kRange, Openings{}).gain, 0.0);
+  EXPECT_EQ(viewFrom(grid, {10, 20}, kRange, CellSet{}).gain, 0.0);
 }
 
 TEST(EachBlockInView, FindsThePlacesThatAnOpeningIsSeenFrom) {

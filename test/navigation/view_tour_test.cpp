@@ -73,11 +73,11 @@ struct RandomPlaces {
 };
 
 TEST(Tours, AreTheBestOfAllOrders) {
-  for (unsigned seed = 1; seed <= 10; ++seed) {
+  for (unsigned seed = 1; seed <= 20; ++seed) {
     for (const double hurry : {0.0, 1.0, 10.0}) {
-      const RandomPlaces p(seed, 6, hurry);
+      const RandomPlaces p(seed, 7, hurry);
       const Tour tour = bestOf(p.distance, p.objective);
-      EXPECT_EQ(tour.stops.size(), 6u);
+      EXPECT_EQ(tour.stops.size(), 7u);
       EXPECT_NEAR(tour.cost, costOf(p.distance, p.objective, tour.stops), 1e-9);
       EXPECT_NEAR(tour.cost, leastCostOfAll(p.distance, p.objective), 1e-9);
     }
@@ -148,7 +148,7 @@ TEST(Tours, LeaveOutAStopWhoseDetourIsLongerThanItsWorth) {
   using Stops = std::vector<std::size_t>;
   EXPECT_EQ(worthTheWay({-2.0, 3.0, 5.0}, {5.0, 9.0, 9.0}), (Stops{0, 1, 2}));
   EXPECT_EQ(worthTheWay({-2.0, 3.0, 5.0}, {3.0, 9.0, 9.0}), (Stops{1, 2}));
-  EXPECT_EQ(worthTheWay({-2.0, 3.0, 5.0}, {5.0, 1.0, 9.0}), (Stops{0, 1, 2})) << "on the way";
+  EXPECT_EQ(worthTheWay({-2.0, 3.0, 5.0}, {5.0, 0.0, 9.0}), (Stops{0, 1, 2})) << "on the way";
 }
 
 // Each of the two far ones is a short way from the other, but not from where the robot is.

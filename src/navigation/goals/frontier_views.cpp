@@ -63,15 +63,15 @@ void FrontierViews::find(const KnownPlace& place, Cell here) {
   for (const ViewPoint& rest : rests) {
     if (only_rests_ || rest.distance < kInPassing) view_points_.push_back(rest);
   }
-  // Who looks at a rest sees what the smallest frontiers hide as well.
-  openings_ = only_rests_ ? place.openings(1) : Openings{};
   for (ViewPoint& view : view_points_) expect(place, view);
 }
 
-// What lies around the target of a rest is mostly the inside of what hides it.
+// What lies around the target of a rest is mostly the inside of what hides it; and who looks at one
+// sees what the smallest frontiers hide as well.
 void FrontierViews::expect(const KnownPlace& place, ViewPoint& view) const {
   if (!only_rests_) return;
-  view.expected = viewFrom(place.grid(), view.cell, reach(place), openings_).expected;
+  view.expected =
+      viewFrom(place.grid(), view.cell, reach(place), place.frontierCells().all()).expected;
 }
 
 // In the order of the grid's history where all can be looked at, else the nearest first.

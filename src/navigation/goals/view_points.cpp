@@ -196,12 +196,7 @@ std::optional<ViewPoint> nearestViewPoint(const ExplorationGrid& grid, const Fre
                                           Cell target, double range) {
   std::optional<ViewPoint> best;
   const double reach = range / grid.resolution();
-  const Eigen::Vector2d to_start = middleOf(field.start()) - middleOf(target);
   for (const Eigen::Vector2d& direction : kViewRays) {
-    // Ways lead from block to block, and none is shorter than the straight line.
-    const double ahead = std::clamp(to_start.dot(direction), 0.0, reach);
-    const double least = (to_start - ahead * direction).norm() - std::sqrt(2.0) * FreeSpace::kBlock;
-    if (best && least * grid.resolution() >= best->distance) continue;
     bool in_known = false;
     walkBeam(middleOf(target), direction, reach, [&](Cell c, double) {
       if (c == target) return true;
@@ -223,7 +218,7 @@ double unknownAreaInView(const ExplorationGrid& grid, Cell from, double range) {
   return look(grid, from, range, kGainRays, 0.0, any, any).gain;
 }
 
-ViewPoint viewFrom(const ExplorationGrid& grid, Cell from, double range, const Openings& openings) {
+ViewPoint viewFrom(const ExplorationGrid& grid, Cell from, double range, const CellSet& openings) {
   std::vector<bool> counts(kFineRays.size(), false);
   for (const Cell c : openings.cells()) markRays(from, c, range / grid.resolution(), counts);
   return look(

@@ -9,7 +9,7 @@ namespace cca {
 namespace {
 
 constexpr double kStay = 0.5;             // m, by which another tour must cost less than going on
-constexpr std::size_t kMostStops = 12;    // of a tour: 0.3 ms
+constexpr std::size_t kMostStops = 12;    // of a tour: some 1 ms
 constexpr double kHorizon = 40.0;         // m, beyond which ways between stops are only estimated
 constexpr std::uint32_t kFieldLife = 30;  // choices: known space grows, so ways get shorter
 constexpr std::size_t kMostFields = 32;

@@ -18,6 +18,22 @@ Cell memberInTheMiddle(const std::vector<Cell>& cells) {
 
 }  // namespace
 
+void CellSet::insert(Cell c) {
+  if (contains(c)) return;
+  cells_.push_back(c);
+  place_[c] = static_cast<std::uint32_t>(cells_.size());
+}
+
+// The last one takes the place of the one that goes.
+void CellSet::erase(Cell c) {
+  if (!contains(c)) return;
+  const std::uint32_t place = place_[c];
+  place_[cells_.back()] = place;
+  cells_[place - 1] = cells_.back();
+  cells_.pop_back();
+  place_[c] = 0;
+}
+
 std::optional<Cell> unknownBeside(const ExplorationGrid& grid, Cell c) {
   for (std::size_t d = 0; d < 4; ++d) {
     if (grid.at(c + kNeighbours[d]) == CellState::kUnknown) return c + kNeighbours[d];
@@ -39,25 +55,17 @@ void FrontierCells::update(const ExplorationGrid& grid, const std::vector<Cell>&
 
 void FrontierCells::review(const ExplorationGrid& grid, Cell c) {
   if (!isStorable(c)) return;
-  const bool was = place_.at(c) != 0, is = isFrontier(grid, c);
-  if (was == is) return;
-  if (is) {
-    cells_.push_back(c);
-    place_[c] = static_cast<std::uint32_t>(cells_.size());
-    return;
+  if (isFrontier(grid, c)) {
+    all_.insert(c);
+  } else {
+    all_.erase(c);
   }
-  // The last one takes the place of the one that goes.
-  const std::uint32_t place = place_[c];
-  place_[cells_.back()] = place;
-  cells_[place - 1] = cells_.back();
-  cells_.pop_back();
-  place_[c] = 0;
 }
 
 std::vector<Frontier> FrontierCells::frontiers(int extent) const {
   TiledGrid<char> grouped{0};
   std::vector<Frontier> frontiers;
-  for (const Cell seed : cells_) {
+  for (const Cell seed : cells()) {
     if (grouped.at(seed)) continue;
     Frontier frontier;
     Cell low = seed, high = seed;
@@ -66,7 +74,7 @@ std::vector<Frontier> FrontierCells::frontiers(int extent) const {
     for (std::size_t i = 0; i < frontier.cells.size(); ++i) {
       for (int k = 0; k < kWide * kWide; ++k) {
         const Cell c = frontier.cells[i] + Cell{k % kWide - kWide / 2, k / kWide - kWide / 2};
-        if (!contains(c) || grouped.at(c)) continue;
+        if (!all_.contains(c) || grouped.at(c)) continue;
         const Cell new_low{std::min(low.x, c.x), std::min(low.y, c.y)};
         const Cell new_high{std::max(high.x, c.x), std::max(high.y, c.y)};
         if (std::max(new_high.x - new_low.x, new_high.y - new_low.y) >= extent) continue;

@@ -129,11 +129,11 @@ void KnownPlace::findWays(const Eigen::Vector2d& from_map, std::optional<Cell> u
                until);
 }
 
-Openings KnownPlace::openings(std::size_t smallest_frontier) const {
-  Openings openings;
+CellSet KnownPlace::openings(std::size_t smallest_frontier) const {
+  CellSet openings;
   for (const Frontier& frontier : frontiers()) {
     if (frontier.cells.size() < smallest_frontier) continue;
-    for (const Cell c : frontier.cells) openings.add(c);
+    for (const Cell c : frontier.cells) openings.insert(c);
   }
   return openings;
 }

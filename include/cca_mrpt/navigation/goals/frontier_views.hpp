@@ -61,7 +61,6 @@ class FrontierViews {
   std::vector<Eigen::Vector2d> limits_;
   std::vector<ViewPoint> view_points_, entries_;
   bool only_rests_ = false;
-  Openings openings_;  ///< where there are only rests
 };
 
 }  // namespace cca

@@ -60,7 +60,7 @@ class LastLook {
   double worth_;
   bool is_under_way_ = false;
   int looks_left_ = 0;           ///< that may be made in this call
-  Openings openings_;            ///< of now
+  CellSet openings_;             ///< of now
   std::vector<Cell> unseen_;     ///< frontier cells that were not asked yet for who sees them
   std::vector<Cell> blocks_;     ///< that see one, and were not asked yet
   TiledGrid<char> is_block_{0};  ///< whether a block was ever put among them

@@ -59,7 +59,7 @@ double unknownAreaInView(const ExplorationGrid& grid, Cell from, double range);
 /// @return the place with its gain and what is expected of it, no distance; the target is the
 ///         middle of the longest unknown stretch, or the place itself where nothing unknown is in
 ///         view. Cost: O(openings), and O(range / resolution) for each ray that meets one.
-ViewPoint viewFrom(const ExplorationGrid& grid, Cell from, double range, const Openings& openings);
+ViewPoint viewFrom(const ExplorationGrid& grid, Cell from, double range, const CellSet& openings);
 
 /// How the next goal is chosen, among view points with their way and gain.
 enum class Strategy {

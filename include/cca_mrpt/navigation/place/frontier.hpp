@@ -16,19 +16,19 @@ struct Frontier {
   Cell middle;  ///< the member nearest to the mean of all
 };
 
-/// Cells behind which there may be something to see.
-class Openings {
+/// Cells, none twice, that come and go.
+class CellSet {
  public:
-  void add(Cell c) {
-    cells_.push_back(c);
-    is_one_[c] = 1;
-  }
+  /// Precondition: isStorable(c). Cost: O(1), as of all that follows.
+  void insert(Cell c);
+  void erase(Cell c);
+  bool contains(Cell c) const { return place_.at(c) != 0; }
+  /// The order depends only on what came and went.
   const std::vector<Cell>& cells() const { return cells_; }
-  bool contains(Cell c) const { return is_one_.at(c) != 0; }
 
  private:
   std::vector<Cell> cells_;
-  TiledGrid<char> is_one_{0};
+  TiledGrid<std::uint32_t> place_{0};  ///< index in cells_, plus 1; 0: not among them
 };
 
 /// The first unknown side neighbour of a cell.
@@ -46,8 +46,8 @@ class FrontierCells {
   void update(const ExplorationGrid& grid, const std::vector<Cell>& changed);
 
   /// All frontier cells; the order depends only on the grid's history.
-  const std::vector<Cell>& cells() const { return cells_; }
-  bool contains(Cell c) const { return place_.at(c) != 0; }
+  const CellSet& all() const { return all_; }
+  const std::vector<Cell>& cells() const { return all_.cells(); }
 
   /// Groups of 8-connected frontier cells, none longer than `extent` cells in any direction: a
   /// longer line is cut into pieces. Cost: O(frontier cells).
@@ -56,8 +56,7 @@ class FrontierCells {
  private:
   void review(const ExplorationGrid& grid, Cell c);
 
-  std::vector<Cell> cells_;
-  TiledGrid<std::uint32_t> place_{0};  ///< index in cells_, plus 1; 0: no frontier
+  CellSet all_;
 };
 
 }  // namespace cca

@@ -103,7 +103,7 @@ class KnownPlace {
   std::vector<Frontier> frontiers() const { return frontier_cells_.frontiers(kFrontierExtent); }
   /// The cells of all frontiers of at least so many cells: a small one may be a missing cell of a
   /// wall, which would promise all that is behind it. Cost: O(frontier cells).
-  Openings openings(std::size_t smallest_frontier) const;
+  CellSet openings(std::size_t smallest_frontier) const;
 
   const ExplorationGrid& grid() const { return grid_; }
   const FreeSpace& space() const { return space_; }

@@ -34,7 +34,7 @@ struct ConfigurationSpace {
 
   /// The free distance in all directions at once.
   /// @param directions  as of directionsAround(), the first along x.
-  /// Cost: O(obstacles * the directions that each one covers), some 30 us.
+  /// Cost: O(obstacles * the directions that each one covers), some 50 us.
   std::vector<FreeRange> freeRanges(const Eigen::Vector2d& from,
                                     const std::vector<Eigen::Vector2d>& directions,
                                     double longest) const;
