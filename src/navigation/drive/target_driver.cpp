@@ -7,8 +7,8 @@
 #include <cmath>
 
 #include "cca_mrpt/navigation/drive/motion_control.hpp"
-#include "cca_mrpt/navigation/drive/near_surfaces.hpp"
 #include "cca_mrpt/sensing/beam.hpp"
+#include "cca_mrpt/sensing/near_surfaces.hpp"
 
 namespace cca {
 namespace {

@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "cca_mrpt/navigation/drive/local_view.hpp"
-#include "cca_mrpt/navigation/drive/near_surfaces.hpp"
 #include "cca_mrpt/navigation/drive/progress.hpp"
 #include "cca_mrpt/navigation/drive/robot.hpp"
 #include "cca_mrpt/navigation/drive/tangent_bug/boundary_follower.hpp"
@@ -15,6 +14,7 @@
 #include "cca_mrpt/navigation/drive/tangent_bug/tangent_graph.hpp"
 #include "cca_mrpt/navigation/drive/target_driver.hpp"
 #include "cca_mrpt/sensing/moving_points.hpp"
+#include "cca_mrpt/sensing/near_surfaces.hpp"
 #include "cca_mrpt/sensing/scan.hpp"
 
 namespace cca {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "cca_mrpt/navigation/drive/near_surfaces.hpp"
+#include "cca_mrpt/sensing/near_surfaces.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -13,9 +13,9 @@ namespace {
 // Of a patch, to each side: sigmas, and m at most: the thinnest thing that is told from a wall.
 // What bends within it is taken for nearer than it is.
 constexpr double kPatchSigmas = 1.7, kWidestPatch = 0.05;
-constexpr double kGate = 4.0;      // sigmas, from what the present scan says
-constexpr double kSlope = 1.0;     // usual slope of a surface against the beam's normal
-constexpr double kDisagree = 2.0;  // deviations, of one side from the other
+constexpr double kOfSurface = 4.0;  // sigmas, from what the present scan says
+constexpr double kSlope = 1.0;      // usual slope of a surface against the beam's normal
+constexpr double kDisagree = 2.0;   // deviations, of one side from the other
 // Deviations that a surface may be nearer, and how much of that the least clearance allows for, m.
 constexpr double kSure = 3.5, kAllowedFor = 0.008;
 
@@ -92,7 +92,7 @@ Scan NearSurfaces::update(const Scan& raw, const Scan& smooth, const std::vector
     const auto beam = static_cast<std::size_t>(i);
     directions.emplace_back(std::cos(raw.bearing(beam)), std::sin(raw.bearing(beam)));
     const double range = raw.ranges[beam];
-    if (!isReturn(range) || range > kNear + kGate * range_sigma || moving[beam]) continue;
+    if (!isReturn(range) || range > kNear + kOfSurface * range_sigma || moving[beam]) continue;
     scans_.back().push_back(raw.T_map_sensor * Eigen::Vector2d(range * directions.back()));
   }
   sortByBeam(raw);
@@ -113,7 +113,7 @@ Scan NearSurfaces::update(const Scan& raw, const Scan& smooth, const std::vector
            p < first_[static_cast<std::size_t>(j) + 1]; ++p) {
         const double u = cross(directions[beam], by_beam_[p]),
                      v = directions[beam].dot(by_beam_[p]);
-        if (std::abs(u) > patch || std::abs(v - range) > kGate * range_sigma + std::abs(u))
+        if (std::abs(u) > patch || std::abs(v - range) > kOfSurface * range_sigma + std::abs(u))
           continue;
         if (u > -own) left.add(u, v);
         if (u < own) right.add(u, v);

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "cca_mrpt/navigation/drive/near_surfaces.hpp"
+#include "cca_mrpt/sensing/near_surfaces.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <random>
 
-#include "box_world.hpp"
+#include "../navigation/box_world.hpp"
 #include "cca_mrpt/sensing/range_noise.hpp"
 
 namespace cca::testing {
