@@ -11,10 +11,9 @@ namespace {
 // corner and decide anew, time and again: eight worlds took 3 % more to 90 % coverage, and no less
 // to 99 %.
 constexpr double kBehindFrontier = 2.0;
-// A frontier of fewer cells than this is a rest.
-constexpr std::size_t kRest = 25;
-constexpr double kInPassing = 2.5;           // m
-constexpr int kEntryAside = 12;              // cells, from a frontier's middle
+// A frontier of fewer cells than this, times what is believed of it, is a rest.
+constexpr double kRest = 25.0;
+constexpr double kInPassing = 4.0;           // m: with 2.5 (1) it drives 5 % (15 %) farther in all
 constexpr double kViewShare = 0.9;           // of the laser's range: beams lie too far apart beyond
 constexpr double kGainRange = 3.0;           // m, around what is to be seen
 constexpr std::size_t kMostViewPoints = 60;  // of the nearest frontiers
@@ -43,21 +42,13 @@ bool FrontierViews::isWithinLimits(const KnownPlace& place, Cell c) const {
 
 void FrontierViews::find(const KnownPlace& place, Cell here) {
   view_points_.clear();
-  entries_.clear();
   std::vector<ViewPoint> rests;
   for (const Frontier& frontier : nearestFrontiers(place, here)) {
     if (view_points_.size() + rests.size() >= kMostViewPoints) break;
     const auto view_point = viewOf(place, frontier);
     if (!view_point) continue;
-    if (frontier.cells.size() < kRest) {
-      rests.push_back(*view_point);
-      continue;
-    }
-    view_points_.push_back(*view_point);
-    if (const auto entry = entryAt(place, frontier.middle)) {
-      entries_.push_back(
-          {*entry, view_point->target, place.ways().distanceTo(*entry), view_point->gain});
-    }
+    const double size = view_point->belief * static_cast<double>(frontier.cells.size());
+    (size < kRest ? rests : view_points_).push_back(*view_point);
   }
   only_rests_ = view_points_.empty();
   for (const ViewPoint& rest : rests) {
@@ -98,9 +89,11 @@ std::vector<Frontier> FrontierViews::nearestFrontiers(const KnownPlace& place, C
 }
 
 std::optional<ViewPoint> FrontierViews::viewOf(const KnownPlace& place, Cell target) const {
-  const auto view_point = nearestViewPoint(place.grid(), place.space(), place.ways(),
-                                           place.scanned(), target, reach(place));
-  return view_point && isWithinLimits(place, view_point->cell) ? view_point : std::nullopt;
+  auto view_point = nearestViewPoint(place.grid(), place.space(), place.ways(), place.scanned(),
+                                     target, reach(place));
+  if (!view_point || !isWithinLimits(place, view_point->cell)) return {};
+  view_point->belief = place.belief(target);
+  return view_point;
 }
 
 // What lies two metres behind a frontier may be inside a wall. Once that has been set aside, the
@@ -118,15 +111,6 @@ std::optional<ViewPoint> FrontierViews::viewOf(const KnownPlace& place,
     return view_point;
   }
   return {};
-}
-
-// Where the robot would cross a frontier.
-std::optional<Cell> FrontierViews::entryAt(const KnownPlace& place, Cell middle) const {
-  Cell entry;
-  if (!nearestTraversable(place.space(), middle, kEntryAside, entry)) return {};
-  const bool is_known = !place.ways().isReached(entry) || place.scanned().contains(entry);
-  if (is_known || !isWithinLimits(place, entry)) return {};
-  return entry;
 }
 
 bool FrontierViews::keep(const KnownPlace& place, const ViewPoint& goal) {
