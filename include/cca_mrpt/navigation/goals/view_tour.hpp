@@ -46,9 +46,8 @@ struct ViewTourParameters {
 ///
 /// 1. Few view points that see all frontiers between them are kept (greedy set cover).
 /// 2. The best open tour among those finds which are worth their way.
-/// 3. Where there is something large to see, the tour of most gain exp(-0.2 way) through these
-/// takes
-///    its place: the criterion of [Gonzalez-Banos & Latombe 2002], for all stops in all orders.
+/// 3. Where something large is left, the tour of most gain exp(-0.2 way) through these is taken:
+///    the criterion of [Gonzalez-Banos & Latombe 2002], for all stops in all orders.
 /// 4. The tour that begins with the present goal is kept unless another is clearly better.
 class ViewTour {
  public:
