@@ -248,10 +248,7 @@ TEST(Explorer, MakesItsMapAnewAndFindsHomeWhereThePastIsCorrected) {
 }
 
 TEST(Explorer, DrivesOnAsItDidWhereThePastIsCorrected) {
-  ExplorerParameters parameters;
-  parameters.strategy =
-      Strategy::kGainDistance;  // it keeps its goal, where a tour may find a better one
-  StrayingDriver corrected(parameters), other(parameters);
+  StrayingDriver corrected({}), other({});
   corrected.T_map_true = other.T_map_true = {0.5, -0.3, 0.4};
   for (int i = 0; i < 15 || (i < 100 && corrected.velocity.linear < 0.3); ++i) {
     corrected.step(0.0);

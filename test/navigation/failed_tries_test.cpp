@@ -33,17 +33,6 @@ TEST(FailedTries, TheSecondLostWaySetsATargetAside) {
   EXPECT_FALSE(tries.isAside({20, 20}, 0));
 }
 
-TEST(FailedTries, EachTryInVainHalvesTheBeliefInWhatLiesWithinAMetre) {
-  FailedTries tries;
-  EXPECT_EQ(tries.belief({10, 10}), 1.0);
-  tries.add({10, 10}, Failure::kWayLost, 0);
-  tries.add({25, 10}, Failure::kNotReached, 0);
-  tries.add({10, 12}, Failure::kNothingSeen, 0);
-  EXPECT_EQ(tries.belief({12, 10}), 0.25) << "who got there and saw nothing was not held";
-  EXPECT_EQ(tries.belief({10, 29}), 0.5);
-  EXPECT_EQ(tries.belief({60, 10}), 1.0);
-}
-
 TEST(FailedTries, CountHowOftenInARowTheRobotWasHeldAtOnePlace) {
   FailedTries tries;
   const Cell here{0, 0}, beside{4, 4}, elsewhere{7, 0};

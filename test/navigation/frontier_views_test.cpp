@@ -49,9 +49,11 @@ TEST(FrontierViews, EndAtTheLimitsTargetAndPlace) {
   view.views.limitTo({{3.0, 0.0}, {9.5, 0.0}, {9.5, 4.0}, {3.0, 4.0}});  // not the left room
   view.find();
   EXPECT_FALSE(view.views.viewPoints().empty());
-  for (const ViewPoint& v : view.views.viewPoints()) {
-    EXPECT_GT(view.x(v), 3.0);
-    EXPECT_GT(view.place.grid().centreOf(v.cell).x(), 3.0);
+  for (const auto* found : {&view.views.viewPoints(), &view.views.entries()}) {
+    for (const ViewPoint& v : *found) {
+      EXPECT_GT(view.x(v), 3.0);
+      EXPECT_GT(view.place.grid().centreOf(v.cell).x(), 3.0);
+    }
   }
   // In sight from inside the limits or not: from outside nobody is to look.
   view.views.limitTo({{20.0, 0.0}, {21.0, 0.0}, {21.0, 1.0}});
@@ -68,7 +70,9 @@ TEST(FrontierViews, LeaveOutWhatWasSetAside) {
   const Cell target = view.views.viewPoints().front().target;
   view.place.noteFailure(target, Failure::kNotReached);
   view.find();
-  for (const ViewPoint& v : view.views.viewPoints()) EXPECT_FALSE(v.target == target);
+  for (const auto* found : {&view.views.viewPoints(), &view.views.entries()}) {
+    for (const ViewPoint& v : *found) EXPECT_FALSE(v.target == target);
+  }
 }
 
 TEST(FrontierViews, KeepTheGoalInPlaceOfMuchTheSame) {

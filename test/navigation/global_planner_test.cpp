@@ -83,6 +83,16 @@ TEST(GlobalPlanner, FinishesAtOnceWhereAllIsInSight) {
   EXPECT_LT(drive(planner, room, {1.3, 1.2}).distance, 0.5);
 }
 
+// To see two metres behind the end of its view, the robot would have to drive 2.4 m.
+TEST(GlobalPlanner, DrivesIntoALargeUnknownPlaceInsteadOfPeeking) {
+  const KnownWorld hall{std::vector<std::string>(40, std::string(40, '.')), 10};
+  GlobalPlanner planner;
+  const Eigen::Vector2d robot(10.0, 10.0);
+  const Plan& plan = planner.update(hall.scanFrom({robot.x(), robot.y(), 0.0}, 4.0), robot);
+  ASSERT_EQ(plan.path.size(), 2u);
+  EXPECT_NEAR((plan.path.back() - robot).norm(), 4.0, 0.5);
+}
+
 // The window is too narrow to pass. From before it one sees to x = 6.4 m, from the start to 5.7 m.
 TEST(GlobalPlanner, LooksAtLastAsFarAsItCanWhereItCannotGo) {
   const KnownWorld window{{"##################", "#....#...........#", "#................#",

@@ -8,6 +8,9 @@
 namespace cca {
 namespace {
 
+// m^2, of gain exp(-0.2 way): a frontier that promises this is driven into. With less there is less
+// way to 90 % coverage, with 1.5 a tenth more to 99 %; with 8 the reverse.
+constexpr double kWorthEntering = 5.0;
 constexpr double kReconsiderAfter = 0.3;         // m driven
 constexpr std::size_t kWorthReconsidering = 20;  // cells newly seen
 constexpr double kPassed = 0.1;                  // m, of a corner
@@ -217,13 +220,17 @@ void GlobalPlanner::lookAround() {
 std::optional<ViewPoint> GlobalPlanner::choose() {
   if (last_look_.isUnderWay()) return {};
   findViews();
-  const std::vector<ViewPoint>& views = views_.viewPoints();
+  const std::vector<ViewPoint>&views = views_.viewPoints(), &entries = views_.entries();
+  if (parameters_.strategy != Strategy::kViewTour) {
+    const auto best = selectGoal(parameters_.strategy, views);
+    return best ? std::optional<ViewPoint>(views[*best]) : std::nullopt;
+  }
+  const auto entry = selectGoal(Strategy::kGainDistance, entries);
+  if (entry && discountedGain(entries[*entry]) >= kWorthEntering) return entries[*entry];
   const auto present = goal_ ? std::optional<Cell>(goal_->target) : std::nullopt;
-  const auto chosen = parameters_.strategy == Strategy::kViewTour
-                          ? view_tour_.choose(grid(), space(), views, views_.reach(place_), present,
-                                              views_.onlyRests())
-                          : selectGoal(parameters_.strategy, views);
-  return chosen ? std::optional<ViewPoint>(views[*chosen]) : std::nullopt;
+  const auto stop =
+      view_tour_.choose(grid(), space(), views, views_.reach(place_), present, views_.onlyRests());
+  return stop ? std::optional<ViewPoint>(views[*stop]) : std::nullopt;
 }
 
 void GlobalPlanner::correct(const PastScans& past) {

@@ -115,6 +115,7 @@ void markRays(Cell from, Cell to, double reach, std::vector<bool>& marks) {
     marks[static_cast<std::size_t>((k % count + count) % count)] = true;
 }
 
+constexpr double kPerMetre = 0.2;     // lambda of [Gonzalez-Banos & Latombe 2002]
 constexpr double kShortestWay = 0.2;  // m: ways are measured in blocks of this size
 
 double score(Strategy strategy, const ViewPoint& view_point) {
@@ -122,7 +123,7 @@ double score(Strategy strategy, const ViewPoint& view_point) {
     case Strategy::kGreedy:
       return view_point.gain;
     case Strategy::kGainDistance:
-      return view_point.gain * std::exp(-kDiscount * view_point.distance);
+      return discountedGain(view_point);
     case Strategy::kInformation:
       return view_point.gain / std::max(view_point.distance, kShortestWay);
     case Strategy::kNearestFrontier:
@@ -223,6 +224,10 @@ ViewPoint viewFrom(const ExplorationGrid& grid, Cell from, double range, const C
   return look(
       grid, from, range, kFineRays, kCut, [&](std::size_t k) { return counts[k]; },
       [&](Cell c) { return openings.contains(c); });
+}
+
+double discountedGain(const ViewPoint& view_point) {
+  return view_point.gain * std::exp(-kPerMetre * view_point.distance);
 }
 
 Strategy strategyNamed(const std::string& name) {

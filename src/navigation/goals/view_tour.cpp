@@ -8,15 +8,15 @@
 namespace cca {
 namespace {
 
-constexpr double kStay = 0.5;             // m, that going on may be the longer way
+constexpr double kStay = 0.5;             // m, by which another tour must cost less than going on
 constexpr std::size_t kMostStops = 12;    // of a tour: some 1 ms
 constexpr double kHorizon = 40.0;         // m, beyond which ways between stops are only estimated
 constexpr std::uint32_t kFieldLife = 30;  // choices: known space grows, so ways get shorter
 constexpr std::size_t kMostFields = 32;
 
-const Tour& bestOf(const std::vector<Tour>& tours) {
-  return *std::max_element(tours.begin(), tours.end(),
-                           [](const Tour& a, const Tour& b) { return a.worth < b.worth; });
+const Tour& cheapest(const std::vector<Tour>& tours) {
+  return *std::min_element(tours.begin(), tours.end(),
+                           [](const Tour& a, const Tour& b) { return a.cost < b.cost; });
 }
 
 /// Per view point, the view points whose targets it sees; its own always.
@@ -37,43 +37,43 @@ std::vector<std::vector<std::size_t>> visibility(const ExplorationGrid& grid,
 
 }  // namespace
 
-double TourObjective::before(double way, double worth_there) const {
-  return std::exp(-discount * way) * worth_there - price * way;
-}
-
 std::vector<Tour> findTours(const Eigen::MatrixXd& distance, const TourObjective& objective) {
   const auto n = static_cast<std::size_t>(distance.rows()) - 1;
   const auto bit = [](std::size_t stop) { return std::size_t{1} << stop; };
   const auto row = [](std::size_t stop) { return static_cast<Eigen::Index>(stop) + 1; };
-  const Eigen::MatrixXd fading = (-objective.discount * distance).array().exp();
   const std::size_t all = bit(n) - 1;
-  std::vector<double> to_come(n << n);  // by the stops that were visited, and the last of them
-  const auto next = [&](std::size_t visited, std::size_t last, double& worth) {
+  // Of a way driven now, the cost of a metre; of a tour that ends now, what is left out; and what
+  // is still to come at the least: by the stops that were visited, and the last of them.
+  std::vector<double> pace(all + 1, 1.0), left_out(all + 1, 0.0), to_come(n << n);
+  const auto next = [&](std::size_t visited, std::size_t last, double& cost) {
     std::size_t best = n;  // it ends here
-    worth = 0.0;
+    cost = left_out[visited];
     for (std::size_t k = 0; k < n; ++k) {
       if (visited & bit(k)) continue;
-      const double there = objective.worth[k] + to_come[(visited | bit(k)) * n + k];
       const double through =
-          fading(row(last), row(k)) * there - objective.price * distance(row(last), row(k));
-      if (!(through > worth)) continue;
-      worth = through;
+          pace[visited] * distance(row(last), row(k)) + to_come[(visited | bit(k)) * n + k];
+      if (through >= cost) continue;
+      cost = through;
       best = k;
     }
     return best;
   };
   for (std::size_t visited = all + 1; visited-- > 0;) {
+    for (std::size_t k = 0; k < n; ++k) {
+      if (visited & bit(k)) continue;
+      pace[visited] += objective.hurry * objective.weights[k];
+      left_out[visited] += objective.worth[k];
+    }
     for (std::size_t last = 0; last < n; ++last) {
       if (visited & bit(last)) next(visited, last, to_come[visited * n + last]);
     }
   }
   std::vector<Tour> tours(n);
   for (std::size_t first = 0; first < n; ++first) {
-    const double there = objective.worth[first] + to_come[bit(first) * n + first];
-    tours[first].worth = objective.before(distance(0, row(first)), there);
     std::size_t visited = 0;
-    double worth = 0.0;
-    for (std::size_t stop = first; stop < n; stop = next(visited, stop, worth)) {
+    double cost = pace[0] * distance(0, row(first)) + to_come[bit(first) * n + first];
+    tours[first].cost = cost;
+    for (std::size_t stop = first; stop < n; stop = next(visited, stop, cost)) {
       tours[first].stops.push_back(stop);
       visited |= bit(stop);
     }
@@ -89,21 +89,29 @@ std::optional<std::size_t> ViewTour::choose(const ExplorationGrid& grid, const F
   const std::vector<Stop> stops = cover(grid, view_points, reach, present, only_rests);
   const Eigen::MatrixXd distance = distances(grid, space, view_points, stops);
   TourObjective objective;
-  objective.price = 1.0;
-  for (const Stop& stop : stops) objective.worth.push_back(parameters_.worth * stop.promise);
-  std::vector<Tour> tours = findTours(distance, objective);
-  Tour best = bestOf(tours);
-  if (best.worth <= 0.0) return {};
-  if (!only_rests) {
-    objective = {std::vector<double>(stops.size(), -std::numeric_limits<double>::infinity()),
-                 kDiscount, 0.0};
-    for (const std::size_t k : best.stops) objective.worth[k] = stops[k].promise;
-    tours = findTours(distance, objective);
-    best = bestOf(tours);
+  double sum = 0.0, worth_of_all = 0.0;
+  for (const Stop& stop : stops) sum += stop.gain;
+  for (const Stop& stop : stops) {
+    objective.weights.push_back(sum > 0.0 ? stop.gain / sum : 0.0);
+    objective.worth.push_back(parameters_.worth * stop.promise);
+    worth_of_all += objective.worth.back();
   }
-  const double enough = objective.before(kStay, best.worth);
+  std::vector<Tour> tours = findTours(distance, objective);
+  Tour best = cheapest(tours);
+  if (best.cost >= worth_of_all) return {};
+  if (!only_rests) {
+    // What is worth its way is decided; now in which order.
+    objective.hurry = parameters_.hurry;
+    for (std::size_t k = 0; k < stops.size(); ++k) {
+      const bool is_driven = std::count(best.stops.begin(), best.stops.end(), k) > 0;
+      objective.worth[k] = is_driven ? std::numeric_limits<double>::infinity() : 0.0;
+      if (!is_driven) objective.weights[k] = 0.0;
+    }
+    tours = findTours(distance, objective);
+    best = cheapest(tours);
+  }
   for (const std::size_t k : best.stops) {
-    if (stops[k].sees_present && tours[k].worth > enough) return stops[k].view_point;
+    if (stops[k].sees_present && tours[k].cost < best.cost + kStay) return stops[k].view_point;
   }
   return stops[best.stops.front()].view_point;
 }
@@ -126,14 +134,14 @@ std::vector<ViewTour::Stop> ViewTour::cover(const ExplorationGrid& grid,
       best = a;
     }
     if (most == 0) break;
-    Stop stop{best, only_rests ? view_points[best].expected : 0.0, false};
+    Stop stop{best, 0.0, 0.0, false};
     for (const std::size_t b : sees[best]) {
       if (is_covered[b]) continue;
       is_covered[b] = true;
-      if (!only_rests) stop.promise += view_points[b].gain;
+      stop.gain += view_points[b].gain;
       if (present && view_points[b].target == *present) stop.sees_present = true;
     }
-    stop.promise *= view_points[best].belief;
+    stop.promise = only_rests ? view_points[best].expected : stop.gain;
     stops.push_back(stop);
   }
   return stops;

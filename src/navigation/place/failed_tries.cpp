@@ -2,7 +2,6 @@
 #include "cca_mrpt/navigation/place/failed_tries.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <cstdlib>
 #include <utility>
 
@@ -13,7 +12,6 @@ namespace {
 
 constexpr std::size_t kRetryAfter = 4000;  // cells newly seen: 10 m^2
 constexpr int kSameTarget = 3;             // cells
-constexpr double kSameDoor = 20.0;         // cells, between targets
 constexpr double kSamePlace = 6.0;         // cells, that a robot is held at
 constexpr double kAhead = 0.6;             // m, of a way that is barred
 constexpr int kAside = 2;                  // cells, to both sides of it
@@ -54,13 +52,6 @@ bool FailedTries::isAside(Cell target, std::size_t revealed) const {
   return std::any_of(tries_.begin(), tries_.end(), [&](const Try& t) {
     return t.is_aside && isSameTarget(t.target, target) && revealed < t.revealed_then + kRetryAfter;
   });
-}
-
-double FailedTries::belief(Cell target) const {
-  const auto failed = std::count_if(tries_.begin(), tries_.end(), [target](const Try& t) {
-    return t.failure != Failure::kNothingSeen && distanceBetween(t.target, target) < kSameDoor;
-  });
-  return std::ldexp(1.0, -static_cast<int>(failed));
 }
 
 int FailedTries::timesHeld() const {

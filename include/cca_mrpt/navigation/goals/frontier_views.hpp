@@ -43,6 +43,8 @@ class FrontierViews {
   bool keep(const KnownPlace& place, const ViewPoint& goal);
 
   const std::vector<ViewPoint>& viewPoints() const { return view_points_; }
+  /// Places at the frontiers themselves, those of rests left out: to drive in there.
+  const std::vector<ViewPoint>& entries() const { return entries_; }
   /// Whether all view points are rests.
   bool onlyRests() const { return only_rests_; }
   /// m, from how far off a target counts as seen.
@@ -52,11 +54,12 @@ class FrontierViews {
   std::vector<Frontier> nearestFrontiers(const KnownPlace& place, Cell here) const;
   std::optional<ViewPoint> viewOf(const KnownPlace& place, const Frontier& frontier) const;
   void expect(const KnownPlace& place, ViewPoint& view) const;
+  std::optional<Cell> entryAt(const KnownPlace& place, Cell middle) const;
 
   double smallest_gain_;
   std::size_t smallest_frontier_;
   std::vector<Eigen::Vector2d> limits_;
-  std::vector<ViewPoint> view_points_;
+  std::vector<ViewPoint> view_points_, entries_;
   bool only_rests_ = false;
 };
 

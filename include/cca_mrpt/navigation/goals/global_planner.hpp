@@ -50,9 +50,10 @@ struct Plan {
 /// The paper's global planner (Step 0): keeps what is known of the place, and sets one goal after
 /// the other until no reachable frontier of useful size is left; see docs/exploration.md.
 ///
-/// A goal is a place to look from (FrontierViews). It is given up as soon as what it is to show has
-/// been seen, or the way is blocked. When no frontier is left, all reached places are asked
-/// (LastLook), and then passages that look just too narrow are tried.
+/// A goal is a place to look from (FrontierViews), by `view_tour` also the middle of a frontier
+/// that promises much. It is given up as soon as what it is to show has been seen, or the way is
+/// blocked. When no frontier is left, all reached places are asked (LastLook), and then passages
+/// that look just too narrow are tried.
 class GlobalPlanner {
  public:
   explicit GlobalPlanner(const GlobalPlannerParameters& parameters = {});

@@ -22,7 +22,6 @@ struct ViewPoint {
   double distance = 0.0;  ///< m, of the way there
   double gain = 0.0;      ///< m^2 of unknown area in view if all of it were free
   double expected = 0.0;  ///< m^2 of it that will be seen, as viewFrom() expects
-  double belief = 1.0;    ///< that it will be reached and show it, see FailedTries
 };
 
 /// A cell behind the middle of a frontier, up to `depth` metres into the unknown: what one wants to
@@ -62,9 +61,6 @@ double unknownAreaInView(const ExplorationGrid& grid, Cell from, double range);
 ///         view. Cost: O(openings), and O(range / resolution) for each ray that meets one.
 ViewPoint viewFrom(const ExplorationGrid& grid, Cell from, double range, const CellSet& openings);
 
-/// 1/m, of gain exp(-0.2 way) [Gonzalez-Banos & Latombe 2002].
-inline constexpr double kDiscount = 0.2;
-
 /// How the next goal is chosen, among view points with their way and gain.
 enum class Strategy {
   kGreedy,           ///< the largest gain: the paper's Step 0
@@ -74,7 +70,7 @@ enum class Strategy {
   /// Deviation: the information is the unknown area in view alone; theirs adds the re-sensing of
   /// known boundaries, which is nothing to a robot whose pose is known.
   kInformation,
-  kViewTour,  ///< the first stop of a tour, see ViewTour
+  kViewTour,  ///< a frontier that promises much, else the first stop of a tour, see ViewTour
 };
 
 /// As options and files name them.
@@ -84,6 +80,9 @@ inline constexpr std::pair<const char*, Strategy> kStrategyNames[] = {
     {"nearest_frontier", Strategy::kNearestFrontier},
     {"gain_distance", Strategy::kGainDistance},
     {"information", Strategy::kInformation}};
+
+/// m^2, gain exp(-0.2 way) [Gonzalez-Banos & Latombe 2002].
+double discountedGain(const ViewPoint& view_point);
 
 /// @throws std::runtime_error for a name that is none.
 Strategy strategyNamed(const std::string& name);

@@ -34,11 +34,6 @@ class FailedTries {
   /// Whether it was set aside, and less than 10 m^2 have been seen since then.
   bool isAside(Cell target, std::size_t revealed) const;
 
-  /// How much is believed of what a target promises, in (0, 1]: half for each try whose way was
-  /// lost, or that was not reached, to see something within a metre of it. It may lie behind the
-  /// same door.
-  double belief(Cell target) const;
-
   /// How many tries in a row ended with the robot held at the same place, within 30 cm: each
   /// further one would take its time in vain.
   int timesHeld() const;

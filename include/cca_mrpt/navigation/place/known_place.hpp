@@ -79,8 +79,6 @@ class KnownPlace {
   /// Whether a target was set aside, and may not be tried again yet.
   bool isAside(Cell target) const { return failed_.isAside(target, grid_.revealed()); }
   /// See FailedTries.
-  double belief(Cell target) const { return failed_.belief(target); }
-  /// See FailedTries.
   int timesHeld() const { return failed_.timesHeld(); }
 
   /// From now on a cell is open where the robot fits in at any point of it, not only at its centre.
