@@ -13,6 +13,15 @@
 
 namespace cca::testing {
 
+/// A scan whose returns are off by noise. @param sigma  m, of their ranges.
+inline Scan noisy(Scan scan, double sigma, std::mt19937& generator) {
+  std::normal_distribution<double> noise(0.0, sigma);
+  for (double& range : scan.ranges) {
+    if (isReturn(range)) range += noise(generator);
+  }
+  return scan;
+}
+
 /// An axis-aligned box, m.
 struct Box {
   Eigen::Vector2d low, high;

@@ -19,11 +19,7 @@ class NoisyLaser {
   explicit NoisyLaser(unsigned seed) : generator_(seed) {}
   /// One update by a scan of a world.
   Scan look(const BoxWorld& world, const Pose2& pose, double sigma = kSigma) {
-    Scan raw = world.scan(pose, 3.0);
-    std::normal_distribution<double> noise(0.0, sigma);
-    for (double& range : raw.ranges) {
-      if (isReturn(range)) range += noise(generator_);
-    }
+    const Scan raw = noisy(world.scan(pose, 3.0), sigma, generator_);
     const std::vector<bool> moving(raw.size(), false);
     return surfaces_.update(raw, smoothScan(raw, sigma), moving, sigma);
   }

@@ -10,15 +10,6 @@
 namespace cca::testing {
 namespace {
 
-Scan noisy(Scan scan, double sigma, unsigned seed) {
-  std::mt19937 generator(seed);
-  std::normal_distribution<double> noise(0.0, sigma);
-  for (double& range : scan.ranges) {
-    if (isReturn(range)) range += noise(generator);
-  }
-  return scan;
-}
-
 TEST(ScanSmoothing, LeavesAPreciseScanAsItIs) {
   BoxWorld world;
   world.addFrame(4, 4);
@@ -33,7 +24,8 @@ TEST(ScanSmoothing, QuietensAnInclinedWallNearbyWithoutMovingIt) {
   double before = 0.0, after = 0.0, bias = 0.0;
   int count = 0;
   for (unsigned seed = 0; seed < 20; ++seed) {
-    const Scan raw = noisy(truth, 0.05, seed), smooth = smoothScan(raw, 0.05);
+    std::mt19937 random(seed);
+    const Scan raw = noisy(truth, 0.05, random), smooth = smoothScan(raw, 0.05);
     for (std::size_t i = 0; i < truth.size(); ++i) {
       if (!isReturn(truth.ranges[i]) || truth.ranges[i] > 0.6) continue;
       before += std::pow(raw.ranges[i] - truth.ranges[i], 2);
@@ -53,7 +45,8 @@ TEST(ScanSmoothing, DoesNotAverageAThinPoleAway) {
   world.addFrame(6, 6);
   world.add(2.0, 0.98, 2.03, 1.02);
   const Scan truth = world.scan({1, 1, 0}, 8.0);
-  const Scan smooth = smoothScan(noisy(truth, 0.02, 3), 0.02);
+  std::mt19937 random(3);
+  const Scan smooth = smoothScan(noisy(truth, 0.02, random), 0.02);
   EXPECT_NEAR(smooth.ranges[180], truth.ranges[180], 0.08);
 }
 
@@ -64,7 +57,8 @@ TEST(ScanSmoothing, DoesNotPushAnEdgeBackTowardsWhatLiesJustBehindIt) {
   const Scan truth = world.scan({-0.02, 0, 0}, 3.0);
   double bias = 0.0;
   for (unsigned seed = 0; seed < 50; ++seed) {
-    const Scan smooth = smoothScan(noisy(truth, 0.03, seed), 0.03);
+    std::mt19937 random(seed);
+    const Scan smooth = smoothScan(noisy(truth, 0.03, random), 0.03);
     bias += smooth.ranges[267] - truth.ranges[267];  // the last beams on the nearer wall
   }
   ASSERT_LT(truth.ranges[267], 0.31);
