@@ -27,7 +27,7 @@ GlobalPlannerParameters plannerParameters(const RobotParameters& robot,
   GlobalPlannerParameters planner;
   planner.strategy = parameters.strategy;
   planner.smallest_gain = parameters.smallest_gain;
-  planner.tour.worth = parameters.worth;
+  planner.worth = parameters.worth;
   planner.clearance = robot.leastClearance();
   return planner;
 }

@@ -92,15 +92,19 @@ TEST(NarrowPassages, AreDrivenThroughWithoutHesitation) {
   }
 }
 
-// Much of these can only be looked into, from a few places.
+// Much of these can only be looked into, from a few places; which, the noise decides.
 TEST(CrowdedPlaces, AreLookedIntoFromWhereverTheRobotCanGo) {
-  for (const std::uint64_t seed : {3, 5, 15}) {
+  constexpr int kWorlds = 15;
+  double sum = 0.0;
+  for (std::uint64_t seed = 1; seed <= kWorlds; ++seed) {
     const World world = rasterise(generateFloorPlan("crowded", seed), 0.05);
     const Result result = explore(world, *world.start, 1, 600.0);
     EXPECT_TRUE(result.finished) << seed;
-    EXPECT_GE(result.coverage, 0.985) << seed;
     EXPECT_EQ(result.collisions, 0) << seed;
+    EXPECT_GE(result.coverage, 0.93) << seed;
+    sum += result.coverage;
   }
+  EXPECT_GE(sum / kWorlds, 0.99);
 }
 
 // What was not worth its way may seem to be, once the ways between what is left are known better: a

@@ -93,14 +93,14 @@ TEST(GlobalPlanner, DrivesIntoALargeUnknownPlaceInsteadOfPeeking) {
   EXPECT_NEAR((plan.path.back() - robot).norm(), 4.0, 0.5);
 }
 
-// The window is too narrow to pass. From before it one sees to x = 6.4 m, from the start to 5.7 m.
+// The window is too narrow to pass. From before it one sees to x = 5.2 m, from the start to 4.7 m.
 TEST(GlobalPlanner, LooksAtLastAsFarAsItCanWhereItCannotGo) {
   const KnownWorld window{{"##################", "#....#...........#", "#................#",
                            "#....#...........#", "##################"},
-                          11};
+                          9};
   GlobalPlanner planner;
-  EXPECT_TRUE(drive(planner, window, {1.7, 1.375}).last.isFinished());
-  EXPECT_EQ(planner.place().grid().at(planner.place().grid().cellOf({6.3, 1.376})),
+  EXPECT_TRUE(drive(planner, window, {1.4, 1.125}).last.isFinished());
+  EXPECT_EQ(planner.place().grid().at(planner.place().grid().cellOf({5.15, 1.126})),
             CellState::kFree);
   EXPECT_GT(planner.plan().unreached, 0.5);
 }

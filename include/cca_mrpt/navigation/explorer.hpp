@@ -65,7 +65,7 @@ inline constexpr std::pair<const char*, PathKind> kPathNames[] = {
 struct ExplorerParameters {
   Strategy strategy = Strategy::kViewTour;
   PathKind path = PathKind::kKnownSpace;
-  double worth = ViewTourParameters{}.worth;
+  double worth = GlobalPlannerParameters{}.worth;
   double smallest_gain = 0.1;
   bool return_to_start = false;
 };

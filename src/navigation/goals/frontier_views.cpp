@@ -31,6 +31,8 @@ bool isInside(const std::vector<Eigen::Vector2d>& polygon, const Eigen::Vector2d
   return inside;
 }
 
+bool isRest(const Frontier& frontier) { return frontier.cells.size() < kRest; }
+
 }  // namespace
 
 double FrontierViews::reach(const KnownPlace& place) const {
@@ -44,34 +46,25 @@ bool FrontierViews::isWithinLimits(const KnownPlace& place, Cell c) const {
 void FrontierViews::find(const KnownPlace& place, Cell here) {
   view_points_.clear();
   entries_.clear();
-  std::vector<ViewPoint> rests;
-  for (const Frontier& frontier : nearestFrontiers(place, here)) {
-    if (view_points_.size() + rests.size() >= kMostViewPoints) break;
+  const std::vector<Frontier> frontiers = nearestFrontiers(place, here);
+  for (const Frontier& frontier : frontiers) {
+    if (isRest(frontier) || view_points_.size() >= kMostViewPoints) continue;
     const auto view_point = viewOf(place, frontier);
     if (!view_point) continue;
-    if (frontier.cells.size() < kRest) {
-      rests.push_back(*view_point);
-      continue;
-    }
     view_points_.push_back(*view_point);
     if (const auto entry = entryAt(place, frontier.middle)) {
       entries_.push_back(
           {*entry, view_point->target, place.ways().distanceTo(*entry), view_point->gain});
     }
   }
-  only_rests_ = view_points_.empty();
-  for (const ViewPoint& rest : rests) {
-    if (only_rests_ || rest.distance < kInPassing) view_points_.push_back(rest);
+  if (view_points_.empty()) return;
+  const double farthest = (kInPassing + reach(place) + kBehindFrontier) / place.grid().resolution();
+  for (const Frontier& frontier : frontiers) {
+    const bool is_near = distanceBetween(frontier.middle, here) < farthest;
+    if (!isRest(frontier) || !is_near || view_points_.size() >= kMostViewPoints) continue;
+    const auto view_point = viewOf(place, frontier);
+    if (view_point && view_point->distance < kInPassing) view_points_.push_back(*view_point);
   }
-  for (ViewPoint& view : view_points_) expect(place, view);
-}
-
-// What lies around the target of a rest is mostly the inside of what hides it; and who looks at one
-// sees what the smallest frontiers hide as well.
-void FrontierViews::expect(const KnownPlace& place, ViewPoint& view) const {
-  if (!only_rests_) return;
-  view.expected =
-      viewFrom(place.grid(), view.cell, reach(place), place.frontierCells().all()).expected;
 }
 
 // In the order of the grid's history where all can be looked at, else the nearest first.
@@ -139,7 +132,6 @@ bool FrontierViews::keep(const KnownPlace& place, const ViewPoint& goal) {
     view_point->distance = way;
   }
   view_point->gain = unknownAreaInView(place.grid(), goal.target, kGainRange);
-  expect(place, *view_point);
   double nearest = kMuchTheSame;
   ViewPoint* same = nullptr;
   for (ViewPoint& v : view_points_) {

@@ -25,8 +25,8 @@ GlobalPlanner::GlobalPlanner(const GlobalPlannerParameters& parameters)
       place_(parameters.clearance),
       views_(parameters.smallest_gain, parameters.smallest_frontier),
       view_tour_(parameters.tour),
-      last_look_(parameters.smallest_gain, parameters.smallest_frontier, parameters.tour.worth),
-      unpaid_way_(parameters.tour.worth) {}
+      last_look_(parameters.smallest_gain, parameters.smallest_frontier, parameters.worth),
+      unpaid_way_(parameters.worth) {}
 
 const Plan& GlobalPlanner::update(const Scan& scan, const Eigen::Vector2d& robot_map,
                                   bool is_placed) {
@@ -119,11 +119,13 @@ void GlobalPlanner::decide(const Eigen::Vector2d& robot_map) {
   revealed_then_ = grid().revealed();
   plan_ = {};
   if (!drivesInVain()) {
-    if (const auto chosen = choose()) {
-      is_last_look_ = false;
-      return driveTo(*chosen, robot_map, "to see what is behind a frontier");
-    }
-    if (lookLast(robot_map)) return;
+    do {
+      if (const auto chosen = choose()) {
+        is_last_look_ = false;
+        return driveTo(*chosen, robot_map, "to see what is behind a frontier");
+      }
+      if (lookLast(robot_map)) return;
+    } while (opensMore());
   }
   goal_.reset();
   if (!isScanned(robot_map)) {
@@ -168,20 +170,21 @@ void GlobalPlanner::driveTo(const ViewPoint& chosen, const Eigen::Vector2d& robo
   if (!takeWayTo(chosen.cell, robot_map)) dropGoal(Failure::kNotReached);
 }
 
-// Where nothing else is left, ways that were barred are open again.
 void GlobalPlanner::findViews() {
-  const Cell here = grid().cellOf(decided_at_);
-  const auto present = is_last_look_ ? std::nullopt : goal_;
   place_.findWays(decided_at_);
-  views_.find(place_, here);
-  goal_ = present;
-  if (!isGoalUnseen() || !views_.keep(place_, *goal_)) goal_.reset();
-  if (!views_.viewPoints().empty() || !place_.openAll()) return;
-  place_.findWays(decided_at_);
-  views_.find(place_, here);
+  views_.find(place_, grid().cellOf(decided_at_));
+  if (is_last_look_ || !isGoalUnseen() || !views_.keep(place_, *goal_)) goal_.reset();
 }
 
-// From all places, and again where much was seen since; then through passages that look too narrow.
+// Where nothing else is left, ways that were barred are open again, and then passages that look too
+// narrow.
+bool GlobalPlanner::opensMore() {
+  if (place_.timesHeld() >= kMostTimesHeld) return false;  // it gets nowhere from here
+  revealed_at_last_look_.reset();
+  return place_.openAll() || place_.openNarrowPassages();
+}
+
+// From all places, and again where much was seen since.
 bool GlobalPlanner::lookLast(const Eigen::Vector2d& robot_map) {
   const auto is_open = [&](const ViewPoint& view) {
     return !place_.isAside(view.target) && views_.isWithinLimits(place_, view.cell) &&
@@ -200,14 +203,12 @@ bool GlobalPlanner::lookLast(const Eigen::Vector2d& robot_map) {
       plan_.reason = "to find out what is left to see";
       return true;
     }
-    if (revealed_at_last_look_ && grid().revealed() < *revealed_at_last_look_ + kWorthAnotherLook) {
-      if (!place_.openNarrowPassages()) return false;
-      place_.findWays(decided_at_);
-    }
+    if (revealed_at_last_look_ && grid().revealed() < *revealed_at_last_look_ + kWorthAnotherLook)
+      break;
     revealed_at_last_look_ = grid().revealed();
     last_look_.begin(place_);
   }
-  return false;  // it gets nowhere from here
+  return false;
 }
 
 void GlobalPlanner::lookAround() {
@@ -228,8 +229,7 @@ std::optional<ViewPoint> GlobalPlanner::choose() {
   const auto entry = selectGoal(Strategy::kGainDistance, entries);
   if (entry && discountedGain(entries[*entry]) >= kWorthEntering) return entries[*entry];
   const auto present = goal_ ? std::optional<Cell>(goal_->target) : std::nullopt;
-  const auto stop =
-      view_tour_.choose(grid(), space(), views, views_.reach(place_), present, views_.onlyRests());
+  const auto stop = view_tour_.choose(grid(), space(), views, views_.reach(place_), present);
   return stop ? std::optional<ViewPoint>(views[*stop]) : std::nullopt;
 }
 
@@ -239,7 +239,7 @@ void GlobalPlanner::correct(const PastScans& past) {
   if (goal_) goal_->target = moved(goal_->target);
   view_tour_ = ViewTour(parameters_.tour);
   last_look_ =
-      LastLook(parameters_.smallest_gain, parameters_.smallest_frontier, parameters_.tour.worth);
+      LastLook(parameters_.smallest_gain, parameters_.smallest_frontier, parameters_.worth);
   revealed_at_last_look_.reset();
   is_corrected_ = true;
 }

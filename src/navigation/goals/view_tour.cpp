@@ -14,11 +14,6 @@ constexpr double kHorizon = 40.0;         // m, beyond which ways between stops 
 constexpr std::uint32_t kFieldLife = 30;  // choices: known space grows, so ways get shorter
 constexpr std::size_t kMostFields = 32;
 
-const Tour& cheapest(const std::vector<Tour>& tours) {
-  return *std::min_element(tours.begin(), tours.end(),
-                           [](const Tour& a, const Tour& b) { return a.cost < b.cost; });
-}
-
 /// Per view point, the view points whose targets it sees; its own always.
 std::vector<std::vector<std::size_t>> visibility(const ExplorationGrid& grid,
                                                  const std::vector<ViewPoint>& view_points,
@@ -37,88 +32,59 @@ std::vector<std::vector<std::size_t>> visibility(const ExplorationGrid& grid,
 
 }  // namespace
 
-std::vector<Tour> findTours(const Eigen::MatrixXd& distance, const TourObjective& objective) {
-  const auto n = static_cast<std::size_t>(distance.rows()) - 1;
+std::vector<double> tourCosts(const Eigen::MatrixXd& distance, const std::vector<double>& urgency) {
+  const std::size_t n = urgency.size();
   const auto bit = [](std::size_t stop) { return std::size_t{1} << stop; };
   const auto row = [](std::size_t stop) { return static_cast<Eigen::Index>(stop) + 1; };
   const std::size_t all = bit(n) - 1;
-  // Of a way driven now, the cost of a metre; of a tour that ends now, what is left out; and what
-  // is still to come at the least: by the stops that were visited, and the last of them.
-  std::vector<double> pace(all + 1, 1.0), left_out(all + 1, 0.0), to_come(n << n);
-  const auto next = [&](std::size_t visited, std::size_t last, double& cost) {
-    std::size_t best = n;  // it ends here
-    cost = left_out[visited];
-    for (std::size_t k = 0; k < n; ++k) {
-      if (visited & bit(k)) continue;
-      const double through =
-          pace[visited] * distance(row(last), row(k)) + to_come[(visited | bit(k)) * n + k];
-      if (through >= cost) continue;
-      cost = through;
-      best = k;
-    }
-    return best;
-  };
+  // What is still to come at the least, by the stops that were visited and the last of them.
+  std::vector<double> to_come(n << n);
+  std::vector<double> costs(n);
   for (std::size_t visited = all + 1; visited-- > 0;) {
-    for (std::size_t k = 0; k < n; ++k) {
-      if (visited & bit(k)) continue;
-      pace[visited] += objective.hurry * objective.weights[k];
-      left_out[visited] += objective.worth[k];
+    double pace = 1.0;  // the cost of a metre driven now
+    for (std::size_t k = 0; k < n; ++k) pace += visited & bit(k) ? 0.0 : urgency[k];
+    const auto through = [&](Eigen::Index from, std::size_t next) {
+      return pace * distance(from, row(next)) + to_come[(visited | bit(next)) * n + next];
+    };
+    for (std::size_t last = 0; visited != all && last < n; ++last) {
+      if (!(visited & bit(last))) continue;
+      double least = std::numeric_limits<double>::infinity();
+      for (std::size_t k = 0; k < n; ++k) {
+        if (!(visited & bit(k))) least = std::min(least, through(row(last), k));
+      }
+      to_come[visited * n + last] = least;
     }
-    for (std::size_t last = 0; last < n; ++last) {
-      if (visited & bit(last)) next(visited, last, to_come[visited * n + last]);
-    }
+    for (std::size_t first = 0; visited == 0 && first < n; ++first)
+      costs[first] = through(0, first);
   }
-  std::vector<Tour> tours(n);
-  for (std::size_t first = 0; first < n; ++first) {
-    std::size_t visited = 0;
-    double cost = pace[0] * distance(0, row(first)) + to_come[bit(first) * n + first];
-    tours[first].cost = cost;
-    for (std::size_t stop = first; stop < n; stop = next(visited, stop, cost)) {
-      tours[first].stops.push_back(stop);
-      visited |= bit(stop);
-    }
-  }
-  return tours;
+  return costs;
 }
 
 std::optional<std::size_t> ViewTour::choose(const ExplorationGrid& grid, const FreeSpace& space,
                                             const std::vector<ViewPoint>& view_points, double reach,
-                                            std::optional<Cell> present, bool only_rests) {
+                                            std::optional<Cell> present) {
   if (view_points.empty()) return {};
   ++choices_;
-  const std::vector<Stop> stops = cover(grid, view_points, reach, present, only_rests);
-  const Eigen::MatrixXd distance = distances(grid, space, view_points, stops);
-  TourObjective objective;
-  double sum = 0.0, worth_of_all = 0.0;
+  const std::vector<Stop> stops = cover(grid, view_points, reach, present);
+  double sum = 0.0;
   for (const Stop& stop : stops) sum += stop.gain;
+  std::vector<double> urgency;
   for (const Stop& stop : stops) {
-    objective.weights.push_back(sum > 0.0 ? stop.gain / sum : 0.0);
-    objective.worth.push_back(parameters_.worth * stop.promise);
-    worth_of_all += objective.worth.back();
+    urgency.push_back(sum > 0.0 ? parameters_.hurry * stop.gain / sum : 0.0);
   }
-  std::vector<Tour> tours = findTours(distance, objective);
-  Tour best = cheapest(tours);
-  if (best.cost >= worth_of_all) return {};
-  if (!only_rests) {
-    // What is worth its way is decided; now in which order.
-    objective.hurry = parameters_.hurry;
-    for (std::size_t k = 0; k < stops.size(); ++k) {
-      const bool is_driven = std::count(best.stops.begin(), best.stops.end(), k) > 0;
-      objective.worth[k] = is_driven ? std::numeric_limits<double>::infinity() : 0.0;
-      if (!is_driven) objective.weights[k] = 0.0;
-    }
-    tours = findTours(distance, objective);
-    best = cheapest(tours);
+  const auto costs = tourCosts(distances(grid, space, view_points, stops), urgency);
+  auto best =
+      static_cast<std::size_t>(std::min_element(costs.begin(), costs.end()) - costs.begin());
+  const double kept_below = costs[best] + kStay;
+  for (std::size_t k = 0; k < stops.size(); ++k) {
+    if (stops[k].sees_present && costs[k] < kept_below) best = k;
   }
-  for (const std::size_t k : best.stops) {
-    if (stops[k].sees_present && tours[k].cost < best.cost + kStay) return stops[k].view_point;
-  }
-  return stops[best.stops.front()].view_point;
+  return stops[best].view_point;
 }
 
 std::vector<ViewTour::Stop> ViewTour::cover(const ExplorationGrid& grid,
                                             const std::vector<ViewPoint>& view_points, double reach,
-                                            std::optional<Cell> present, bool only_rests) const {
+                                            std::optional<Cell> present) const {
   const auto sees = visibility(grid, view_points, reach);
   std::vector<bool> is_covered(view_points.size(), false);
   std::vector<Stop> stops;
@@ -134,14 +100,13 @@ std::vector<ViewTour::Stop> ViewTour::cover(const ExplorationGrid& grid,
       best = a;
     }
     if (most == 0) break;
-    Stop stop{best, 0.0, 0.0, false};
+    Stop stop{best, 0.0, false};
     for (const std::size_t b : sees[best]) {
       if (is_covered[b]) continue;
       is_covered[b] = true;
       stop.gain += view_points[b].gain;
       if (present && view_points[b].target == *present) stop.sees_present = true;
     }
-    stop.promise = only_rests ? view_points[best].expected : stop.gain;
     stops.push_back(stop);
   }
   return stops;

@@ -15,7 +15,7 @@ namespace cca {
 /// The places to look at the frontiers from: what a goal is chosen among.
 ///
 /// A view point is the place of the shortest way that sees a point up to two metres behind a
-/// frontier. Small frontiers are rests: they wait until nothing larger is left, or one comes by.
+/// frontier. Small frontiers are rests: they are looked at in passing, or by LastLook.
 class FrontierViews {
  public:
   /// @param smallest_gain      m^2, frontiers that promise less are left.
@@ -45,22 +45,18 @@ class FrontierViews {
   const std::vector<ViewPoint>& viewPoints() const { return view_points_; }
   /// Places at the frontiers themselves, those of rests left out: to drive in there.
   const std::vector<ViewPoint>& entries() const { return entries_; }
-  /// Whether all view points are rests.
-  bool onlyRests() const { return only_rests_; }
   /// m, from how far off a target counts as seen.
   double reach(const KnownPlace& place) const;
 
  private:
   std::vector<Frontier> nearestFrontiers(const KnownPlace& place, Cell here) const;
   std::optional<ViewPoint> viewOf(const KnownPlace& place, const Frontier& frontier) const;
-  void expect(const KnownPlace& place, ViewPoint& view) const;
   std::optional<Cell> entryAt(const KnownPlace& place, Cell middle) const;
 
   double smallest_gain_;
   std::size_t smallest_frontier_;
   std::vector<Eigen::Vector2d> limits_;
   std::vector<ViewPoint> view_points_, entries_;
-  bool only_rests_ = false;
 };
 
 }  // namespace cca

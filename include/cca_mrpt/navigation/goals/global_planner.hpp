@@ -19,6 +19,7 @@ struct GlobalPlannerParameters {
   double clearance = 0.30;            ///< m, kept from known obstacles
   double smallest_gain = 0.1;         ///< m^2, frontiers that promise less are left
   std::size_t smallest_frontier = 5;  ///< cells, likewise
+  double worth = 60.0;                ///< m of way that an unseen square metre is worth
   ViewTourParameters tour;
 };
 
@@ -52,7 +53,7 @@ struct Plan {
 ///
 /// A goal is a place to look from (FrontierViews), by `view_tour` also the middle of a frontier
 /// that promises much. It is given up as soon as what it is to show has been seen, or the way is
-/// blocked. When no frontier is left, all reached places are asked (LastLook), and then passages
+/// blocked. When no large one is left, all reached places are asked (LastLook), and then passages
 /// that look just too narrow are tried.
 class GlobalPlanner {
  public:
@@ -116,6 +117,7 @@ class GlobalPlanner {
   std::optional<ViewPoint> choose();
   void lookAround();
   bool lookLast(const Eigen::Vector2d& robot_map);
+  bool opensMore();
   void dropGoal(Failure failure, std::optional<Cell> held_at = {});
   std::optional<Cell> heldAt() const;
   bool drivesInVain() const;

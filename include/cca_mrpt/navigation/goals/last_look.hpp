@@ -13,13 +13,14 @@
 
 namespace cca {
 
-/// What is left to see when there is no frontier left to go to: all places that the robot can
+/// What is left to see when there is no large frontier left to go to: all places that the robot can
 /// reach, one or two in each block of the free space (0.2 m) that has a frontier in view, are asked
 /// what is unknown in view from there.
 ///
-/// A frontier asks the other way round, from where a point behind it is seen; but through a gap
-/// that the robot does not fit through, each place sees another wedge of what lies behind. It is
-/// done a bounded number of looks at a time, while the robot stands.
+/// A large frontier asks the other way round, from where a point behind it is seen; but one place
+/// may see what many small ones hide, and through a gap that the robot does not fit through each
+/// place sees another wedge of what lies behind. It is done a bounded number of looks at a time,
+/// while the robot stands.
 class LastLook {
  public:
   /// What a view point must fulfil beyond its gain.

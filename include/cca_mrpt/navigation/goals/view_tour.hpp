@@ -11,34 +11,21 @@
 
 namespace cca {
 
-/// What a tour costs: length + hurry * sum_k weight_k * arrival_k + the worth of the stops that it
-/// leaves out, where arrival_k is the way to stop k along the tour, or all of it where k is left
-/// out. Where all must be visited, hurry = 0 is the open travelling salesman, hurry -> inf the
-/// travelling repairman, who serves the heaviest stops early.
-struct TourObjective {
-  double hurry = 0.0;
-  std::vector<double> weights;  ///< of the stops
-  std::vector<double> worth;    ///< m, of each stop; +inf: it must be visited
-};
-
-struct Tour {
-  std::vector<std::size_t> stops;  ///< in order, none twice
-  double cost = 0.0;
-};
-
-/// The best open tours from a start, exactly, one for each stop that it may begin with [Held & Karp
-/// 1962].
+/// The best open tours from a start through all stops, exactly, one for each stop that it may begin
+/// with [Held & Karp 1962].
 ///
-/// @param distance  (n + 1) x (n + 1), metres, finite; row and column 0 are the start, k + 1 is
-///                  stop k.
-/// @return          by first stop. To stay costs the worth of all stops. Cost: O(2^n n^2).
-std::vector<Tour> findTours(const Eigen::MatrixXd& distance, const TourObjective& objective);
+/// A tour costs length + sum_k urgency_k * arrival_k, where arrival_k is the way to stop k along
+/// it: without urgency it is the travelling salesman's, with much of it the travelling repairman's,
+/// who serves the most urgent stops early.
+/// @param distance  (n + 1) x (n + 1), metres; row and column 0 are the start, k + 1 is stop k.
+/// @param urgency   of the n stops, >= 0.
+/// @return  what each costs, by its first stop. Cost: O(2^n n^2).
+std::vector<double> tourCosts(const Eigen::MatrixXd& distance, const std::vector<double>& urgency);
 
 struct ViewTourParameters {
   /// Weight of the gain-weighted mean arrival against the length of the tour. Measured on the
   /// worlds: 0 (shortest tour) is late at 90 % coverage, 30 leaves too many rests behind.
   double hurry = 10.0;
-  double worth = 60.0;        ///< m of way that an unseen square metre is worth
   int fields_per_choice = 2;  ///< distance fields computed anew at most, each choice
 };
 
@@ -46,8 +33,7 @@ struct ViewTourParameters {
 /// the first stop of a tour that sees everything soon.
 ///
 /// 1. Few view points that see all frontiers between them are kept (greedy set cover).
-/// 2. The best open tour through those that are worth their way is found, see TourObjective; then,
-///    where there is something to hurry for, the best order of its stops; weights are gains.
+/// 2. The best open tour through them is found, the more urgent a stop the more it shows.
 /// 3. The tour that begins with the present goal is kept unless another is clearly cheaper.
 class ViewTour {
  public:
@@ -56,12 +42,11 @@ class ViewTour {
   /// @param view_points  with distances from the robot and gains.
   /// @param reach        m, how far the robot sees.
   /// @param present      target of the present goal, if it still stands.
-  /// @param only_rests   nothing large is left to hurry for: the shortest tour is taken.
-  /// @return             index of the view point to go to; empty where none is worth its way.
+  /// @return             index of the view point to go to; empty where there is none.
   /// Cost: O(n^2 reach) lines of sight for n view points, and a few distance fields.
   std::optional<std::size_t> choose(const ExplorationGrid& grid, const FreeSpace& space,
                                     const std::vector<ViewPoint>& view_points, double reach,
-                                    std::optional<Cell> present, bool only_rests);
+                                    std::optional<Cell> present);
 
   /// Finds ways from one of the stops that the last choice had too little time for: the next choice
   /// need not estimate them. For the steps between two choices. Cost: one distance field.
@@ -70,8 +55,7 @@ class ViewTour {
  private:
   struct Stop {
     std::size_t view_point;
-    double gain;     ///< m^2, around what it is there to see
-    double promise;  ///< m^2, expected to be seen from it
+    double gain;  ///< m^2, around what it is there to see
     bool sees_present;
   };
   struct CachedField {
@@ -82,7 +66,7 @@ class ViewTour {
   };
 
   std::vector<Stop> cover(const ExplorationGrid& grid, const std::vector<ViewPoint>& view_points,
-                          double reach, std::optional<Cell> present, bool only_rests) const;
+                          double reach, std::optional<Cell> present) const;
   Eigen::MatrixXd distances(const ExplorationGrid& grid, const FreeSpace& space,
                             const std::vector<ViewPoint>& view_points,
                             const std::vector<Stop>& stops);
