@@ -105,6 +105,19 @@ TEST(GlobalPlanner, LooksAtLastAsFarAsItCanWhereItCannotGo) {
   EXPECT_GT(planner.plan().unreached, 0.5);
 }
 
+// It would take some calls to ask all places again.
+TEST(GlobalPlanner, OnceFinishedStaysFinished) {
+  const std::string wall = "#....#....................#", window = "#.........................#";
+  const KnownWorld rooms{{std::string(27, '#'), wall, wall, wall, wall, window, wall, wall, wall,
+                          wall, std::string(27, '#')},
+                         9};
+  GlobalPlanner planner;
+  EXPECT_TRUE(drive(planner, rooms, {1.4, 2.5}).last.isFinished());
+  const Eigen::Vector2d robot = *planner.place().lastPlace();
+  const Scan scan = rooms.scanFrom({robot.x(), robot.y(), 0.0}, 4.0);
+  for (int k = 0; k < 3; ++k) EXPECT_TRUE(planner.update(scan, robot).isFinished()) << k;
+}
+
 // Whatever holds it: it drives to and fro, and does not get to where it wants to.
 TEST(GlobalPlanner, EndsWhereDrivingShowsNothingNewForLong) {
   const KnownWorld hall{std::vector<std::string>(40, std::string(40, '.')), 10};

@@ -180,8 +180,9 @@ void GlobalPlanner::findViews() {
 // narrow.
 bool GlobalPlanner::opensMore() {
   if (place_.timesHeld() >= kMostTimesHeld) return false;  // it gets nowhere from here
+  if (!place_.openAll() && !place_.openNarrowPassages()) return false;
   revealed_at_last_look_.reset();
-  return place_.openAll() || place_.openNarrowPassages();
+  return true;
 }
 
 // From all places, and again where much was seen since.

@@ -37,26 +37,27 @@ std::vector<double> tourCosts(const Eigen::MatrixXd& distance, const std::vector
   const auto bit = [](std::size_t stop) { return std::size_t{1} << stop; };
   const auto row = [](std::size_t stop) { return static_cast<Eigen::Index>(stop) + 1; };
   const std::size_t all = bit(n) - 1;
-  // What is still to come at the least, by the stops that were visited and the last of them.
-  std::vector<double> to_come(n << n);
-  std::vector<double> costs(n);
-  for (std::size_t visited = all + 1; visited-- > 0;) {
-    double pace = 1.0;  // the cost of a metre driven now
-    for (std::size_t k = 0; k < n; ++k) pace += visited & bit(k) ? 0.0 : urgency[k];
-    const auto through = [&](Eigen::Index from, std::size_t next) {
-      return pace * distance(from, row(next)) + to_come[(visited | bit(next)) * n + next];
-    };
-    for (std::size_t last = 0; visited != all && last < n; ++last) {
+  // The cost of a metre driven now, by the stops that were visited; and what is still to come at
+  // the least, by these and the last of them.
+  std::vector<double> pace(all + 1, 1.0), to_come(n << n);
+  const auto through = [&](std::size_t visited, Eigen::Index from, std::size_t next) {
+    return pace[visited] * distance(from, row(next)) + to_come[(visited | bit(next)) * n + next];
+  };
+  for (std::size_t visited = 0; visited < all; ++visited) {
+    for (std::size_t k = 0; k < n; ++k) pace[visited] += visited & bit(k) ? 0.0 : urgency[k];
+  }
+  for (std::size_t visited = all; visited-- > 1;) {
+    for (std::size_t last = 0; last < n; ++last) {
       if (!(visited & bit(last))) continue;
       double least = std::numeric_limits<double>::infinity();
       for (std::size_t k = 0; k < n; ++k) {
-        if (!(visited & bit(k))) least = std::min(least, through(row(last), k));
+        if (!(visited & bit(k))) least = std::min(least, through(visited, row(last), k));
       }
       to_come[visited * n + last] = least;
     }
-    for (std::size_t first = 0; visited == 0 && first < n; ++first)
-      costs[first] = through(0, first);
   }
+  std::vector<double> costs;
+  for (std::size_t first = 0; first < n; ++first) costs.push_back(through(0, 0, first));
   return costs;
 }
 
