@@ -50,8 +50,8 @@ cca::GlobalPlanner halfway() {
   for (int y = 0; y < kSide; ++y) {
     for (int x = 0; x < kSide / 2; ++x) (isWall({x, y}) ? occupied : free).push_back({x, y});
   }
-  planner.place().seed(free, cca::CellState::kFree);
   planner.place().seed(occupied, cca::CellState::kOccupied);
+  planner.place().seed(free, cca::CellState::kFree);
   return planner;
 }
 

@@ -10,6 +10,8 @@
 namespace cca {
 namespace {
 
+constexpr double kHalfDiagonal = 0.05 * 0.70710678;  // m, of a cell
+
 /// The definition, cell by cell: distance from the centre to the nearest point of any obstacle.
 bool isTraversableByDefinition(const ExplorationGrid& grid, Cell c, double clearance) {
   if (grid.at(c) != CellState::kFree) return false;
@@ -25,11 +27,12 @@ bool isTraversableByDefinition(const ExplorationGrid& grid, Cell c, double clear
   return true;
 }
 
-void expectEqualsDefinition(const FreeSpace& space, const ExplorationGrid& grid, int side) {
+void expectEqualsDefinition(const FreeSpace& space, const ExplorationGrid& grid, int side,
+                            double clearance) {
   for (int y = -2; y < side + 2; ++y) {
     for (int x = -2; x < side + 2; ++x) {
       const Cell c{x, y};
-      const bool expected = isTraversableByDefinition(grid, c, space.clearance());
+      const bool expected = isTraversableByDefinition(grid, c, clearance);
       ASSERT_EQ(space.isTraversable(c), expected) << x << ", " << y;
       const unsigned bits = space.traversableCells(FreeSpace::blockOf(c));
       ASSERT_EQ((bits & FreeSpace::bitOf(c)) != 0, expected) << x << ", " << y;
@@ -41,16 +44,15 @@ TEST(FreeSpace, KeepsTheClearanceFromEveryOccupiedCell) {
   const ExplorationGrid grid = randomWorld(1, 60, 0.01).seen();
   FreeSpace space(0.30, grid.resolution());
   space.update(grid, grid.changed());
-  expectEqualsDefinition(space, grid, 60);
+  expectEqualsDefinition(space, grid, 60, 0.30);
 }
 
-TEST(FreeSpace, WithLessClearanceIsAsIfItHadNeverHadMore) {
+TEST(FreeSpace, WithNarrowPassagesTheClearanceIsKeptAtAnyPointOfACell) {
   const ExplorationGrid grid = randomWorld(1, 60, 0.01).seen();
   FreeSpace space(0.30, grid.resolution());
   space.update(grid, grid.changed());
-  space.reduceClearance(0.23, grid.lowest(), grid.highest());
-  EXPECT_EQ(space.clearance(), 0.23);
-  expectEqualsDefinition(space, grid, 60);
+  space.openNarrowPassages(grid.lowest(), grid.highest());
+  expectEqualsDefinition(space, grid, 60, 0.30 - kHalfDiagonal);
   // Also for what changes later.
   ExplorationGrid changed = grid;
   std::vector<Cell> cells;
@@ -59,7 +61,25 @@ TEST(FreeSpace, WithLessClearanceIsAsIfItHadNeverHadMore) {
     changed.set({k, 30}, k % 2 ? CellState::kOccupied : CellState::kFree);
   }
   space.update(changed, cells);
-  expectEqualsDefinition(space, changed, 60);
+  expectEqualsDefinition(space, changed, 60, 0.30 - kHalfDiagonal);
+}
+
+TEST(FreeSpace, AnOpenCellShutsWhereTheClearanceIsKeptAtNoPointOfIt) {
+  ExplorationGrid grid;
+  FreeSpace space(0.25, grid.resolution());
+  const auto set = [&](Cell c, CellState state) {
+    grid.set(c, state);
+    space.update(grid, {c});
+  };
+  set({0, 0}, CellState::kFree);
+  set({5, 0}, CellState::kOccupied);  // .225 m from the centre
+  EXPECT_TRUE(space.isTraversable({0, 0}));
+  set({4, 0}, CellState::kOccupied);  // .175 m
+  EXPECT_FALSE(space.isTraversable({0, 0}));
+  set({4, 0}, CellState::kFree);
+  EXPECT_FALSE(space.isTraversable({0, 0})) << "it opens where the clearance is kept";
+  set({5, 0}, CellState::kFree);
+  EXPECT_TRUE(space.isTraversable({0, 0}));
 }
 
 // A robot of two metres in a saved map of filled walls: more obstacles within reach than 12 bits
@@ -81,21 +101,25 @@ TEST(FreeSpace, CountsThousandsOfObstaclesWithinItsClearance) {
   for (const Cell c : all) ASSERT_TRUE(space.isTraversable(c)) << c.x << ", " << c.y;
 }
 
-TEST(FreeSpace, StaysEqualToItsDefinitionWhileCellsChangeBackAndForth) {
+TEST(FreeSpace, StaysBetweenItsBoundsWhileCellsChangeBackAndForth) {
   ExplorationGrid grid = randomWorld(2, 40, 0.01).seen();
   FreeSpace space(0.25, grid.resolution());
   space.update(grid, grid.changed());
   std::mt19937 random(3);
   constexpr CellState kStates[] = {CellState::kUnknown, CellState::kFree, CellState::kOccupied};
-  std::vector<Cell> changed;
   for (int i = 0; i < 400; ++i) {
-    const Cell c{static_cast<int>(random() % 40), static_cast<int>(random() % 40)};
-    grid.set(c, kStates[random() % 3]);
-    changed.push_back(c);
-    if (i % 50 != 49) continue;
-    space.update(grid, changed);
-    changed.clear();
-    expectEqualsDefinition(space, grid, 40);
+    const Cell changed{static_cast<int>(random() % 40), static_cast<int>(random() % 40)};
+    std::vector<bool> was_open;
+    for (int k = 0; k < 1600; ++k) was_open.push_back(space.isTraversable({k % 40, k / 40}));
+    grid.set(changed, kStates[random() % 3]);
+    space.update(grid, {changed});
+    for (int k = 0; k < 1600; ++k) {
+      const Cell c{k % 40, k / 40};
+      const bool keeps = isTraversableByDefinition(grid, c, 0.25);
+      const bool keeps_somewhere = isTraversableByDefinition(grid, c, 0.25 - kHalfDiagonal);
+      const auto was = was_open[static_cast<std::size_t>(k)];
+      ASSERT_EQ(space.isTraversable(c), keeps || (keeps_somewhere && was)) << c.x << ", " << c.y;
+    }
   }
 }
 

@@ -235,8 +235,8 @@ TEST(GlobalPlanner, WaysLeadAroundThePlaceWhereItGotStuckWhileThereIsAnother) {
   std::vector<Cell> known = kTwoWays.freeCells();
   const auto is_in_the_corner = [](Cell c) { return c.x > 140 && c.y < 24; };
   known.erase(std::remove_if(known.begin(), known.end(), is_in_the_corner), known.end());
-  planner.place().seed(known, CellState::kFree);
   planner.place().seed(kTwoWays.walls(), CellState::kOccupied);
+  planner.place().seed(known, CellState::kFree);
   const auto highest = [&] {
     double y = 0.0;
     for (const Eigen::Vector2d& corner : planner.plan().path) y = std::max(y, corner.y());
@@ -255,8 +255,8 @@ TEST(GlobalPlanner, WaysLeadAroundThePlaceWhereItGotStuckWhileThereIsAnother) {
 
 TEST(GlobalPlanner, AWayHomeLeadsAlongABarredPlaceWhereThereIsNoOther) {
   GlobalPlanner planner;
-  planner.place().seed(kTwoWays.freeCells(), CellState::kFree);
   planner.place().seed(kTwoWays.walls(), CellState::kOccupied);
+  planner.place().seed(kTwoWays.freeCells(), CellState::kFree);
   const Eigen::Vector2d from(1.0, 0.8), to(6.8, 0.8);
   const double lower = pathLength(planner.pathTo(from, to));
   EXPECT_NEAR(lower, 5.8, 0.1);
@@ -308,8 +308,8 @@ TEST(GlobalPlanner, HasNothingToDoInAPlaceKnownFromASavedMap) {
     for (int x = -1; x <= kTwoRooms.width(); ++x)
       (kTwoRooms.isOccupied({x, y}) ? occupied : free).push_back({x, y});
   }
-  planner.place().seed(free, CellState::kFree);
   planner.place().seed(occupied, CellState::kOccupied);
+  planner.place().seed(free, CellState::kFree);
   EXPECT_TRUE(update(planner, kTwoRooms.scanFrom({1.0, 1.0, 0.0}, 4.0), {1.0, 1.0}).isFinished());
 }
 

@@ -104,8 +104,8 @@ TEST(LastLook, ExpectsNothingBehindASmallFrontier) {
     if (c.x < 64) room.push_back(c);
   }
   for (int y = 32; y < 37; ++y) walls.push_back({64, y});  // three cells of the gap are left
-  place.seed(room, CellState::kFree);
   place.seed(walls, CellState::kOccupied);
+  place.seed(room, CellState::kFree);
   place.findWays(kBeforeTheGap);
   for (const std::size_t smallest : {std::size_t{3}, std::size_t{5}}) {
     LastLook last_look(0.1, smallest, kPriceless);
@@ -147,8 +147,8 @@ TEST(LastLook, FindsNothingBeforeItBeginsOrWhereAllIsKnown) {
   EXPECT_FALSE(last_look.next(nowhere, Strategy::kGreedy, Look::takesAll));
   EXPECT_FALSE(last_look.isUnderWay());
   Look look;
-  look.place.seed(kRoomBehindAGap.freeCells(), CellState::kFree);
   look.place.seed(kRoomBehindAGap.walls(), CellState::kOccupied);
+  look.place.seed(kRoomBehindAGap.freeCells(), CellState::kFree);
   EXPECT_FALSE(look.next(Strategy::kGreedy));
 }
 

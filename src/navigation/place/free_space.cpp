@@ -3,86 +3,86 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
-#include <utility>
 
 namespace cca {
 namespace {
 
-/// Offsets of the cells that come nearer to a cell's centre than a distance, in cells.
-std::vector<Cell> cellsWithin(double reach) {
-  const int n = static_cast<int>(std::ceil(reach + 0.5));
-  std::vector<Cell> cells;
-  for (int y = -n; y <= n; ++y) {
-    for (int x = -n; x <= n; ++x) {
-      const double gap_x = std::max(std::abs(x) - 0.5, 0.0),
-                   gap_y = std::max(std::abs(y) - 0.5, 0.0);
-      if (std::hypot(gap_x, gap_y) < reach - 1e-9) cells.push_back({x, y});
-    }
-  }
-  return cells;
+/// Cells, from the centre of the cell at an offset to the nearest point of the one at the origin.
+double distanceTo(Cell offset) {
+  return std::hypot(std::max(std::abs(offset.x) - 0.5, 0.0),
+                    std::max(std::abs(offset.y) - 0.5, 0.0));
 }
 
 }  // namespace
 
-FreeSpace::FreeSpace(double clearance, double resolution)
-    : clearance_(clearance), resolution_(resolution), disc_(cellsWithin(clearance / resolution)) {}
-
-void FreeSpace::reduceClearance(double clearance, Cell low, Cell high) {
-  clearance_ = clearance;
-  std::vector<Cell> disc = cellsWithin(clearance / resolution_), ring;
-  std::copy_if(disc_.begin(), disc_.end(), std::back_inserter(ring),
-               [&](Cell c) { return std::find(disc.begin(), disc.end(), c) == disc.end(); });
-  disc_ = std::move(disc);
-  for (int y = low.y; y <= high.y; ++y) {
-    for (int x = low.x; x <= high.x; ++x) {
-      if (cells_.at({x, y}) & kOccupied) grow({x, y}, ring, false);
+FreeSpace::FreeSpace(double clearance, double resolution) : clearance_(clearance) {
+  const double reach = clearance / resolution - 1e-9, half_diagonal = std::sqrt(0.5);
+  const int n = static_cast<int>(std::ceil(reach + 0.5));
+  for (int y = -n; y <= n; ++y) {
+    for (int x = -n; x <= n; ++x) {
+      const double distance = distanceTo({x, y});
+      if (distance >= reach) continue;
+      disc_.push_back({{x, y}, distance < reach - half_diagonal});
     }
   }
 }
 
-void FreeSpace::update(const ExplorationGrid& grid, const std::vector<Cell>& changed) {
-  for (const Cell c : changed) {
-    const CellState state = grid.at(c);
-    std::uint32_t& cell = cells_[c];
-    const bool was_occupied = cell & kOccupied, is_occupied = state == CellState::kOccupied;
-    cell &= ~(kFree | kOccupied);
-    if (state == CellState::kFree || state == CellState::kPresumedFree) cell |= kFree;
-    if (is_occupied) cell |= kOccupied;
-    if (is_occupied != was_occupied) grow(c, disc_, is_occupied);
-    mark(c);
+void FreeSpace::openNarrowPassages(Cell low, Cell high) {
+  has_narrow_passages_ = true;
+  for (int y = low.y; y <= high.y; ++y) {
+    for (int x = low.x; x <= high.x; ++x) settle({x, y}, cells_[{x, y}]);
   }
 }
 
-void FreeSpace::grow(Cell obstacle, const std::vector<Cell>& disc, bool is_growing) {
-  for (const Cell offset : disc) {
+// Obstacles first: what opens before them would stay open.
+void FreeSpace::update(const ExplorationGrid& grid, const std::vector<Cell>& changed) {
+  for (const bool is_occupied : {true, false}) {
+    for (const Cell c : changed) {
+      if ((grid.at(c) == CellState::kOccupied) != is_occupied) continue;
+      Place& place = cells_[c];
+      const bool was_occupied = place.state == CellState::kOccupied;
+      place.state = grid.at(c);
+      if (is_occupied != was_occupied) grow(c, is_occupied ? 1 : -1);
+      settle(c, place);
+    }
+  }
+}
+
+void FreeSpace::grow(Cell obstacle, int count) {
+  for (const auto& [offset, is_close] : disc_) {
     const Cell c = obstacle + offset;
     if (!isStorable(c)) continue;
-    std::uint32_t& cell = cells_[c];
-    const bool was_traversable = isTraversable(cell);
-    cell = is_growing ? cell + 1 : cell - 1;
-    if (was_traversable != isTraversable(cell)) mark(c);
+    Place& place = cells_[c];
+    place.near = static_cast<std::uint16_t>(place.near + count);
+    if (is_close) place.close = static_cast<std::uint16_t>(place.close + count);
+    settle(c, place);
   }
 }
 
 void FreeSpace::pass(Cell c) {
   if (!isStorable(c)) return;
-  cells_[c] |= kPassed;
-  mark(c);
+  Place& place = cells_[c];
+  place.is_passed = true;
+  settle(c, place);
 }
 
 void FreeSpace::bar(Cell c, bool is_barred) {
   if (!isStorable(c)) return;
-  std::uint32_t& cell = cells_[c];
-  cell = is_barred ? cell | kBarred : cell & ~kBarred;
-  mark(c);
+  Place& place = cells_[c];
+  place.is_barred = is_barred;
+  settle(c, place);
 }
 
-void FreeSpace::mark(Cell c) {
-  std::uint16_t& block = blocks_[blockOf(c)];
-  const bool was_traversable = block & bitOf(c);
-  if (was_traversable == isTraversable(c)) return;
-  block = static_cast<std::uint16_t>(block ^ bitOf(c));
+void FreeSpace::settle(Cell c, Place& place) {
+  const bool is_free = place.state == CellState::kFree || place.state == CellState::kPresumedFree;
+  if (!is_free || place.close > 0) {
+    place.is_open = false;
+  } else if (has_narrow_passages_ || place.near == 0) {
+    place.is_open = true;
+  }
+  const unsigned bits = blocks_.at(blockOf(c)), bit = bitOf(c);
+  if (((bits & bit) != 0) != place.isTraversable())
+    blocks_[blockOf(c)] = static_cast<std::uint16_t>(bits ^ bit);
 }
 
 }  // namespace cca

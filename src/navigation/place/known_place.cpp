@@ -86,7 +86,6 @@ void KnownPlace::notePassage(const Eigen::Vector2d& robot_map) {
 void KnownPlace::seed(const std::vector<Cell>& cells, CellState state) {
   for (const Cell c : cells) grid_.set(c, state);
   takeChanges();
-  seeds_.emplace_back(cells, state);
 }
 
 void KnownPlace::heed(const std::vector<Eigen::Vector2d>& places_map) {
@@ -98,7 +97,6 @@ void KnownPlace::heed(const std::vector<Eigen::Vector2d>& places_map) {
 
 CellMove KnownPlace::correct(const PastScans& past) {
   KnownPlace anew(space_.clearance());
-  for (const auto& [cells, state] : seeds_) anew.seed(cells, state);
   for (const auto& kept : past.kept()) anew.observe(kept.scan, kept.T_map_robot.position());
   const CellMove moved = [&past, grid = ExplorationGrid(grid_.resolution())](Cell c) {
     const Eigen::Vector2d p_was = grid.centreOf(c);
@@ -106,7 +104,7 @@ CellMove KnownPlace::correct(const PastScans& past) {
   };
   anew.failed_ = std::move(failed_);
   anew.failed_.move(moved, anew.grid_.revealed(), anew.space_);
-  anew.has_narrow_passages_ = has_narrow_passages_;
+  if (space_.hasNarrowPassages()) anew.openNarrowPassages();
   *this = std::move(anew);
   return moved;
 }
@@ -117,10 +115,8 @@ void KnownPlace::takeChanges() {
 }
 
 bool KnownPlace::openNarrowPassages() {
-  if (has_narrow_passages_) return false;
-  has_narrow_passages_ = true;
-  const double half_diagonal = std::sqrt(0.5) * grid_.resolution();
-  space_.reduceClearance(space_.clearance() - half_diagonal, grid_.lowest(), grid_.highest());
+  if (space_.hasNarrowPassages()) return false;
+  space_.openNarrowPassages(grid_.lowest(), grid_.highest());
   return true;
 }
 

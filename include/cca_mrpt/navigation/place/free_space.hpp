@@ -13,6 +13,9 @@ namespace cca {
 /// occupied cell, and cells where it has been. The robot's configuration space, since the robot is
 /// round.
 ///
+/// A cell that was open stays so as long as the clearance is kept at any point of it, not only at
+/// its centre: noise of a cell must not open and shut a passage scan by scan.
+///
 /// Unknown cells are not grown: what they hold is for the local planner to see in time.
 class FreeSpace {
  public:
@@ -48,29 +51,40 @@ class FreeSpace {
   /// it has been in stays open.
   void bar(Cell c, bool is_barred);
 
-  /// Asks for less clearance from now on: `clearance`, m, up to the present one. All that is known
-  /// lies in the cells from `low` to `high`. Cost: O(these cells), and the occupied ones times the
-  /// cells of the disc.
-  void reduceClearance(double clearance, Cell low, Cell high);
+  /// From now on a cell opens where the clearance is kept at any point of it. All that is known
+  /// lies in the cells from `low` to `high`. Cost: O(these cells).
+  void openNarrowPassages(Cell low, Cell high);
+  bool hasNarrowPassages() const { return has_narrow_passages_; }
 
-  bool isTraversable(Cell c) const { return isTraversable(cells_.at(c)); }
+  bool isTraversable(Cell c) const { return cells_.at(c).isTraversable(); }
   /// Like isTraversable, for each cell of a block: bit 4 (y mod 4) + (x mod 4).
   unsigned traversableCells(Cell block) const { return blocks_.at(block); }
 
   double clearance() const { return clearance_; }
 
  private:
-  static constexpr std::uint32_t kFree = 0x80000000, kOccupied = 0x40000000, kPassed = 0x20000000,
-                                 kBarred = 0x10000000;
-  static bool isTraversable(std::uint32_t cell) {
-    return cell == kFree || (cell & (kPassed | kOccupied)) == kPassed;
-  }
-  void grow(Cell obstacle, const std::vector<Cell>& disc, bool is_growing);
-  void mark(Cell c);
+  struct Place {
+    std::uint16_t near = 0;   ///< obstacles that come nearer to its centre than the clearance
+    std::uint16_t close = 0;  ///< those of them that do to all of its points
+    CellState state = CellState::kUnknown;
+    bool is_open = false, is_passed = false, is_barred = false;
 
-  double clearance_, resolution_;
-  std::vector<Cell> disc_;
-  TiledGrid<std::uint32_t> cells_;   ///< state bits, and the number of obstacles within clearance
+    bool isTraversable() const {
+      return (is_open && !is_barred) || (is_passed && state != CellState::kOccupied);
+    }
+  };
+  struct Grown {
+    Cell offset;
+    bool is_close;
+  };
+
+  void grow(Cell obstacle, int count);
+  void settle(Cell c, Place& place);
+
+  double clearance_;
+  bool has_narrow_passages_ = false;
+  std::vector<Grown> disc_;  ///< the cells that an obstacle comes near to
+  TiledGrid<Place> cells_;
   TiledGrid<std::uint16_t> blocks_;  ///< traversable cells, a bit each
 };
 

@@ -4,7 +4,6 @@
 #include <Eigen/Core>
 #include <cstdint>
 #include <optional>
-#include <utility>
 #include <vector>
 
 #include "cca_mrpt/navigation/place/cell.hpp"
@@ -53,7 +52,8 @@ class KnownPlace {
   /// @return where cells got to. Cost: that of observing all the scans.
   CellMove correct(const PastScans& past);
 
-  /// Declares cells as known from a saved map.
+  /// Declares cells as known, obstacles before what is free beside them (see FreeSpace), until the
+  /// place is corrected.
   void seed(const std::vector<Cell>& cells, CellState state);
 
   /// Takes places (m, map frame) for occupied, whatever the laser saw there: in its plane it may
@@ -81,8 +81,8 @@ class KnownPlace {
   /// See FailedTries.
   int timesHeld() const { return failed_.timesHeld(); }
 
-  /// From now on a cell is open where the robot fits in at any point of it, not only at its centre.
-  /// @return whether that is new. Cost: O(cells between the corners of what is known), once.
+  /// See FreeSpace. @return whether that is new. Cost: O(cells between the corners of what is
+  /// known), once.
   bool openNarrowPassages();
 
   /// Finds the shortest ways from a place (m, map frame) anew: to everywhere, or at least to
@@ -126,12 +126,10 @@ class KnownPlace {
   FreeSpace space_;
   FrontierCells frontier_cells_;
   ScannedPlaces scanned_;
-  std::vector<std::pair<std::vector<Cell>, CellState>> seeds_;  ///< stay where they are
   FailedTries failed_;
   DistanceField ways_;
   std::optional<Eigen::Vector2d> last_place_;
   double laser_range_ = 1.0;
-  bool has_narrow_passages_ = false;
 };
 
 }  // namespace cca
