@@ -131,10 +131,6 @@ class Explorer {
   void returnToStart() { is_returning_ = true; }
   /// Exploration stays inside a polygon (m, map frame). To be called before the first step.
   void limitTo(std::vector<Eigen::Vector2d> polygon) { planner_.limitTo(std::move(polygon)); }
-  /// Cells known from a saved map. To be called before the first step.
-  void seed(const std::vector<Cell>& cells, CellState state) {
-    planner_.place().seed(cells, state);
-  }
 
   /// What the odometry has shown of how the base obeys.
   const ShownMotion& shownMotion() const { return tangent_bug_.motion().shown(); }
