@@ -4,6 +4,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <random>
+
+#include "cca_mrpt/sensing/beam.hpp"
+#include "known_world.hpp"
 
 namespace cca::view_points_test {
 namespace {
@@ -55,6 +59,38 @@ TEST(ViewFrom, CountsOnlyWhatLiesBehindAnOpening) {
   const ExplorationGrid grid = room(true);
   EXPECT_GT(gainFrom(grid, {10, 20}), 0.0);
   EXPECT_EQ(viewFrom(grid, {10, 20}, kRange, CellSet{}).gain, 0.0);
+}
+
+// Rays are left out where no way can be shorter: all of them are asked here.
+TEST(NearestViewPoint, IsThePlaceOfTheShortestWayOnAnyRay) {
+  ExplorationGrid grid = randomWorld(4, 160, 0.002).seen();
+  FreeSpace space(0.25, grid.resolution());
+  space.update(grid, grid.changed());
+  std::mt19937 random(5);
+  DistanceField field;
+  int found = 0;
+  for (int i = 0; i < 200; ++i) {
+    const auto anywhere = [&] {
+      return Cell{static_cast<int>(random() % 160), static_cast<int>(random() % 160)};
+    };
+    field.search(space, grid.resolution(), anywhere());
+    const Cell target = anywhere();
+    const CellState was = grid.at(target);
+    grid.set(target, CellState::kUnknown);
+    double least = DistanceField::kUnreached;
+    for (const Eigen::Vector2d& direction : directionsAround(90, M_PI / 90)) {
+      walkBeam(middleOf(target), direction, kRange / grid.resolution(), [&](Cell c, double) {
+        if (grid.at(c) == CellState::kOccupied) return false;
+        if (space.isTraversable(c) && c != target) least = std::min(least, field.distanceTo(c));
+        return true;
+      });
+    }
+    const auto view = nearestViewPoint(grid, space, field, ScannedPlaces{}, target, kRange);
+    grid.set(target, was);
+    EXPECT_EQ(view ? view->distance : DistanceField::kUnreached, least);
+    found += view.has_value();
+  }
+  EXPECT_GT(found, 100);
 }
 
 TEST(EachBlockInView, FindsThePlacesThatAnOpeningIsSeenFrom) {

@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "cca_mrpt/geometry/cross.hpp"
 #include "cca_mrpt/navigation/place/cell.hpp"
 #include "cca_mrpt/sensing/beam.hpp"
 
@@ -195,8 +196,22 @@ std::optional<ViewPoint> nearestViewPoint(const ExplorationGrid& grid, const Fre
                                           const DistanceField& field, const ScannedPlaces& scanned,
                                           Cell target, double range) {
   std::optional<ViewPoint> best;
-  const double reach = range / grid.resolution();
-  for (const Eigen::Vector2d& direction : kViewRays) {
+  const Eigen::Vector2d to_start = middleOf(field.start()) - middleOf(target);
+  // Towards the start first: no way is shorter than the straight line between the blocks at its
+  // ends, and so what is found there ends most of the others.
+  const auto count = static_cast<int>(kViewRays.size());
+  const auto first = static_cast<int>(
+      std::floor(count * std::atan2(to_start.y(), to_start.x()) / (2.0 * M_PI)) + count);
+  for (int k = first; k < first + count; ++k) {
+    const Eigen::Vector2d& direction = kViewRays[static_cast<std::size_t>(k % count)];
+    double reach = range / grid.resolution();
+    if (best) {
+      const double farthest = best->distance / grid.resolution() + 2.0 * FreeSpace::kBlock;
+      const double aside = cross(direction, to_start);
+      if (std::abs(aside) >= farthest) continue;
+      reach =
+          std::min(reach, direction.dot(to_start) + std::sqrt(farthest * farthest - aside * aside));
+    }
     bool in_known = false;
     walkBeam(middleOf(target), direction, reach, [&](Cell c, double) {
       if (c == target) return true;
