@@ -114,7 +114,8 @@ std::string ExplorationRecord::packedReplay(const Simulation& simulation,
 }
 
 nlohmann::ordered_json ExplorationRecord::summary(const Simulation& simulation,
-                                                  const Belief& belief, const End& end) {
+                                                  const Explorer& explorer, const Belief& belief,
+                                                  const End& end) {
   nlohmann::ordered_json summary;
   summary["program"] = "cca-mrpt " CCA_VERSION;
   summary["world"] = simulation.world().name;
@@ -126,6 +127,7 @@ nlohmann::ordered_json ExplorationRecord::summary(const Simulation& simulation,
   const auto seen = coverage_.sofar();
   summary["coverage"] = seen ? nlohmann::json(rounded(*seen, 1e6)) : nullptr;  // nobody waited
   summary["unreached_m2"] = rounded(end.unreached, 1e2);
+  summary["agreement"] = rounded(explorer.agreement().overall(), 1e5);
   summary["goals"] = goals_;
   summary["collisions"] = simulation.collisions();
   summary["mover_contacts"] = simulation.moverContacts();
@@ -175,7 +177,7 @@ void ExplorationRecord::write(const Simulation& simulation, const Explorer& expl
     all.graph = slam->keyFrames().graph;
     all.memory = packedMemory({slam->memory(), origin_});
   }
-  all.summary = summary(simulation, belief, end);
+  all.summary = summary(simulation, explorer, belief, end);
   writeMapFolder(folder_, all);
 }
 

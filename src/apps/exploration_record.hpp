@@ -71,8 +71,8 @@ class ExplorationRecord {
   void writePoses(const Belief& belief) const;
   void writeCoverage();
   std::string packedReplay(const Simulation& simulation, const std::vector<MapLine>& lines);
-  nlohmann::ordered_json summary(const Simulation& simulation, const Belief& belief,
-                                 const End& end);
+  nlohmann::ordered_json summary(const Simulation& simulation, const Explorer& explorer,
+                                 const Belief& belief, const End& end);
 
   std::string folder_;
   Parameters parameters_;

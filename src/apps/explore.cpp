@@ -206,16 +206,20 @@ void awaitCoverage(Coverage& coverage, const Interruption& interruption) {
 }
 
 /// What a run that ended by itself has not done well; empty where there is nothing.
-std::string shortcomings(const Simulation& simulation, const ExplorationRecord::End& end) {
+std::string shortcomings(const Simulation& simulation, const Explorer& explorer,
+                         const ExplorationRecord::End& end) {
   std::string text;
-  char part[80];
-  if (simulation.collisions() > 0) {
-    std::snprintf(part, sizeof part, "%d contacts with what stands", simulation.collisions());
-    text = part;
-  }
-  if (end.leaves_much) {
-    std::snprintf(part, sizeof part, "%.1f m^2 in view that no way was found to", end.unreached);
+  const auto tell = [&text](const char* format, auto value) {
+    char part[120];
+    std::snprintf(part, sizeof part, format, value);
     text += (text.empty() ? "" : ", ") + std::string(part);
+  };
+  if (simulation.collisions() > 0) tell("%d contacts with what stands", simulation.collisions());
+  if (end.leaves_much) tell("%.1f m^2 in view that no way was found to", end.unreached);
+  const double agreement = explorer.agreement().overall();
+  if (agreement < kPoorAgreement) {
+    tell("scans contradict the map (%.1f %% of their returns agree with it): the pose was lost",
+         100.0 * agreement);
   }
   return text;
 }
@@ -293,7 +297,7 @@ void explore(const ExploreOptions& options, const Parameters& parameters) {
   if (!end.finished) {
     throw std::runtime_error(end.reason + "; what was mapped so far is in " + folder);
   }
-  const std::string shortcoming = shortcomings(simulation, end);
+  const std::string shortcoming = shortcomings(simulation, explorer, end);
   if (!shortcoming.empty()) throw Shortcoming(shortcoming + "; the map is in " + folder);
 }
 

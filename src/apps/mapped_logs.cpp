@@ -110,6 +110,14 @@ void MappedLogs::finish() {
   drawing_->wait();
   drawing_.reset();
   warn(straysTold());
+  if (agreement_.overall() < kPoorAgreement) {
+    char told[100];
+    std::snprintf(
+        told, sizeof told,
+        "scans contradict the map, %.1f %% of their returns agree with it: poses are wrong",
+        100.0 * agreement_.overall());
+    warn(told);
+  }
 }
 
 /// The map of the earlier drives, in whose frame this one has been found.
@@ -124,7 +132,10 @@ void MappedLogs::insertMemory(const std::vector<Pose2>& T_map_robot) {
 }
 
 void MappedLogs::draw(const Scan& scan) {
-  drawing_->add([this, scan] { map_.insert(scan); });
+  drawing_->add([this, scan] {
+    agreement_.add(compareWithMap(scan, map_.walls()));
+    map_.insert(scan);
+  });
   grid_.insert(scan);
 }
 
@@ -221,6 +232,7 @@ MapProducts MappedLogs::products(const Parameters& parameters) const {
   summary["scans"] = trajectory_.size();
   summary["beams"] = beams_;
   summary["distance_m"] = pathLength(trajectory_);
+  summary["agreement"] = agreement_.overall();
   if (slam_) {
     products.graph = slam_->keyFrames().graph;
     products.memory = packedMemory({slam_->memory(), origin_});

@@ -14,6 +14,7 @@
 #include "cca_mrpt/io/replay.hpp"
 #include "cca_mrpt/io/scan_grid.hpp"
 #include "cca_mrpt/mapping/line_map.hpp"
+#include "cca_mrpt/mapping/scan_agreement.hpp"
 #include "interruption.hpp"
 
 namespace cca::apps {
@@ -59,6 +60,7 @@ class MappedLogs {
 
   LogsToMap logs_;
   LineMap map_;
+  ScanAgreement agreement_;
   ScanGrid grid_;
   Eigen::Vector2d origin_;  ///< m, of the frame that all this stands in
   std::optional<Slam> slam_;
