@@ -30,7 +30,9 @@ FreeSpace::FreeSpace(double clearance, double resolution) : clearance_(clearance
 void FreeSpace::openNarrowPassages(Cell low, Cell high) {
   has_narrow_passages_ = true;
   for (int y = low.y; y <= high.y; ++y) {
-    for (int x = low.x; x <= high.x; ++x) settle({x, y}, cells_[{x, y}]);
+    for (int x = low.x; x <= high.x; ++x) {
+      if (cells_.at({x, y}).near > 0) settle({x, y}, cells_[{x, y}]);
+    }
   }
 }
 
