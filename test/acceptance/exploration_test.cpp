@@ -98,7 +98,7 @@ TEST(CrowdedPlaces, AreLookedIntoFromWhereverTheRobotCanGo) {
   double sum = 0.0;
   for (std::uint64_t seed = 1; seed <= kWorlds; ++seed) {
     const World world = rasterise(generateFloorPlan("crowded", seed), 0.05);
-    const Result result = explore(world, *world.start, 1, 600.0);
+    const Result result = explore(world, *world.start, 1, 900.0);
     EXPECT_TRUE(result.finished) << seed;
     EXPECT_EQ(result.collisions, 0) << seed;
     EXPECT_GE(result.coverage, 0.93) << seed;
