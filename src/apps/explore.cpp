@@ -20,6 +20,7 @@
 #include "cca_mrpt/navigation/explorer.hpp"
 #include "cca_mrpt/simulation/simulation.hpp"
 #include "commands.hpp"
+#include "contradiction.hpp"
 #include "exploration_record.hpp"
 #include "exploration_window.hpp"
 #include "interruption.hpp"
@@ -209,18 +210,19 @@ void awaitCoverage(Coverage& coverage, const Interruption& interruption) {
 std::string shortcomings(const Simulation& simulation, const Explorer& explorer,
                          const ExplorationRecord::End& end) {
   std::string text;
-  const auto tell = [&text](const char* format, auto value) {
-    char part[120];
-    std::snprintf(part, sizeof part, format, value);
-    text += (text.empty() ? "" : ", ") + std::string(part);
+  char part[80];
+  const auto tell = [&text](const std::string& what) {
+    text += (text.empty() || what.empty() ? "" : ", ") + what;
   };
-  if (simulation.collisions() > 0) tell("%d contacts with what stands", simulation.collisions());
-  if (end.leaves_much) tell("%.1f m^2 in view that no way was found to", end.unreached);
-  const double agreement = explorer.agreement().overall();
-  if (agreement < kPoorAgreement) {
-    tell("scans contradict the map (%.1f %% of their returns agree with it): the pose was lost",
-         100.0 * agreement);
+  if (simulation.collisions() > 0) {
+    std::snprintf(part, sizeof part, "%d contacts with what stands", simulation.collisions());
+    tell(part);
   }
+  if (end.leaves_much) {
+    std::snprintf(part, sizeof part, "%.1f m^2 in view that no way was found to", end.unreached);
+    tell(part);
+  }
+  tell(contradiction(explorer.agreement()));
   return text;
 }
 

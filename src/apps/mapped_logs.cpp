@@ -9,6 +9,7 @@
 #include "cca_mrpt/io/pose_source.hpp"
 #include "cca_mrpt/io/stray_places.hpp"
 #include "cca_mrpt/io/trajectory_error.hpp"
+#include "contradiction.hpp"
 #include "moved.hpp"
 #include "on_all_cores.hpp"
 #include "progress.hpp"
@@ -110,14 +111,7 @@ void MappedLogs::finish() {
   drawing_->wait();
   drawing_.reset();
   warn(straysTold());
-  if (agreement_.overall() < kPoorAgreement) {
-    char told[100];
-    std::snprintf(
-        told, sizeof told,
-        "scans contradict the map, %.1f %% of their returns agree with it: poses are wrong",
-        100.0 * agreement_.overall());
-    warn(told);
-  }
+  warn(contradiction(agreement_));
 }
 
 /// The map of the earlier drives, in whose frame this one has been found.

@@ -101,10 +101,11 @@ END
 expect_error 3 "m^2 in view that no way was found to; the map is in gap" explore gap.yaml --out gap --quiet
 grep -q '"finished": true' gap/summary.json && [ -s gap/lines.csv ] || fail "the map of what was reached is not there"
 
-# Nothing is overwritten unasked; without --out each run has a folder of its own.
+# On wheels alone the pose is lost.
 expect_error 3 "scans contradict the map" explore "$maps/gallery.yaml" --seed 2 --pose odometry --out lost --quiet
 grep -q '"agreement": 0.9' lost/summary.json || fail "summary.json does not say how far scans and map agree"
 
+# Nothing is overwritten unasked; without --out each run has a folder of its own.
 expect_error 1 "summary.json" explore "$maps/two_rooms.yaml" --out b
 "$program" explore "$maps/two_rooms.yaml" --out b --force --quiet || fail "--force: status $?"
 "$program" explore "$maps/two_rooms.yaml" --quiet && "$program" explore "$maps/two_rooms.yaml" --quiet
