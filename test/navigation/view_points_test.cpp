@@ -93,6 +93,17 @@ TEST(NearestViewPoint, IsThePlaceOfTheShortestWayOnAnyRay) {
   EXPECT_GT(found, 100);
 }
 
+TEST(IsInView, EndsAtWallsAndSoonBehindWhatIsKnown) {
+  const ExplorationGrid grid = room(true);
+  const Cell from{20, 20};
+  const auto deepest = static_cast<int>(kThroughUnknown / grid.resolution());
+  EXPECT_TRUE(isInView(grid, from, from));
+  EXPECT_TRUE(isInView(grid, from, {1, 30}));
+  EXPECT_TRUE(isInView(grid, from, kGap + Cell{-deepest, 0}));
+  EXPECT_FALSE(isInView(grid, from, kGap + Cell{-deepest - 2, 0}));
+  EXPECT_FALSE(isInView(grid, from, kGap + Cell{-1, 5})) << "behind the wall";
+}
+
 TEST(EachBlockInView, FindsThePlacesThatAnOpeningIsSeenFrom) {
   const ExplorationGrid grid = room(true);
   std::vector<Cell> blocks;

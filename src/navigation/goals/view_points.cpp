@@ -171,9 +171,13 @@ bool isInView(const ExplorationGrid& grid, Cell from, Cell to) {
   const Eigen::Vector2d line = middleOf(to) - middleOf(from);
   const double length = line.norm();
   if (length == 0.0) return true;
+  const double longest = kThroughUnknown / grid.resolution();
   bool clear = true;
-  walkBeam(middleOf(from), line / length, length, [&](Cell c, double) {
-    clear = !isOpaque(grid.at(c));
+  double known = length;
+  walkBeam(middleOf(from), line / length, length, [&](Cell c, double entered) {
+    const CellState state = grid.at(c);
+    if (state == CellState::kUnknown) known = std::min(known, entered);
+    clear = !isOpaque(state) && length - known <= longest;
     return clear;
   });
   return clear;

@@ -28,8 +28,12 @@ struct ViewPoint {
 /// see, where the frontier itself is in view already. Never beyond what is known.
 Cell cellBehind(const ExplorationGrid& grid, const Frontier& frontier, double depth);
 
-/// Whether nothing known to be an obstacle stands between two cells.
+/// Whether a cell will be seen from a known one: nothing known to be an obstacle stands between
+/// them, and the line ends in no more than kThroughUnknown of the unknown, where walls are.
 bool isInView(const ExplorationGrid& grid, Cell from, Cell to);
+
+/// m. With 1 to 2.1 m the robot drives the same; without end, 5 % farther to 99 % coverage.
+inline constexpr double kThroughUnknown = 1.5;
 
 /// Visits the blocks of FreeSpace in view from a cell, by rays as those of viewFrom: each once for
 /// every ray through it. Cost: O(range / resolution) for each ray.
