@@ -186,6 +186,11 @@ Action Explorer::explore(const Observation& observation) {
   const bool is_last = next + 1 == plan.path.size();
   action.velocity = driveTo(plan.path[next], observation);
   const TangentBugState state = tangent_bug_.state();
+  // What a narrow laser does not look at is known by cells, which may leave no way at all.
+  if (state != TangentBugState::kReached && !tangent_bug_.target() &&
+      !looksTowards(observation.scan, plan.path[next])) {
+    turnTowards(plan.path[next], observation.T_map_robot, action);
+  }
   const bool has_failed = state == TangentBugState::kUnreachable || is_overdue;
   if (has_failed || (!goes_straight && progress_.isStuck(observation.time))) {
     const bool goes_around = planner_.goAround(progress_.shortest());
@@ -195,8 +200,7 @@ Action Explorer::explore(const Observation& observation) {
     if (looksTowards(observation.scan, plan.look_at)) {
       planner_.noteArrival();
     } else {
-      const Eigen::Vector2d look_at_robot = observation.T_map_robot.inverse() * plan.look_at;
-      turnOnTheSpot(velocityTowards(look_at_robot, true, robot_).angular, action);
+      turnTowards(plan.look_at, observation.T_map_robot, action);
     }
   }
   return action;
@@ -215,6 +219,11 @@ void Explorer::heedOutcome(const Eigen::Vector2d& robot_map) {
   } else {
     planner_.noteArrival();
   }
+}
+
+void Explorer::turnTowards(const Eigen::Vector2d& p_map, const Pose2& T_map_robot,
+                           Action& action) const {
+  turnOnTheSpot(velocityTowards(T_map_robot.inverse() * p_map, true, robot_).angular, action);
 }
 
 // Where the robot still drives it stops first, the way that was found safe: turning would bend it.

@@ -73,7 +73,7 @@ struct OpenFloor : ::testing::Test {
 };
 
 TEST_F(OpenFloor, TheFirstSixtyCentimetresOfAWayAreBarred) {
-  tries.bar({{1.025, 2.025}, {3.025, 2.025}}, kResolution, space);
+  tries.bar({{1.025, 2.025}, {3.025, 2.025}}, kResolution, 0, space);
   for (int x = 15; x < 45; ++x) {
     EXPECT_EQ(space.isTraversable({x, 40}), x < 18 || x > 34) << x;
     EXPECT_EQ(space.isTraversable({x, 42}), x < 18 || x > 34) << x;
@@ -82,43 +82,52 @@ TEST_F(OpenFloor, TheFirstSixtyCentimetresOfAWayAreBarred) {
 }
 
 TEST_F(OpenFloor, AWayIsBarredAroundItsCorners) {
-  tries.bar({{1.025, 2.025}, {1.225, 2.025}, {1.225, 3.0}}, kResolution, space);
+  tries.bar({{1.025, 2.025}, {1.225, 2.025}, {1.225, 3.0}}, kResolution, 0, space);
   EXPECT_FALSE(space.isTraversable({24, 47}));
   EXPECT_TRUE(space.isTraversable({28, 40}));
 }
 
 TEST_F(OpenFloor, WhereTheRobotHasBeenStaysOpen) {
   space.pass({25, 40});
-  tries.bar({{1.025, 2.025}, {3.025, 2.025}}, kResolution, space);
+  tries.bar({{1.025, 2.025}, {3.025, 2.025}}, kResolution, 0, space);
   EXPECT_TRUE(space.isTraversable({25, 40}));
   EXPECT_FALSE(space.isTraversable({26, 40}));
 }
 
-TEST_F(OpenFloor, WhatWasBarredTwiceStaysShutWhenTheLastIsOpened) {
-  tries.bar({{1.025, 2.025}, {3.025, 2.025}}, kResolution, space);
-  const int once = shut();
-  tries.bar({{1.225, 2.025}, {3.025, 2.025}}, kResolution, space);
-  EXPECT_GT(shut(), once);
-  tries.openLast(space);
+TEST_F(OpenFloor, WhereTheRobotWasHeldSixTimesStaysShutUntilTheMapHasChanged) {
+  const std::vector<Eigen::Vector2d> here{{1.025, 2.025}, {3.025, 2.025}},
+      beside{{1.225, 2.025}, {3.025, 2.025}}, elsewhere{{1.025, 3.025}, {3.025, 3.025}};
+  EXPECT_FALSE(tries.open(0, space));
+  int once = 0;
+  for (int k = 0; k < 5; ++k) {
+    tries.bar(k % 2 ? beside : here, kResolution, 0, space);
+    if (k == 0) once = shut();
+    EXPECT_TRUE(tries.open(0, space));
+    EXPECT_EQ(shut(), 0);
+    EXPECT_FALSE(tries.open(0, space)) << "all are open";
+  }
+  tries.bar(here, kResolution, 0, space);
+  EXPECT_FALSE(tries.open(0, space));
+  tries.bar(elsewhere, kResolution, 0, space);
+  EXPECT_EQ(shut(), 2 * once);
+  EXPECT_TRUE(tries.open(0, space));
   EXPECT_EQ(shut(), once);
-  EXPECT_TRUE(tries.openAll(space));
-  EXPECT_EQ(shut(), 0);
-  EXPECT_FALSE(tries.openAll(space));
-  tries.openLast(space);
+  EXPECT_FALSE(tries.open(3999, space));
+  EXPECT_TRUE(tries.open(4000, space));
   EXPECT_EQ(shut(), 0);
 }
 
 TEST_F(OpenFloor, WaysWithoutLengthAndBeyondTheGridBarNothing) {
-  tries.bar({}, kResolution, space);
-  tries.bar({{1.0, 1.0}}, kResolution, space);
-  tries.bar({{1.0, 1.0}, {1.0, 1.0}}, kResolution, space);
-  tries.bar({{1e4, 1e4}, {1e4, 2e4}}, kResolution, space);
+  tries.bar({}, kResolution, 0, space);
+  tries.bar({{1.0, 1.0}}, kResolution, 0, space);
+  tries.bar({{1.0, 1.0}, {1.0, 1.0}}, kResolution, 0, space);
+  tries.bar({{1e4, 1e4}, {1e4, 2e4}}, kResolution, 0, space);
   EXPECT_EQ(shut(), 0);
 }
 
 TEST_F(OpenFloor, AllOfItGoesAlongWhereTheMapIsMadeAnew) {
   tries.add({10, 10}, Failure::kNotReached, 500);
-  tries.bar({{1.025, 2.025}, {3.025, 2.025}}, kResolution, space);
+  tries.bar({{1.025, 2.025}, {3.025, 2.025}}, kResolution, 0, space);
   FreeSpace anew(0.25, kResolution);
   ExplorationGrid same = grid;
   std::vector<Cell> all;

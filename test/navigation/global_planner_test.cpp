@@ -151,31 +151,6 @@ TEST(GlobalPlanner, WhereItIsHeldGivesUpTheLastLookAfterThreeGoals) {
   EXPECT_NE(planner.plan().reason.find("does not get to what is left"), std::string::npos);
 }
 
-/// Squares of a quarter of a metre: a hall, a room behind a passage of half a metre, which holds no
-/// cell whose centre is a quarter of a metre from both its sides.
-const KnownWorld kNarrowPassage{{"##############################", "#............##..............#",
-                                 "#............##..............#", "#............##..............#",
-                                 "#............##..............#", "#............................#",
-                                 "#............................#", "#............##..............#",
-                                 "#............##.............##", "#............##.............##",
-                                 "##############################"},
-                                5};
-
-TEST(GlobalPlanner, TriesAPassageOfItsOwnWidthWhenNothingElseIsLeft) {
-  GlobalPlannerParameters parameters;
-  parameters.clearance = 0.25;
-  GlobalPlanner planner(parameters);
-  const Eigen::Vector2d start(1.0, 1.0);
-  update(planner, kNarrowPassage.scanFrom({start.x(), start.y(), 0.0}, 4.0), start);
-  EXPECT_FALSE(planner.place().space().isTraversable(planner.place().grid().cellOf({3.5, 1.4})));
-  const Drive d = drive(planner, kNarrowPassage, start);
-  EXPECT_TRUE(d.last.isFinished());
-  double farthest = 0.0;
-  for (const Eigen::Vector2d& goal : d.goals) farthest = std::max(farthest, goal.x());
-  EXPECT_GT(farthest, 3.75) << "beyond the passage";
-  EXPECT_EQ(planner.place().grid().at(planner.place().grid().cellOf({3.9, 2.4})), CellState::kFree);
-}
-
 // What stands beside the robot at the start is in nobody's memory.
 TEST(GlobalPlanner, ANarrowLaserLooksAroundBeforeItFirstDrives) {
   GlobalPlanner planner;

@@ -146,6 +146,7 @@ class Explorer {
  private:
   Action decide(const Observation& observation);
   void heedOutcome(const Eigen::Vector2d& robot_map);
+  void turnTowards(const Eigen::Vector2d& p_map, const Pose2& T_map_robot, Action& action) const;
   void turnOnTheSpot(double rate, Action& action) const;
   Action explore(const Observation& observation);
   Action lookAround(const Observation& observation);

@@ -176,11 +176,10 @@ void GlobalPlanner::findViews() {
   if (is_last_look_ || !isGoalUnseen() || !views_.keep(place_, *goal_)) goal_.reset();
 }
 
-// Where nothing else is left, ways that were barred are open again, and then passages that look too
-// narrow.
+// Where nothing else is left, ways that were barred are open again.
 bool GlobalPlanner::opensMore() {
   if (place_.timesHeld() >= kMostTimesHeld) return false;  // it gets nowhere from here
-  if (!place_.openAll() && !place_.openNarrowPassages()) return false;
+  if (!place_.open()) return false;
   revealed_at_last_look_.reset();
   return true;
 }
@@ -258,17 +257,14 @@ std::optional<Cell> GlobalPlanner::heldAt() const {
   return grid().cellOf(*place_.lastPlace());
 }
 
-// Where there is no other way, the place stays open for the goals behind it: each is another try.
+// Where there is no other way, the place stays open for some more tries.
 bool GlobalPlanner::goAround(const std::vector<Eigen::Vector2d>& way) {
   if (!goal_ || !place_.lastPlace()) return false;
   place_.bar(way);
   place_.findWays(*place_.lastPlace());
   const bool is_in_reach = is_last_look_ ? place_.ways().isReached(goal_->cell)
                                          : views_.viewOf(place_, goal_->target).has_value();
-  if (!is_in_reach) {
-    place_.openLast();
-    return false;
-  }
+  if (!is_in_reach && place_.open()) return false;
   dropGoal(Failure::kWayLost, heldAt());
   return true;
 }
@@ -291,7 +287,7 @@ std::vector<Eigen::Vector2d> GlobalPlanner::pathTo(const Eigen::Vector2d& robot_
     if (!nearestTraversable(space(), grid().cellOf(goal_map), kNearEnough, goal)) continue;
     place_.findWays(robot_map, goal);
     path = place_.wayTo(goal);
-  } while (path.empty() && place_.openAll());
+  } while (path.empty() && place_.open());
   return path;
 }
 

@@ -16,22 +16,13 @@ double distanceTo(Cell offset) {
 }  // namespace
 
 FreeSpace::FreeSpace(double clearance, double resolution) : clearance_(clearance) {
-  const double reach = clearance / resolution - 1e-9, half_diagonal = std::sqrt(0.5);
+  const double reach = clearance / resolution - 1e-9;
   const int n = static_cast<int>(std::ceil(reach + 0.5));
   for (int y = -n; y <= n; ++y) {
     for (int x = -n; x <= n; ++x) {
       const double distance = distanceTo({x, y});
       if (distance >= reach) continue;
-      disc_.push_back({{x, y}, distance < reach - half_diagonal});
-    }
-  }
-}
-
-void FreeSpace::openNarrowPassages(Cell low, Cell high) {
-  has_narrow_passages_ = true;
-  for (int y = low.y; y <= high.y; ++y) {
-    for (int x = low.x; x <= high.x; ++x) {
-      if (cells_.at({x, y}).near > 0) settle({x, y}, cells_[{x, y}]);
+      disc_.push_back({{x, y}, distance < reach - 1.0});
     }
   }
 }
@@ -79,7 +70,7 @@ void FreeSpace::settle(Cell c, Place& place) {
   const bool is_free = place.state == CellState::kFree || place.state == CellState::kPresumedFree;
   if (!is_free || place.close > 0) {
     place.is_open = false;
-  } else if (has_narrow_passages_ || place.near == 0) {
+  } else if (place.near == 0) {
     place.is_open = true;
   }
   const unsigned bits = blocks_.at(blockOf(c)), bit = bitOf(c);

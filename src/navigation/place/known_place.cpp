@@ -104,7 +104,6 @@ CellMove KnownPlace::correct(const PastScans& past) {
   };
   anew.failed_ = std::move(failed_);
   anew.failed_.move(moved, anew.grid_.revealed(), anew.space_);
-  if (space_.hasNarrowPassages()) anew.openNarrowPassages();
   *this = std::move(anew);
   return moved;
 }
@@ -112,12 +111,6 @@ CellMove KnownPlace::correct(const PastScans& past) {
 void KnownPlace::takeChanges() {
   space_.update(grid_, grid_.changed());
   frontier_cells_.update(grid_, grid_.changed());
-}
-
-bool KnownPlace::openNarrowPassages() {
-  if (space_.hasNarrowPassages()) return false;
-  space_.openNarrowPassages(grid_.lowest(), grid_.highest());
-  return true;
 }
 
 void KnownPlace::findWays(const Eigen::Vector2d& from_map, std::optional<Cell> until) {

@@ -53,8 +53,7 @@ struct Plan {
 ///
 /// A goal is a place to look from (FrontierViews), by `view_tour` also the middle of a frontier
 /// that promises much. It is given up as soon as what it is to show has been seen, or the way is
-/// blocked. When no large one is left, all reached places are asked (LastLook), and then passages
-/// that look just too narrow are tried.
+/// blocked. When no large one is left, all reached places are asked (LastLook).
 class GlobalPlanner {
  public:
   explicit GlobalPlanner(const GlobalPlannerParameters& parameters = {});

@@ -23,8 +23,10 @@ enum class Failure {
 /// grid has ever come to know (`revealed`). The first lost way alone is no failure yet. Targets
 /// within 15 cm of each other are one.
 ///
-/// Ways that look free and that the robot could not drive, passages of about its own width, are
-/// shut: every goal behind one would be tried in turn.
+/// Ways that look free and that the robot could not drive, passages of about its own width or
+/// panes, are shut: every goal behind one would be tried in turn. Where nothing else is left they
+/// are tried again, until the robot has been held six times within 30 cm; then they stay shut until
+/// the map has changed.
 class FailedTries {
  public:
   /// Notes a failure. @param held_at  where the robot got no farther, where that is what failed.
@@ -41,13 +43,12 @@ class FailedTries {
   /// Bars the first 60 cm of a way, 25 cm wide; cells that the robot has been in stay open.
   /// @param way  corners, m, map frame, from where the robot got no farther.
   /// Cost: O(1).
-  void bar(const std::vector<Eigen::Vector2d>& way, double resolution, FreeSpace& space);
+  void bar(const std::vector<Eigen::Vector2d>& way, double resolution, std::size_t revealed,
+           FreeSpace& space);
 
-  /// Opens what was barred last. Cost: O(cells barred).
-  void openLast(FreeSpace& space);
-
-  /// Opens all. @return whether there were any. Cost: O(cells barred).
-  bool openAll(FreeSpace& space);
+  /// Opens what was barred and may be tried again. @return whether there was any.
+  /// Cost: O(cells barred).
+  bool open(std::size_t revealed, FreeSpace& space);
 
   /// The map has been made anew, and as much of it is revealed now: bars in its space what was
   /// barred before.
@@ -62,8 +63,16 @@ class FailedTries {
     std::optional<Cell> held_at;
   };
 
+  struct Barred {
+    Cell held_at;
+    std::vector<Cell> cells;
+    std::size_t revealed_then;
+    bool is_shut = true;
+  };
+  bool staysShut(const Barred& barred, std::size_t revealed) const;
+
   std::vector<Try> tries_;
-  std::vector<std::vector<Cell>> barred_;
+  std::vector<Barred> barred_;
 };
 
 }  // namespace cca

@@ -13,8 +13,8 @@ namespace cca {
 /// occupied cell, and cells where it has been. The robot's configuration space, since the robot is
 /// round.
 ///
-/// A cell that was open stays so as long as the clearance is kept at any point of it, not only at
-/// its centre: noise of a cell must not open and shut a passage scan by scan.
+/// A cell that was open shuts where an obstacle comes nearer than that by a cell: as much does one
+/// noisy cell take of a passage, and noise must not open and shut it scan by scan.
 ///
 /// Unknown cells are not grown: what they hold is for the local planner to see in time.
 class FreeSpace {
@@ -51,11 +51,6 @@ class FreeSpace {
   /// it has been in stays open.
   void bar(Cell c, bool is_barred);
 
-  /// From now on a cell opens where the clearance is kept at any point of it. All that is known
-  /// lies in the cells from `low` to `high`. Cost: O(these cells).
-  void openNarrowPassages(Cell low, Cell high);
-  bool hasNarrowPassages() const { return has_narrow_passages_; }
-
   bool isTraversable(Cell c) const { return cells_.at(c).isTraversable(); }
   /// Like isTraversable, for each cell of a block: bit 4 (y mod 4) + (x mod 4).
   unsigned traversableCells(Cell block) const { return blocks_.at(block); }
@@ -65,7 +60,7 @@ class FreeSpace {
  private:
   struct Place {
     std::uint16_t near = 0;   ///< obstacles that come nearer to its centre than the clearance
-    std::uint16_t close = 0;  ///< those of them that do to all of its points
+    std::uint16_t close = 0;  ///< those of them that do by a cell's side
     CellState state = CellState::kUnknown;
     bool is_open = false, is_passed = false, is_barred = false;
 
@@ -82,7 +77,6 @@ class FreeSpace {
   void settle(Cell c, Place& place);
 
   double clearance_;
-  bool has_narrow_passages_ = false;
   std::vector<Grown> disc_;  ///< the cells that an obstacle comes near to
   TiledGrid<Place> cells_;
   TiledGrid<std::uint16_t> blocks_;  ///< traversable cells, a bit each

@@ -65,12 +65,10 @@ class KnownPlace {
 
   /// Shuts the beginning of a way (m, map frame) that could not be driven, see FailedTries.
   void bar(const std::vector<Eigen::Vector2d>& way) {
-    failed_.bar(way, grid_.resolution(), space_);
+    failed_.bar(way, grid_.resolution(), grid_.revealed(), space_);
   }
-  /// Opens what was barred last.
-  void openLast() { failed_.openLast(space_); }
-  /// Opens all that was barred. @return whether there was any.
-  bool openAll() { return failed_.openAll(space_); }
+  /// Opens what was barred and may be tried again. @return whether there was any.
+  bool open() { return failed_.open(grid_.revealed(), space_); }
 
   /// Notes that what was to show a target failed, see FailedTries::add().
   bool noteFailure(Cell target, Failure failure, std::optional<Cell> held_at = {}) {
@@ -80,10 +78,6 @@ class KnownPlace {
   bool isAside(Cell target) const { return failed_.isAside(target, grid_.revealed()); }
   /// See FailedTries.
   int timesHeld() const { return failed_.timesHeld(); }
-
-  /// See FreeSpace. @return whether that is new. Cost: O(cells between the corners of what is
-  /// known), once.
-  bool openNarrowPassages();
 
   /// Finds the shortest ways from a place (m, map frame) anew: to everywhere, or at least to
   /// `until`. Cost: O(known blocks).
