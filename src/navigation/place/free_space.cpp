@@ -7,6 +7,8 @@
 namespace cca {
 namespace {
 
+constexpr int kNoisyCells = 3;
+
 /// Cells, from the centre of the cell at an offset to the nearest point of the one at the origin.
 double distanceTo(Cell offset) {
   return std::hypot(std::max(std::abs(offset.x) - 0.5, 0.0),
@@ -68,7 +70,7 @@ void FreeSpace::bar(Cell c, bool is_barred) {
 
 void FreeSpace::settle(Cell c, Place& place) {
   const bool is_free = place.state == CellState::kFree || place.state == CellState::kPresumedFree;
-  if (!is_free || place.close > 0) {
+  if (!is_free || place.close > 0 || place.near > kNoisyCells) {
     place.is_open = false;
   } else if (place.near == 0) {
     place.is_open = true;

@@ -13,8 +13,9 @@ namespace cca {
 /// occupied cell, and cells where it has been. The robot's configuration space, since the robot is
 /// round.
 ///
-/// A cell that was open shuts where an obstacle comes nearer than that by a cell: as much does one
-/// noisy cell take of a passage, and noise must not open and shut it scan by scan.
+/// A cell that was open stays so while at most three obstacles come nearer, none by more than a
+/// cell: as much does one noisy cell take of a passage, and noise must not open and shut it scan by
+/// scan. Of a wall it would be more.
 ///
 /// Unknown cells are not grown: what they hold is for the local planner to see in time.
 class FreeSpace {
