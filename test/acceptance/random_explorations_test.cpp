@@ -235,6 +235,14 @@ TEST(RandomExplorations, WithANarrowFieldOfViewStandBeforeTheyTurnToLook) {
   EXPECT_EQ(outcome.runs, 1);
 }
 
+// Back through a passage of the robot's width, which its laser does not look at: by cells alone there
+// may be no way through.
+TEST(RandomExplorations, WithANarrowFieldOfViewTurnToAWayThatIsOutOfSight) {
+  Outcome outcome;
+  explore(44, ofNarrowView(44), outcome);
+  EXPECT_GT(outcome.coverage, 0.999);
+}
+
 Trial ofLateRobot(int seed, double latency, double told) {
   Trial trial;
   trial.laser.range = kRanges[seed % 3];
