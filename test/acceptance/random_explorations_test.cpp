@@ -235,8 +235,8 @@ TEST(RandomExplorations, WithANarrowFieldOfViewStandBeforeTheyTurnToLook) {
   EXPECT_EQ(outcome.runs, 1);
 }
 
-// Back through a passage of the robot's width, which its laser does not look at: by cells alone there
-// may be no way through.
+// Back through a passage of the robot's width, which its laser does not look at: by cells alone
+// there may be no way through.
 TEST(RandomExplorations, WithANarrowFieldOfViewTurnToAWayThatIsOutOfSight) {
   Outcome outcome;
   explore(44, ofNarrowView(44), outcome);
