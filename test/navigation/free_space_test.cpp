@@ -85,6 +85,19 @@ TEST(FreeSpace, APassageThatWasOpenStaysSoWithANoisyCellOnBothSides) {
   EXPECT_FALSE(space.isTraversable({0, 6}));
 }
 
+// What is free is often seen before the wall beside it.
+TEST(FreeSpace, AnOpenCellShutsBesideAWallThatIsSeenLater) {
+  SetCells cells;
+  const FreeSpace& space = cells.space;
+  cells.set({0, 0}, CellState::kFree);
+  for (const int y : {-1, 0, 1}) {
+    cells.set({5, y}, CellState::kOccupied);  // .225 m, for a clearance of .25
+    EXPECT_TRUE(space.isTraversable({0, 0}));
+  }
+  cells.set({5, -2}, CellState::kOccupied);
+  EXPECT_FALSE(space.isTraversable({0, 0}));
+}
+
 TEST(FreeSpace, AnOpenCellShutsWhereAnObstacleComesNearerByACell) {
   SetCells cells;
   const FreeSpace& space = cells.space;

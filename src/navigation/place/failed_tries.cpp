@@ -19,6 +19,10 @@ constexpr int kMostTimesHeld = 6;
 constexpr double kAhead = 0.6;  // m, of a way that is barred
 constexpr int kAside = 2;       // cells, to both sides of it
 
+bool isRecent(std::size_t revealed_then, std::size_t revealed) {
+  return revealed < revealed_then + kRetryAfter;
+}
+
 bool isSameTarget(Cell a, Cell b) { return squareDistance(a, b) <= kSameTarget; }
 
 /// The cells that the beginning of a way crosses.
@@ -53,7 +57,7 @@ bool FailedTries::add(Cell target, Failure failure, std::size_t revealed,
 
 bool FailedTries::isAside(Cell target, std::size_t revealed) const {
   return std::any_of(tries_.begin(), tries_.end(), [&](const Try& t) {
-    return t.is_aside && isSameTarget(t.target, target) && revealed < t.revealed_then + kRetryAfter;
+    return t.is_aside && isSameTarget(t.target, target) && isRecent(t.revealed_then, revealed);
   });
 }
 
@@ -86,7 +90,7 @@ void FailedTries::bar(const std::vector<Eigen::Vector2d>& way, double resolution
 bool FailedTries::staysShut(const Barred& barred, std::size_t revealed) const {
   const auto times = std::count_if(barred_.begin(), barred_.end(), [&](const Barred& other) {
     return distanceBetween(other.held_at, barred.held_at) <= kSamePlace &&
-           revealed < other.revealed_then + kRetryAfter;
+           isRecent(other.revealed_then, revealed);
   });
   return times >= kMostTimesHeld;
 }
@@ -94,16 +98,14 @@ bool FailedTries::staysShut(const Barred& barred, std::size_t revealed) const {
 bool FailedTries::open(std::size_t revealed, FreeSpace& space) {
   bool any = false;
   for (Barred& barred : barred_) {
-    if (!barred.is_shut || staysShut(barred, revealed)) continue;
-    barred.is_shut = false;
-    any = true;
+    if (barred.cells.empty() || staysShut(barred, revealed)) continue;
     for (const Cell c : barred.cells) space.bar(c, false);
+    barred.cells.clear();
+    any = true;
   }
   // A cell may have been barred twice.
   for (const Barred& barred : barred_) {
-    for (const Cell c : barred.cells) {
-      if (barred.is_shut) space.bar(c, true);
-    }
+    for (const Cell c : barred.cells) space.bar(c, true);
   }
   return any;
 }
@@ -119,7 +121,7 @@ void FailedTries::move(const CellMove& moved, std::size_t revealed, FreeSpace& s
     barred.revealed_then = std::min(barred.revealed_then, revealed);
     for (Cell& c : barred.cells) {
       c = moved(c);
-      if (barred.is_shut) space.bar(c, true);
+      space.bar(c, true);
     }
   }
 }

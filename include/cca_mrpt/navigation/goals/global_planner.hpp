@@ -81,7 +81,8 @@ class GlobalPlanner {
   /// Says that the robot got no farther on a way (m, map frame), from its beginning on: bars it
   /// where what the present goal is to show can be seen on another way. A goal that this happens to
   /// twice is set aside.
-  /// @return whether there is another way. Cost: a search over the known blocks.
+  /// @return whether there is another way, or the place was tried too often (FailedTries): then
+  /// the goal is left. Cost: a search over the known blocks.
   bool goAround(const std::vector<Eigen::Vector2d>& way);
 
   /// Says that the robot is as near to the goal as it gets: if there is nothing new to see from
@@ -92,7 +93,7 @@ class GlobalPlanner {
   void noteLookAround(const Eigen::Vector2d& robot_map);
 
   /// The shortest known way from one place to another; empty where there is none. It leads along
-  /// places where the robot got no farther only where there is no other.
+  /// places where the robot got no farther only where there is no other, and not after six tries.
   std::vector<Eigen::Vector2d> pathTo(const Eigen::Vector2d& robot_map,
                                       const Eigen::Vector2d& goal_map);
 

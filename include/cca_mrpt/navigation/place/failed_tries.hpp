@@ -41,13 +41,14 @@ class FailedTries {
   int timesHeld() const;
 
   /// Bars the first 60 cm of a way, 25 cm wide; cells that the robot has been in stay open.
-  /// @param way  corners, m, map frame, from where the robot got no farther.
+  /// @param way       corners, m, map frame, from where the robot got no farther.
+  /// @param revealed  cells that the grid has ever come to know.
   /// Cost: O(1).
   void bar(const std::vector<Eigen::Vector2d>& way, double resolution, std::size_t revealed,
            FreeSpace& space);
 
   /// Opens what was barred and may be tried again. @return whether there was any.
-  /// Cost: O(cells barred).
+  /// Cost: O(cells barred + tries^2).
   bool open(std::size_t revealed, FreeSpace& space);
 
   /// The map has been made anew, and as much of it is revealed now: bars in its space what was
@@ -65,9 +66,8 @@ class FailedTries {
 
   struct Barred {
     Cell held_at;
-    std::vector<Cell> cells;
+    std::vector<Cell> cells;  ///< none where they were opened again
     std::size_t revealed_then;
-    bool is_shut = true;
   };
   bool staysShut(const Barred& barred, std::size_t revealed) const;
 
