@@ -8,7 +8,7 @@ Gives /clock, scan, odom and tf with true poses. --abort: that many goals, the f
 after they came. SIGUSR1 silences its laser, and gives it back.
 
 Its time stands for up to PATIENCE where the explorer's lines are older than BEHIND: how fast the machine is
-decides nothing. REPORT: contacts, share of the free cells that it has seen, metres, seconds, goals by what became
+decides nothing. REPORT: contacts, share of the cells that it can see and has seen, metres, seconds, goals by what became
 of them, whether there is one now."""
 import argparse
 import heapq
@@ -105,7 +105,7 @@ class MoveBaseRobot:
         self.ways = Ways(self.world)
         x, y, degrees = (float(word) for word in options.start.split(","))
         self.pose = (x, y, math.radians(degrees))
-        self.to_see = self.world.reachable(x, y)
+        self.to_see = self.world.visible(x, y)
         self.random = numpy.random.RandomState(1)
         self.v = self.w = self.time = self.metres = 0.0
         self.contacts, self.touches, self.sees, self.mapped_at = 0, False, True, None

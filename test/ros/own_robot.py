@@ -9,8 +9,8 @@ centre, and errs by 1 cm. Gives /clock, scan, odom and tf, takes cmd_vel; --loca
 truth, which it is WRONG by for the first --wrong-until seconds; --path: then it tells where the robot has been,
 as corrected_path. --two-lasers: one looks ahead, one back, 150 degrees each, as scan_front and scan_rear. --bar: lies
 below their plane; hazard_points or hazard_range tell what is within SHORT_SIGHT ahead. Time stands until a
-scan has been answered: how fast the machine is decides nothing. REPORT: contacts, share of the free cells that it has
-seen, metres, seconds, the last true pose."""
+scan has been answered: how fast the machine is decides nothing. REPORT: contacts, share of the cells that it
+can see at all and has seen, metres, seconds, the last true pose."""
 import argparse
 import collections
 import json
@@ -43,6 +43,7 @@ HALF_BEAMS, HALF_FIELD = 301, math.radians(150.0)
 SHORT_SIGHT, SHORT_FIELD = 0.8, math.radians(20.0)
 SHORT_BEARINGS = [math.radians(degrees) for degrees in (-80, -60, -40, -20, 0, 20, 40, 60, 80)]
 STRETCH = 1.02  # of the odometry
+SPACING = 0.2  # m, between the places that what can be seen at all is looked for from
 
 
 class World:
@@ -106,10 +107,18 @@ class World:
     def share_seen(self, cells):
         return float((self.seen & cells).sum() / cells.sum())
 
-    def reachable(self, x, y):
-        """Free cells that a way leads to from here, however narrow."""
+    def standable(self, x, y):
+        """Cells that the robot gets to from here without touching anything."""
+        reach = int(RADIUS / self.resolution) + 1
+        around = numpy.pad(self.occupied, reach)
+        rows, columns = self.occupied.shape
+        free = numpy.ones_like(self.occupied)
+        for i in range(-reach, reach + 1):
+            for j in range(-reach, reach + 1):
+                if math.hypot(max(abs(i) - 0.5, 0.0), max(abs(j) - 0.5, 0.0)) * self.resolution < RADIUS:
+                    free &= ~around[reach + i:reach + i + rows, reach + j:reach + j + columns]
         row, column = self.cells(numpy.array(x), numpy.array(y))
-        reached = numpy.zeros_like(self.occupied)
+        reached = numpy.zeros_like(free)
         reached[row, column] = True
         size = 0
         while reached.sum() > size:
@@ -120,8 +129,21 @@ class World:
                 grown[:-1] |= reached[1:]
                 grown[:, 1:] |= reached[:, :-1]
                 grown[:, :-1] |= reached[:, 1:]
-                reached = grown & ~self.occupied
+                reached = grown & free
         return reached
+
+    def visible(self, x, y):
+        """Cells that a beam passes from anywhere the robot gets to from here: a lattice of SPACING, 361 beams."""
+        step = max(1, round(SPACING / self.resolution))
+        places = numpy.argwhere(self.standable(x, y)[::step, ::step]) * step + 0.5
+        bearings = numpy.linspace(-math.pi, math.pi, 361)
+        seen, self.seen = self.seen, numpy.zeros_like(self.occupied)
+        for k, (row, column) in enumerate(places):
+            turn = k * 0.618 % 1.0 * (bearings[1] - bearings[0])  # not all along the same directions
+            self.cast(self.origin[0] + column * self.resolution, self.origin[1] + row * self.resolution,
+                      bearings + turn)
+        seen, self.seen = self.seen, seen
+        return seen
 
 
 def compose(pose, step):
@@ -174,7 +196,7 @@ class OwnRobot:
         self.options, self.world = options, World(options.world)
         x, y, degrees = (float(word) for word in options.start.split(","))
         self.pose, self.odometry = (x, y, math.radians(degrees)), (3.0, -2.0, 0.5)
-        self.to_see = self.world.reachable(x, y)
+        self.to_see = self.world.visible(x, y)
         self.random = numpy.random.RandomState(options.seed)
         self.v = self.w = self.time = self.way = 0.0
         self.contacts, self.touches, self.status = 0, False, ""
