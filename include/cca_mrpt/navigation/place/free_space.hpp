@@ -52,7 +52,7 @@ class FreeSpace {
   /// it has been in stays open.
   void bar(Cell c, bool is_barred);
 
-  bool isTraversable(Cell c) const { return cells_.at(c).isTraversable(); }
+  bool isTraversable(Cell c) const { return traversableCells(blockOf(c)) & bitOf(c); }
   /// Like isTraversable, for each cell of a block: bit 4 (y mod 4) + (x mod 4).
   unsigned traversableCells(Cell block) const { return blocks_.at(block); }
 
