@@ -257,6 +257,14 @@ TEST(RandomExplorations, WithLateCommandsEndAndTouchNothing) {
   }
 }
 
+// Corners that one scan reads too far: by the next, the command that leads past them is on its way.
+TEST(RandomExplorations, WithLateCommandsTouchNoCorner) {
+  Outcome outcome;
+  explore(29, ofLateRobot(29, 0.3, 0.3), outcome);
+  explore(151, ofLateRobot(151, 0.2, 0.2), outcome);
+  EXPECT_EQ(outcome.runs, 2);
+}
+
 TEST(RandomExplorations, WithCommandsLaterThanToldEndAndTouchNothing) {
   exploreAll(3, [](int seed) { return ofLateRobot(seed, 0.15, 0.0); });
 }

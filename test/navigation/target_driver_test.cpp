@@ -60,6 +60,29 @@ TEST(TargetDriver, HeedsForAMomentWhatNoisyScansHaveShown) {
 }
 
 // Inside the clearance of what stands ahead to the right, driving straight on is not safe.
+// One return beside the way, nearer than the least clearance.
+TEST(TargetDriver, PassesACornerMoreNarrowlyWhereCommandsActAtOnce) {
+  const Eigen::Vector2d corner{0.4, kClearance - 0.008};
+  const auto nearestBy = [&](double latency) {
+    RobotParameters robot = kRobot;
+    robot.latency = latency;
+    TargetDriver driver(robot);
+    Pose2 pose;
+    Velocity velocity;
+    double nearest = corner.norm();
+    for (int i = 0; i < 40; ++i) {
+      LocalView view = viewOf({}, pose);
+      view.returns.push_back(corner);
+      drive(driver.step(kAhead, velocity, view, {}, kClearance, kHeeded, kPeriod * i), robot,
+            kPeriod, pose, velocity);
+      nearest = std::min(nearest, (corner - pose.position()).norm());
+    }
+    return nearest;
+  };
+  EXPECT_LT(nearestBy(0.0), kClearance - 0.004);
+  EXPECT_GT(nearestBy(0.15), kClearance - 0.001);
+}
+
 TEST(TargetDriver, GetsAwayFromWhatHoldsIt) {
   const Eigen::Vector2d post(0.1, -0.23);
   TargetDriver driver(kRobot);

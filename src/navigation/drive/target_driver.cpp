@@ -19,8 +19,10 @@ constexpr std::array<double, 3> kLookAhead{-0.2, 0.0, 0.2};  // rad
 constexpr std::size_t kLately = 5;                           // scans
 constexpr double kPreciseSigma = 0.006;                      // m
 // m, beside the robot. Ways are planned around obstacle points that are thinned; from a corner that
-// this leaves out, the robot keeps no more than what may hide between two beams.
-constexpr double kBetweenBeams = 0.004;
+// this leaves out, the robot keeps no more than what may hide between two beams. What one scan
+// reads too far the next one corrects, but not where commands act later than kAtOnce, s: half a
+// period.
+constexpr double kBetweenBeams = 0.004, kAtOnce = 0.05;
 // s, that a robot is held by what it is too near to, and that it then drives past it instead of
 // straight to its target. In passages of its own width it would turn to and fro between the walls.
 constexpr double kHeld = 1.0, kGettingAway = 3.0;
@@ -84,7 +86,8 @@ std::vector<Hazard> TargetDriver::hazards(const LocalView& view, const Onset& on
   const auto inRobot = transformBy((view.T_map_robot * onset.T_now_then).inverse());
   std::vector<Hazard> hazards;
   hazards.reserve(view.obstacles.size() + view.returns.size() + view.movers.size());
-  const double allowance = clearance - robot_.radius - kBetweenBeams;
+  const double allowance =
+      motion_.latency() > kAtOnce ? 0.0 : clearance - robot_.radius - kBetweenBeams;
   for (const Eigen::Vector2d& p_map : view.obstacles) hazards.push_back({inRobot(p_map)});
   for (const Eigen::Vector2d& p_map : view.returns) {
     hazards.push_back({inRobot(p_map), 0.0, allowance});
