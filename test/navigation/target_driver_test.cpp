@@ -59,7 +59,6 @@ TEST(TargetDriver, HeedsForAMomentWhatNoisyScansHaveShown) {
   EXPECT_GT(speedAfter(0.01, 6), 0.09);
 }
 
-// Inside the clearance of what stands ahead to the right, driving straight on is not safe.
 // One return beside the way, nearer than the least clearance.
 TEST(TargetDriver, PassesACornerMoreNarrowlyWhereCommandsActAtOnce) {
   const Eigen::Vector2d corner{0.4, kClearance - 0.008};
@@ -83,6 +82,7 @@ TEST(TargetDriver, PassesACornerMoreNarrowlyWhereCommandsActAtOnce) {
   EXPECT_GT(nearestBy(0.15), kClearance - 0.001);
 }
 
+// Inside the clearance of what stands ahead to the right, driving straight on is not safe.
 TEST(TargetDriver, GetsAwayFromWhatHoldsIt) {
   const Eigen::Vector2d post(0.1, -0.23);
   TargetDriver driver(kRobot);

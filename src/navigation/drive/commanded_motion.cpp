@@ -224,6 +224,8 @@ std::vector<Onset> CommandedMotion::otherwise() const {
   return onsets;
 }
 
+bool CommandedMotion::actsAtOnce() const { return latency() <= kSameLatency; }
+
 RobotParameters CommandedMotion::believed() const {
   RobotParameters believed = robot_;
   const Velocity brakes = shown_.brakes();

@@ -20,9 +20,8 @@ constexpr std::size_t kLately = 5;                           // scans
 constexpr double kPreciseSigma = 0.006;                      // m
 // m, beside the robot. Ways are planned around obstacle points that are thinned; from a corner that
 // this leaves out, the robot keeps no more than what may hide between two beams. What one scan
-// reads too far the next one corrects, but not where commands act later than kAtOnce, s: half a
-// period.
-constexpr double kBetweenBeams = 0.004, kAtOnce = 0.05;
+// reads too far the next one corrects, but not where commands act late.
+constexpr double kBetweenBeams = 0.004;
 // s, that a robot is held by what it is too near to, and that it then drives past it instead of
 // straight to its target. In passages of its own width it would turn to and fro between the walls.
 constexpr double kHeld = 1.0, kGettingAway = 3.0;
@@ -86,8 +85,7 @@ std::vector<Hazard> TargetDriver::hazards(const LocalView& view, const Onset& on
   const auto inRobot = transformBy((view.T_map_robot * onset.T_now_then).inverse());
   std::vector<Hazard> hazards;
   hazards.reserve(view.obstacles.size() + view.returns.size() + view.movers.size());
-  const double allowance =
-      motion_.latency() > kAtOnce ? 0.0 : clearance - robot_.radius - kBetweenBeams;
+  const double allowance = motion_.actsAtOnce() ? clearance - robot_.radius - kBetweenBeams : 0.0;
   for (const Eigen::Vector2d& p_map : view.obstacles) hazards.push_back({inRobot(p_map)});
   for (const Eigen::Vector2d& p_map : view.returns) {
     hazards.push_back({inRobot(p_map), 0.0, allowance});

@@ -118,6 +118,8 @@ class CommandedMotion {
   /// The robot's parameters, with accelerations that it can brake with.
   RobotParameters believed() const;
   double latency() const { return std::max(robot_.latency, shown_.latency()); }  ///< s
+  /// Whether that is no more than what safeVelocity() allows for anyway.
+  bool actsAtOnce() const;
   double time() const { return time_; }  ///< s, of the last observation
   /// s, how long a command stands until the next one: the longest time between two of the last six
   /// observations, 0.1 to 1.
