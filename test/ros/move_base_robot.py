@@ -44,12 +44,7 @@ class Ways:
 
     def __init__(self, world):
         self.world = world
-        reach = int(math.ceil(KEPT / world.resolution))
-        self.free = ~world.occupied
-        for row in range(-reach, reach + 1):
-            for column in range(-reach, reach + 1):
-                if math.hypot(max(0, abs(row) - 1), max(0, abs(column) - 1)) * world.resolution < KEPT:
-                    self.free &= ~numpy.roll(world.occupied, (row, column), (0, 1))
+        self.free = world.keeping(KEPT, 1.0)
 
     def cell(self, x, y):
         row, column = self.world.cells(numpy.array(x), numpy.array(y))

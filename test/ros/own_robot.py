@@ -107,16 +107,21 @@ class World:
     def share_seen(self, cells):
         return float((self.seen & cells).sum() / cells.sum())
 
-    def standable(self, x, y):
-        """Cells that the robot gets to from here without touching anything."""
-        reach = int(RADIUS / self.resolution) + 1
+    def keeping(self, distance, of_cell):
+        """Cells that keep a distance (m) from what is occupied: at their centre (of_cell 0.5), anywhere in them (1)."""
+        reach = int(distance / self.resolution) + 1
         around = numpy.pad(self.occupied, reach)
         rows, columns = self.occupied.shape
         free = numpy.ones_like(self.occupied)
         for i in range(-reach, reach + 1):
             for j in range(-reach, reach + 1):
-                if math.hypot(max(abs(i) - 0.5, 0.0), max(abs(j) - 0.5, 0.0)) * self.resolution < RADIUS:
+                if math.hypot(max(abs(i) - of_cell, 0.0), max(abs(j) - of_cell, 0.0)) * self.resolution < distance:
                     free &= ~around[reach + i:reach + i + rows, reach + j:reach + j + columns]
+        return free
+
+    def standable(self, x, y):
+        """Cells that the robot gets to from here without touching anything."""
+        free = self.keeping(RADIUS, 0.5)
         row, column = self.cells(numpy.array(x), numpy.array(y))
         reached = numpy.zeros_like(free)
         reached[row, column] = True
