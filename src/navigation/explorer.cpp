@@ -15,8 +15,9 @@ constexpr double kHome = 0.3;                      // m
 constexpr double kReachedWayPoint = 0.15;          // m, a little more than Tangent Bug stops at
 constexpr int kHomeNumber = -2, kTurnNumber = -3;  // among the numbers of goals
 
-constexpr double kAround = 2.0;             // m, of the robot: what a narrow laser saw before
-constexpr double kLookAround = 0.5;         // of the full turning rate
+constexpr double kAround = 2.0;      // m, of the robot: what a narrow laser saw before
+constexpr double kPutDown = 0.5;     // m, around the start: beside the robot no laser may look
+constexpr double kLookAround = 0.5;  // of the full turning rate
 constexpr double kTurn = 2.0 / 3.0 * M_PI;  // rad: three make one round, and none is ambiguous
 
 constexpr double kMuchUnreached = 1.0;  // m^2
@@ -32,9 +33,11 @@ GlobalPlannerParameters plannerParameters(const RobotParameters& robot,
   return planner;
 }
 
-/// Of what may be in each occupied cell around a place, the point nearest to it; m, map frame.
+/// Of what may be in each cell beside the free ones around a place, the point nearest to it; m, map
+/// frame. Cells that were never seen may hold something, too, but where the robot was put down.
 std::vector<Eigen::Vector2d> obstaclesAround(const ExplorationGrid& grid,
-                                             const Eigen::Vector2d& p_map) {
+                                             const Eigen::Vector2d& p_map,
+                                             const Eigen::Vector2d& start_map) {
   std::vector<Eigen::Vector2d> obstacles;
   if (!grid.covers(p_map)) return obstacles;
   const double side = grid.resolution();
@@ -42,8 +45,13 @@ std::vector<Eigen::Vector2d> obstaclesAround(const ExplorationGrid& grid,
   const Cell here = grid.cellOf(p_map);
   for (int y = here.y - reach; y <= here.y + reach; ++y) {
     for (int x = here.x - reach; x <= here.x + reach; ++x) {
-      if (grid.at({x, y}) != CellState::kOccupied) continue;
+      const CellState state = grid.at({x, y});
+      const bool is_beside = isFree(grid.at({x - 1, y})) || isFree(grid.at({x + 1, y})) ||
+                             isFree(grid.at({x, y - 1})) || isFree(grid.at({x, y + 1}));
+      if (isFree(state) || !is_beside) continue;
       const Eigen::Vector2d centre = grid.centreOf({x, y});
+      const bool was_seen = state == CellState::kOccupied;
+      if (!was_seen && (centre - start_map).norm() < kPutDown) continue;
       const Eigen::Vector2d half =
           Eigen::Vector2d::Constant((0.5 + ExplorationGrid::kBehindSurface) * side);
       obstacles.push_back(p_map.cwiseMax(centre - half).cwiseMin(centre + half));
@@ -279,7 +287,8 @@ Velocity Explorer::driveTo(const Eigen::Vector2d& way_point_map, const Observati
     way_point_ = way_point;
   }
   if (!seesAllAround(observation.scan)) {
-    auto obstacles = obstaclesAround(planner_.place().grid(), observation.T_map_robot.position());
+    auto obstacles = obstaclesAround(planner_.place().grid(), observation.T_map_robot.position(),
+                                     T_map_start_->position());
     for (Eigen::Vector2d& p : obstacles) p = T_drive_map_ * p;
     tangent_bug_.setKnownObstacles(std::move(obstacles));
   }

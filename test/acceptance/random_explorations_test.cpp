@@ -228,6 +228,14 @@ Trial ofNarrowView(int seed) {
 
 TEST(RandomExplorations, WithANarrowFieldOfViewEndAndTouchNothing) { exploreAll(2, ofNarrowView); }
 
+// The far side of a box that was seen end on only, beside the robot in a curve around it.
+TEST(RandomExplorations, WithANarrowFieldOfViewTouchNothingUnseen) {
+  Outcome outcome;
+  explore(750, ofNarrowView(750), outcome);
+  explore(1430, ofNarrowView(1430), outcome);
+  EXPECT_EQ(outcome.runs, 2);
+}
+
 // A goal that is given up for one right here, to be looked at to the side, while the robot drives.
 TEST(RandomExplorations, WithANarrowFieldOfViewStandBeforeTheyTurnToLook) {
   Outcome outcome;

@@ -71,8 +71,7 @@ void FreeSpace::bar(Cell c, bool is_barred) {
 }
 
 void FreeSpace::settle(Cell c, Place& place) {
-  const bool is_free = place.state == CellState::kFree || place.state == CellState::kPresumedFree;
-  if (!is_free || place.close > 0 || place.near > kNoisyCells) {
+  if (!isFree(place.state) || place.close > 0 || place.near > kNoisyCells) {
     place.is_open = false;
   } else if (place.near == 0) {
     place.is_open = true;

@@ -42,8 +42,7 @@ std::optional<Cell> unknownBeside(const ExplorationGrid& grid, Cell c) {
 }
 
 bool isFrontier(const ExplorationGrid& grid, Cell c) {
-  const CellState state = grid.at(c);
-  return (state == CellState::kFree || state == CellState::kPresumedFree) && unknownBeside(grid, c);
+  return isFree(grid.at(c)) && unknownBeside(grid, c);
 }
 
 void FrontierCells::update(const ExplorationGrid& grid, const std::vector<Cell>& changed) {

@@ -19,6 +19,11 @@ enum class CellState : std::uint8_t {
   kOccupied,
 };
 
+/// Whether a cell was seen free, or is presumed so.
+constexpr bool isFree(CellState state) {
+  return state == CellState::kFree || state == CellState::kPresumedFree;
+}
+
 /// What is known of each place. It grows as the robot moves.
 ///
 /// A scan counts once in each cell: a return for it, otherwise a beam that passes against it. The
