@@ -224,7 +224,7 @@ std::vector<Onset> CommandedMotion::otherwise() const {
   return onsets;
 }
 
-bool CommandedMotion::actsAtOnce() const { return latency() <= kSameLatency; }
+bool CommandedMotion::actsAtOnce() const { return longer() <= kSameLatency; }
 
 RobotParameters CommandedMotion::believed() const {
   RobotParameters believed = robot_;
