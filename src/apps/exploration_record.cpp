@@ -32,7 +32,7 @@ ExplorationRecord::ExplorationRecord(const Simulation& simulation, const Eigen::
     : folder_(folder),
       parameters_(parameters),
       origin_(origin),
-      rawlog_(folder + "/run.rawlog", simulation.parameters().laser.range),
+      rawlog_(folder + "/" + kLog, simulation.parameters().laser.range),
       grid_(simulation.T_map_robot().position()),
       coverage_(simulation.world(), simulation.T_map_robot().position(),
                 simulation.parameters().robot.radius, simulation.parameters().laser.range),
@@ -79,7 +79,7 @@ void ExplorationRecord::writeTrajectory(const Simulation& simulation) const {
                   T_map_robot.theta);
     text += line;
   }
-  writeFile(folder_ + "/trajectory.csv", text);
+  writeFile(folder_ + "/" + kTrajectory, text);
 }
 
 void ExplorationRecord::writePoses(const Belief& belief) const {
@@ -87,7 +87,7 @@ void ExplorationRecord::writePoses(const Belief& belief) const {
   for (std::size_t k = 0; k < belief.trajectory().size(); ++k) {
     poses.push_back({truth_[k].time, seenFrom(-origin_, belief.trajectory()[k])});
   }
-  writeFile(folder_ + "/poses.csv", posesCsv(poses));
+  writeFile(folder_ + "/" + kPoses, posesCsv(poses));
 }
 
 void ExplorationRecord::writeCoverage() {
@@ -100,7 +100,7 @@ void ExplorationRecord::writeCoverage() {
     std::snprintf(line, sizeof line, "%.6f", curve.empty() ? 0.0 : curve[i]);
     text += (curve.empty() ? "" : line) + std::string("\n");
   }
-  writeFile(folder_ + "/coverage.csv", text);
+  writeFile(folder_ + "/" + kCoverage, text);
 }
 
 std::string ExplorationRecord::packedReplay(const Simulation& simulation,
@@ -172,6 +172,7 @@ void ExplorationRecord::write(const Simulation& simulation, const Explorer& expl
   writePoses(belief);
   writeCoverage();
   MapProducts all = products(simulation, explorer);
+  all.beside = {kPoses};
   all.replay = packedReplay(simulation, all.lines);
   if (const Slam* slam = belief.slam()) {
     all.graph = slam->keyFrames().graph;

@@ -24,9 +24,10 @@ struct GenerateOptions {
 void generate(const GenerateOptions& options) {
   FloorPlan plan = generateFloorPlan(options.kind, options.seed);
   if (!options.name.empty()) plan.name = options.name;
-  const std::string path = options.out + "/" + plan.name + ".yaml";
-  if (!options.force && std::filesystem::exists(path)) {
-    throw std::runtime_error(path + ": exists; --force overwrites it");
+  const std::string stem = options.out + "/" + plan.name, path = stem + ".yaml";
+  for (const char* ending : {".yaml", ".png", ".truth.csv"}) {
+    if (!options.force && std::filesystem::exists(stem + ending))
+      throw std::runtime_error(stem + ending + ": exists; --force overwrites it");
   }
   writeWorldFiles(plan, options.out);
   std::printf("%s\n", path.c_str());

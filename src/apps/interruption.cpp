@@ -2,6 +2,7 @@
 #include "interruption.hpp"
 
 #include <csignal>
+#include <cstdio>
 
 namespace cca::apps {
 namespace {
@@ -31,5 +32,9 @@ Interruption::~Interruption() {
 }
 
 bool Interruption::requested() const { return interrupted != 0; }
+
+void tellOfSaving() {
+  std::fputs("cca-mrpt: interrupted; saving what was mapped, once more abandons it\n", stderr);
+}
 
 }  // namespace cca::apps

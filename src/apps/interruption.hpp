@@ -15,4 +15,7 @@ class Interruption {
   bool requested() const;
 };
 
+/// Tells who interrupted a run what is going on, and what a second signal would do.
+void tellOfSaving();
+
 }  // namespace cca::apps

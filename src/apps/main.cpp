@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <csignal>
 #include <cstdio>
 #include <exception>
 #include <string>
@@ -11,6 +12,10 @@
 namespace {
 
 constexpr int kDone = 0, kRunFailed = 1, kUsage = 2, kFellShort = 3;
+const std::string kStatuses =
+    "Exit status: 0 done; 1 failed, or interrupted (what was mapped so far is saved);\n"
+    "2 no such command or option, or a value that is not allowed; 3 done, but the result\n"
+    "falls short, as the last message says (contacts, much that was not reached, ...).";
 
 /// MRPT's own errors are pages with a call stack; the cause stands behind "Message:".
 std::string withoutCallStack(const std::string& error) {
@@ -35,12 +40,14 @@ int withOutput(int status) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  std::signal(SIGXFSZ, SIG_IGN);  // a limit of file sizes is an error to tell of, as a full disk is
   CLI::App program{"Line maps from 2-D lasers, and exploration that brings them back", "cca-mrpt"};
   program.require_subcommand(1);
   program.set_version_flag("--version", "cca-mrpt " CCA_VERSION);
 #ifdef CCA_ROS
   cca::addBagLogs();
 #endif
+  std::string missing;
   cca::apps::addExploreCommand(program);
   cca::apps::addExtractCommand(program);
   cca::apps::addInfoCommand(program);
@@ -56,11 +63,12 @@ int main(int argc, char** argv) {
   cca::apps::addAblateCommand(program);
   cca::apps::addEvaluateCommand(program);
 #else
-  program.footer(
-      "This build has no ablate, evaluate, compare-extractors, compare-slam,\n"
+  missing =
+      "\n\nThis build has no ablate, evaluate, compare-extractors, compare-slam,\n"
       "compare-strategies and tune\n"
-      "(cmake -D CCA_WITH_EVIDENCE=ON, as launch_scripts/test.sh builds it).");
+      "(cmake -D CCA_WITH_EVIDENCE=ON, as launch_scripts/test.sh builds it).";
 #endif
+  program.footer(kStatuses + missing);
   if (argc > 1 && argv[1][0] != '-' && !isCommand(program, argv[1])) {
     std::fprintf(stderr, "%s is no command of cca-mrpt; see cca-mrpt --help\n", argv[1]);
     return kUsage;

@@ -84,6 +84,7 @@ void makeMap(const MapOptions& options, const Parameters& parameters) {
     }
   }();
   tellWarnings(options.logs.front(), mapped.warnings());
+  if (mapped.isInterrupted()) tellOfSaving();
   MapProducts map = mapped.products(parameters);
   const std::chrono::duration<double> mapping = std::chrono::steady_clock::now() - begin;
   map.summary["mapping_s"] = mapping.count();

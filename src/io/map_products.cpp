@@ -23,6 +23,12 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* kSummary = "summary.json";
+/// What writeMapFolder() writes always, and where the products hold it.
+constexpr const char* kAlways[] = {kSummary,         "lines.csv", "arcs.csv",
+                                   "lines.geojson",  "lines.svg", "lines.dxf",
+                                   "map.linemap.gz", "map.png",   "scene.3Dscene"};
+constexpr const char* kSometimes[] = {"map.pgm",   "map.yaml",  "map.gridmap.gz", "poses.csv",
+                                      "poses.tum", "graph.g2o", kMemoryFile,      "replay.html"};
 /// Names of files and what is found in damaged ones need not be UTF-8.
 constexpr auto kReplace = nlohmann::ordered_json::error_handler_t::replace;
 
@@ -55,13 +61,18 @@ std::vector<StampedPose> stamped(const std::vector<double>& times,
 
 }  // namespace
 
-FolderLock prepareMapFolder(const std::string& folder, bool overwrite) {
+FolderLock prepareMapFolder(const std::string& folder, bool overwrite,
+                            const std::vector<const char*>& beside) {
   makeFolder(folder);
-  const std::string summary = inFolder(folder, kSummary);
-  if (fs::exists(summary) && !overwrite) {
-    throw std::runtime_error(summary + ": there is a map already (--force overwrites it)");
-  }
-  AtomicFile probe(summary);  // fails now, not after the work
+  const auto requireNew = [&](const char* name) {
+    const std::string path = inFolder(folder, name);
+    if (!fs::exists(path) || overwrite) return;
+    throw std::runtime_error(path + ": is there already (--force overwrites it)");
+  };
+  for (const char* name : kAlways) requireNew(name);
+  for (const char* name : kSometimes) requireNew(name);
+  for (const char* name : beside) requireNew(name);
+  AtomicFile probe(inFolder(folder, kSummary));  // fails now, not after the work
   removeLeftovers(folder);
   return FolderLock(folder);
 }
@@ -94,28 +105,39 @@ void writeMapFolder(const std::string& folder, const MapProducts& products) {
   withdrawSummary(folder);
   const MapProducts map = seenFrom(-products.origin, products);
   const auto& [lines, poly_lines, trajectory] = std::tie(map.lines, map.poly_lines, map.trajectory);
-  writeFile(inFolder(folder, "lines.csv"), linesCsv(lines));
-  writeFile(inFolder(folder, "arcs.csv"), arcsCsv(map.arcs));
-  writeFile(inFolder(folder, "lines.geojson"),
-            linesGeoJson(lines, poly_lines, trajectory, map.arcs));
-  writeFile(inFolder(folder, "lines.svg"), linesSvg(lines, poly_lines, trajectory, map.arcs));
-  writeFile(inFolder(folder, "lines.dxf"), linesDxf(lines, poly_lines, trajectory, map.arcs));
+  std::vector<std::string> written = products.beside;
+  const auto put = [&](const char* name, const std::string& content) {
+    writeFile(inFolder(folder, name), content);
+    written.push_back(name);
+  };
+  put("lines.csv", linesCsv(lines));
+  put("arcs.csv", arcsCsv(map.arcs));
+  put("lines.geojson", linesGeoJson(lines, poly_lines, trajectory, map.arcs));
+  put("lines.svg", linesSvg(lines, poly_lines, trajectory, map.arcs));
+  put("lines.dxf", linesDxf(lines, poly_lines, trajectory, map.arcs));
   writeLineMap(inFolder(folder, "map.linemap.gz"), lines);
   if (products.grid) {
     writeOccupancyMap(inFolder(folder, "map"), *products.grid, products.origin);
     writeGridMap(inFolder(folder, "map.gridmap.gz"), *products.grid);
+    written.insert(written.end(), {"map.pgm", "map.yaml", "map.gridmap.gz"});
   }
   writePicture(inFolder(folder, "map.png"), products);
   writeScene(inFolder(folder, "scene.3Dscene"), products);
   if (!map.times.empty()) {
     const std::vector<StampedPose> poses = stamped(map.times, trajectory);
-    writeFile(inFolder(folder, "poses.csv"), posesCsv(poses));
-    writeFile(inFolder(folder, "poses.tum"), posesTum(poses));
+    put("poses.csv", posesCsv(poses));
+    put("poses.tum", posesTum(poses));
   }
-  if (map.graph.size() > 0) writeFile(inFolder(folder, "graph.g2o"), graphG2o(map.graph));
-  if (!map.memory.empty()) writeFile(inFolder(folder, kMemoryFile), map.memory);
-  if (!map.replay.empty()) writeFile(inFolder(folder, "replay.html"), replayPage({map.replay}));
-  writeFile(inFolder(folder, kSummary), summarize(products).dump(2, ' ', false, kReplace) + "\n");
+  if (map.graph.size() > 0) put("graph.g2o", graphG2o(map.graph));
+  if (!map.memory.empty()) put(kMemoryFile, map.memory);
+  if (!map.replay.empty()) put("replay.html", replayPage({map.replay}));
+  // What an earlier run left would be taken for this one's.
+  for (const char* name : kSometimes) {
+    std::error_code none_there;
+    if (std::find(written.begin(), written.end(), name) == written.end())
+      fs::remove(inFolder(folder, name), none_there);
+  }
+  put(kSummary, summarize(products).dump(2, ' ', false, kReplace) + "\n");
 }
 
 }  // namespace cca

@@ -69,7 +69,7 @@ for w in walls:
     on = all(abs(abs(y) - 3) < 0.02 for y in w[1::2]) or all(abs(x - 6) < 0.02 for x in w[0::2])
     assert on, w
 END
-refuses 1 "there is a map already" "$program" map room.log --out map
+refuses 1 "is there already" "$program" map room.log --out map
 check "--force overwrites" "$program" map room.log --out map --force
 check "the same log gives the same bytes" "$program" map room.log.gz --out again --quiet
 for file in lines.csv arcs.csv lines.geojson lines.svg lines.dxf map.pgm map.png; do

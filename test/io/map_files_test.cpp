@@ -201,6 +201,37 @@ TEST(MapFolder, IsNotOverwrittenUnasked) {
   EXPECT_NO_THROW(static_cast<void>(prepareMapFolder(folder.path(), true)));
 }
 
+// A world's map.pgm, or a log of somebody's own, in a folder that holds no map.
+TEST(MapFolder, NoFileThatIsThereIsOverwrittenUnasked) {
+  for (const char* name : {"map.pgm", "lines.csv", "run.rawlog"}) {
+    const TemporaryFolder folder;
+    std::ofstream(folder / name) << "mine";
+    try {
+      static_cast<void>(prepareMapFolder(folder.path(), false, {"run.rawlog"}));
+      FAIL() << name;
+    } catch (const std::runtime_error& error) {
+      EXPECT_NE(std::string(error.what()).find(name), std::string::npos) << error.what();
+    }
+    EXPECT_NO_THROW(static_cast<void>(prepareMapFolder(folder.path(), true, {"run.rawlog"})));
+    EXPECT_EQ(bytesOf(folder / name), "mine");
+  }
+}
+
+TEST(MapFolder, HoldsNothingOfTheMapThatItHeldBefore) {
+  const TemporaryFolder folder;
+  for (const char* name : {"map.slam", "poses.tum", "graph.g2o", "poses.csv", "run.rawlog"}) {
+    std::ofstream(folder / name) << "earlier";
+  }
+  MapProducts products = corner();
+  products.memory = {};
+  products.times = {};
+  products.beside = {"poses.csv"};
+  writeMapFolder(folder.path(), products);
+  for (const char* name : {"map.slam", "poses.tum"})
+    EXPECT_FALSE(fs::exists(folder / name)) << name;
+  for (const char* name : {"poses.csv", "run.rawlog"}) EXPECT_TRUE(fs::exists(folder / name));
+}
+
 TEST(MapFolder, AFileInItsPlaceIsNamed) {
   const TemporaryFolder folder;
   std::ofstream(folder / "file") << "x";

@@ -29,9 +29,10 @@ struct MapProducts {
   Eigen::Vector2d origin = Eigen::Vector2d::Zero();
   /// s, of each pose of the trajectory, for poses.csv and poses.tum; empty: no such files.
   std::vector<double> times;
-  PoseGraph graph;     ///< for graph.g2o; empty: no such file
-  std::string memory;  ///< packedMemory(), for map.slam; empty: no such file
-  std::string replay;  ///< Replay::packed(), for replay.html; empty: no such file
+  PoseGraph graph;                  ///< for graph.g2o; empty: no such file
+  std::string memory;               ///< packedMemory(), for map.slam; empty: no such file
+  std::string replay;               ///< Replay::packed(), for replay.html; empty: no such file
+  std::vector<std::string> beside;  ///< names of files that the run has written there itself
   /// Goes into summary.json, in this order, followed by the map's own numbers.
   nlohmann::ordered_json summary = nlohmann::ordered_json::object();
 };
@@ -42,7 +43,8 @@ struct MapProducts {
 /// grid and scene hold single-precision numbers and stay in the products' frame; where that is not
 /// the map frame, summary.json has its place as `frame_origin_m`.
 ///
-/// The folder is made where it is missing. Each file appears whole or not at all.
+/// The folder is made where it is missing. Each file appears whole or not at all; those of this
+/// list that the products do not hold are removed.
 /// @throws std::runtime_error naming the file and the reason.
 void writeMapFolder(const std::string& folder, const MapProducts& products);
 
@@ -53,9 +55,11 @@ MapProducts seenFrom(const Eigen::Vector2d& p_frame, MapProducts products);
 void withdrawSummary(const std::string& folder);
 
 /// Makes the folder for a run's files, before the work is done.
+/// @param beside  names of files that the run writes there itself.
 /// @return  to be kept while the run writes there.
 /// @throws std::runtime_error where it cannot be made or written to, where another run is writing
-///         to it, and where it already holds a run's summary.json and overwriting is not allowed.
-[[nodiscard]] FolderLock prepareMapFolder(const std::string& folder, bool overwrite);
+///         to it, and where one of the files is there already and overwriting is not allowed.
+[[nodiscard]] FolderLock prepareMapFolder(const std::string& folder, bool overwrite,
+                                          const std::vector<const char*>& beside = {});
 
 }  // namespace cca
