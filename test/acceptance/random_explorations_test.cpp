@@ -273,6 +273,17 @@ TEST(RandomExplorations, WithLateCommandsTouchNoCorner) {
   EXPECT_EQ(outcome.runs, 2);
 }
 
+// Until a command acts, walkers come nearer.
+TEST(RandomExplorations, AmongMoversWithLateCommandsTheDrivingRobotTouchesNobody) {
+  for (const double latency : {0.15, 0.3}) {
+    exploreAll(3, [&](int seed) {
+      Trial trial = amongMovers(seed);
+      trial.robot.latency = trial.told.latency = latency;
+      return trial;
+    });
+  }
+}
+
 TEST(RandomExplorations, WithCommandsLaterThanToldEndAndTouchNothing) {
   exploreAll(3, [](int seed) { return ofLateRobot(seed, 0.15, 0.0); });
 }

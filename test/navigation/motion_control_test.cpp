@@ -94,6 +94,24 @@ TEST(SafeVelocity, StopsBeforeAWallAtFullSpeed) {
   EXPECT_GT(pose.x, 2.0 - kRadius - 0.35) << "without giving the way away";
 }
 
+// Until a late command acts, somebody comes nearer by what its latency takes.
+TEST(SafeVelocity, OfALateRobotHeedsWhoIsStillFarOff) {
+  const Hazard walker{{0.6, 0.0}, 1.0, -0.3};
+  EXPECT_EQ(safeVelocity({0.7, 0.0}, {0, 0}, {walker}, kRobot, kRadius, kPeriod, kBrakes).linear,
+            0.0);
+}
+
+TEST(SafeVelocity, StaysWithinTheLimitsWhateverIsMeasured) {
+  const double inf = std::numeric_limits<double>::infinity();
+  for (const Velocity measured :
+       {Velocity{10.0, 50.0}, Velocity{-10.0, -50.0}, Velocity{inf, -inf}}) {
+    const Velocity command =
+        safeVelocity({0.3, 0.0}, measured, {}, kRobot, kRadius, kPeriod, kBrakes);
+    EXPECT_LE(std::abs(command.linear), kRobot.max_linear_velocity);
+    EXPECT_LE(std::abs(command.angular), kRobot.max_angular_velocity);
+  }
+}
+
 // Somebody who pushes against the standing robot: not even slowly may it go nearer.
 TEST(SafeVelocity, WhatTouchesTheRobotComesNoNearer) {
   for (double bearing = 0.0; bearing <= M_PI; bearing += 0.1) {

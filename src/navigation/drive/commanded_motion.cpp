@@ -24,6 +24,7 @@ constexpr double kForget = 0.99;                       // of the sums, an observ
 constexpr double kLongestPending = 0.7;                // s, longer than any latency that is learned
 constexpr double kUnbraked = 0.5, kHardBraking = 0.6;  // of the brakes, before the robot has braked
 
+constexpr double kOverSpeed = 1.5;     // of full speed: what says more is broken
 constexpr double kSameLatency = 0.05;  // s: half a control period, which safeVelocity() allows for
 
 constexpr double kShortestPeriod = 0.1, kLongestPeriod = 1.0;  // s
@@ -185,8 +186,12 @@ void CommandedMotion::changeMotion(const RobotParameters& robot) {
 }
 
 void CommandedMotion::observe(const Velocity& measured, double time) {
-  shown_.observe(sent_, measured, time);
-  measured_ = measured;
+  const bool can_be = std::abs(measured.linear) < kOverSpeed * robot_.max_linear_velocity &&
+                      std::abs(measured.angular) < kOverSpeed * robot_.max_angular_velocity;
+  if (can_be) {
+    shown_.observe(sent_, measured, time);
+    measured_ = measured;
+  }
   if (time_ >= 0.0) intervals_.push_back(time - time_);
   if (intervals_.size() > kIntervals) intervals_.pop_front();
   time_ = time;
@@ -224,7 +229,7 @@ std::vector<Onset> CommandedMotion::otherwise() const {
   return onsets;
 }
 
-bool CommandedMotion::actsAtOnce() const { return longer() <= kSameLatency; }
+bool CommandedMotion::actsAtOnce() const { return latency() <= kSameLatency; }
 
 RobotParameters CommandedMotion::believed() const {
   RobotParameters believed = robot_;

@@ -90,7 +90,8 @@ std::vector<Hazard> hazardsInReach(const std::vector<Hazard>& hazards, double sp
   const double stopping = off + v_max * period + 0.5 * v_max * v_max / brakes.linear;
   std::vector<Hazard> near;
   for (const Hazard& hazard : hazards) {
-    const double reach = radius + stopping + hazard.closing_speed * (delay + time);
+    const double reach =
+        radius - hazard.allowance + stopping + hazard.closing_speed * (delay + time);
     if (hazard.p_robot.squaredNorm() < reach * reach) near.push_back(hazard);
   }
   return near;
@@ -155,7 +156,11 @@ Velocity safeVelocity(const Velocity& wanted, const Velocity& present,
   const auto reachable = [&](double v, double w) {
     v = std::clamp(v, 0.0, robot.max_linear_velocity);
     w = std::clamp(w, -robot.max_angular_velocity, robot.max_angular_velocity);
-    return Velocity{towards(present.linear, v, dv), towards(present.angular, w, dw)};
+    // What is measured may be beyond the limits.
+    return Velocity{std::clamp(towards(present.linear, v, dv), -robot.max_linear_velocity,
+                               robot.max_linear_velocity),
+                    std::clamp(towards(present.angular, w, dw), -robot.max_angular_velocity,
+                               robot.max_angular_velocity)};
   };
   const auto near = hazardsInReach(hazards, present.linear + dv, radius, period, brakes, others);
   const Velocity braking = reachable(0.0, 0.0);

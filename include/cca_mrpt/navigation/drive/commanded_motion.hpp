@@ -103,23 +103,23 @@ class CommandedMotion {
   /// See Explorer::changeMotion().
   void changeMotion(const RobotParameters& robot);
 
-  /// To be called before the command for this moment is chosen. @param measured  velocity now.
+  /// To be called before the command for this moment is chosen. @param measured  velocity now; what
+  /// no robot of these limits can have (half as fast again, or not finite) is passed over.
   /// @param time  s, never falling.
   void observe(const Velocity& measured, double time);
   /// The command that goes out at the time of the last observation; the last word counts.
   void note(const Velocity& command) { sent_.add(command, time_); }
 
-  /// The command chosen now acts here.
+  /// The command chosen now acts here: after the robot's latency, or the one it has shown,
+  /// whichever is longer.
   Onset expected() const { return after(latency()); }
-  /// The same if it acted as early, and as late, as is still possible or was told (the odometry of
-  /// some bases is but an echo of what they are to do); empty where these lie close together.
+  /// The same if it acted as early, and as late, as is still possible; empty where that is known.
   std::vector<Onset> otherwise() const;
 
   /// The robot's parameters, with accelerations that it can brake with.
   RobotParameters believed() const;
-  /// s: what the robot has shown; until that is known the longer of it and what was told.
-  double latency() const { return shown_.knowsLatency() ? shown_.latency() : longer(); }
-  /// Whether what was told and what was shown is no more than safeVelocity() allows for anyway.
+  double latency() const { return std::max(robot_.latency, shown_.latency()); }  ///< s
+  /// Whether that is no more than what safeVelocity() allows for anyway.
   bool actsAtOnce() const;
   double time() const { return time_; }  ///< s, of the last observation
   /// s, how long a command stands until the next one: the longest time between two of the last six
@@ -129,7 +129,6 @@ class CommandedMotion {
 
  private:
   Onset after(double latency) const;
-  double longer() const { return std::max(robot_.latency, shown_.latency()); }  ///< s
 
   RobotParameters robot_;
   SentCommands sent_;
