@@ -93,6 +93,19 @@ TEST(NarrowPassages, AreDrivenThroughWithoutHesitation) {
 }
 
 // Much of these can only be looked into, from a few places; which, the noise decides.
+// As near to both walls as it may stand: noise shuts all cells around the robot, but for single
+// ones.
+TEST(Corners, AreLeft) {
+  for (int seed = 1; seed <= 4; ++seed) {
+    const Result maze = explore(shipped("maze"), {0.37, 0.37, 0.0}, seed, 900.0);
+    EXPECT_GE(maze.coverage, 0.99) << seed << ": " << maze.reason;
+    EXPECT_EQ(maze.collisions, 0);
+    const Result rooms = explore(shipped("two_rooms"), {0.47, 0.46, 0.0}, seed, 300.0);
+    EXPECT_GE(rooms.coverage, 0.99) << seed << ": " << rooms.reason;
+    EXPECT_EQ(rooms.collisions, 0);
+  }
+}
+
 TEST(CrowdedPlaces, AreLookedIntoFromWhereverTheRobotCanGo) {
   constexpr int kWorlds = 15;
   double sum = 0.0;

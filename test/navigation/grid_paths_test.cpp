@@ -50,7 +50,7 @@ TEST(DistanceField, ReachesWhatAFloodOverCellsReaches) {
     if (!nearestTraversable(known.space, {40, 40}, 20, start)) continue;
     DistanceField field;
     field.search(known.space, kResolution, start);
-    auto reached = reachedByFlood(known.space, start);
+    auto reached = reachedByFlood(known.space, field.start());
     int differ = 0, cells = 0;
     for (int y = 0; y < 80; ++y) {
       for (int x = 0; x < 80; ++x) {
@@ -128,6 +128,29 @@ TEST(DistanceField, DoesNotCrossAWallOneCellThin) {
   field.search(known.space, kResolution, {5, 5});
   EXPECT_TRUE(field.isReached({19, 30}));
   EXPECT_FALSE(field.isReached({21, 30}));
+}
+
+// Noise may leave the cell of a robot in a corner open by itself.
+TEST(DistanceField, BeginsBesideASingleCellThatLeadsNowhere) {
+  Known known({std::vector<std::string>(20, std::string(20, '.'))}, 0.27);
+  known.space.pass({2, 2});
+  DistanceField field;
+  field.search(known.space, kResolution, {2, 2});
+  EXPECT_EQ(field.start(), (Cell{5, 5}));
+  EXPECT_TRUE(field.isReached({14, 14}));
+}
+
+// A small robot in a cupboard of its own is not outside of it.
+TEST(DistanceField, DoesNotBeginBehindAWall) {
+  const Known known({{"............", "............", "............", "............",  //
+                      "###.........", "..#.........", "..#.........", "..#........."},
+                     1},
+                    0.01);
+  ASSERT_TRUE(known.space.isTraversable({1, 1}));
+  DistanceField field;
+  field.search(known.space, kResolution, {1, 1});
+  EXPECT_EQ(field.start(), (Cell{1, 1}));
+  EXPECT_FALSE(field.isReached({11, 7}));
 }
 
 TEST(DistanceField, StopsAtItsHorizon) {

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cca_mrpt/navigation/place/frontier.hpp"
 #include "cca_mrpt/navigation/place/grid_paths.hpp"
 
 namespace cca {
@@ -52,6 +53,59 @@ unsigned onwardFrom(std::size_t d) {
   return 1u << d | 1u << sides[0] | 1u << sides[1];
 }
 
+/// Whether a way leads from a cell out of a square around a place. @param seen  takes its cells.
+bool leadsAway(const FreeSpace& space, Cell from, Cell centre, int reach, CellSet& seen) {
+  std::vector<Cell> open{from};
+  seen.insert(from);
+  while (!open.empty()) {
+    const Cell c = open.back();
+    open.pop_back();
+    if (squareDistance(c, centre) >= reach) return true;
+    for (std::size_t d = 0; d < 4; ++d) {
+      const Cell next = c + kNeighbours[d];
+      if (!space.isTraversable(next) || seen.contains(next)) continue;
+      seen.insert(next);
+      open.push_back(next);
+    }
+  }
+  return false;
+}
+
+/// Whether no obstacle is known between two cells.
+bool isFreeBetween(const FreeSpace& space, Cell from, Cell to) {
+  const Eigen::Vector2d line = middleOf(to) - middleOf(from);
+  bool is_free = true;
+  if (from == to) return true;
+  walkBeam(middleOf(from), line.normalized(), line.norm(), [&](Cell c, double) {
+    is_free = !space.isObstacle(c);
+    return is_free;
+  });
+  return is_free;
+}
+
+/// The nearest traversable cell that a way leads away from; where there is none the nearest one.
+/// Around a robot that stands too near to something, noise may leave single cells open.
+bool findStart(const FreeSpace& space, Cell robot, int reach, Cell& start) {
+  if (!nearestTraversable(space, robot, reach, start)) return false;
+  CellSet seen;
+  if (leadsAway(space, start, robot, reach, seen)) return true;
+  std::vector<Cell> others;
+  for (int y = robot.y - reach; y <= robot.y + reach; ++y) {
+    for (int x = robot.x - reach; x <= robot.x + reach; ++x) {
+      if (space.isTraversable({x, y})) others.push_back({x, y});
+    }
+  }
+  std::stable_sort(others.begin(), others.end(), [&](Cell a, Cell b) {
+    return distanceBetween(a, robot) < distanceBetween(b, robot);
+  });
+  const auto other = std::find_if(others.begin(), others.end(), [&](Cell c) {
+    return !seen.contains(c) && isFreeBetween(space, robot, c) &&
+           leadsAway(space, c, robot, reach, seen);
+  });
+  if (other != others.end()) start = *other;
+  return true;
+}
+
 }  // namespace
 
 void DistanceField::search(const FreeSpace& space, double resolution, Cell start, double horizon,
@@ -67,7 +121,7 @@ void DistanceField::begin(const FreeSpace& space, double resolution, Cell start,
   for (auto& bucket : queue_) bucket.clear();
   waiting_ = 0;
   settled_up_to_ = 0;
-  started_ = nearestTraversable(space, start, static_cast<int>(kStartReach / resolution), start_);
+  started_ = findStart(space, start, static_cast<int>(kStartReach / resolution), start_);
   if (!started_) return;
   const Cell first = FreeSpace::blockOf(start_);
   relax(nodes_[first], {first, space.traversableCells(first), FreeSpace::bitOf(start_)}, 0);

@@ -56,6 +56,9 @@ class FreeSpace {
   /// Like isTraversable, for each cell of a block: bit 4 (y mod 4) + (x mod 4).
   unsigned traversableCells(Cell block) const { return blocks_.at(block); }
 
+  /// Whether it is occupied, not merely too near to what is.
+  bool isObstacle(Cell c) const { return cells_.at(c).state == CellState::kOccupied; }
+
   double clearance() const { return clearance_; }
 
  private:

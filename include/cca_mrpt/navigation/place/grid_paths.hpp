@@ -22,8 +22,9 @@ class DistanceField {
  public:
   static constexpr double kUnreached = std::numeric_limits<double>::infinity();
 
-  /// Searches anew. @param start    a cell; where it is not traversable, the nearest one within
-  ///                                half a metre that is; else nothing is reached.
+  /// Searches anew. @param start    a cell; where it is not traversable, or no way leads half a
+  ///                                metre away from it, the nearest one within half a metre where
+  ///                                that is otherwise; else nothing is reached.
   /// @param horizon  m, paths longer than this are not searched.
   /// @param until    the search may end as soon as the way to this cell is known; other ways are
   ///                 then known only as far as they are not longer.
