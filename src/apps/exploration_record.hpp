@@ -28,7 +28,11 @@ class ExplorationRecord {
     /// m^2 in view at the end where the robot could stand, and no way was found to.
     double unreached = 0.0;
     bool leaves_much = false;  ///< see Explorer::leavesMuch()
+    bool gave_up = false;      ///< see Plan
   };
+
+  /// Names of the files of its own, beside those of a map.
+  static std::vector<const char*> files() { return {kLog, kTrajectory, kCoverage}; }
 
   /// @param parameters  as they are told in summary.json.
   /// @param origin  m, map frame: where the simulation's frame lies; files are in the map frame.
@@ -63,6 +67,8 @@ class ExplorationRecord {
   MapProducts products(const Simulation& simulation, const Explorer& explorer) const;
 
  private:
+  static constexpr const char *kLog = "run.rawlog", *kTrajectory = "trajectory.csv",
+                              *kCoverage = "coverage.csv", *kPoses = "poses.csv";
   struct Look {
     double time, distance;
   };

@@ -180,7 +180,8 @@ ExplorationRecord::End drive(Simulation& simulation, Explorer& explorer, Explora
     }
     if (action.status == ExplorationStatus::kFinished) {
       beside.wait();
-      return {true, action.reason, 0.0, explorer.planner().plan().unreached, explorer.leavesMuch()};
+      const Plan& plan = explorer.planner().plan();
+      return {true, action.reason, 0.0, plan.unreached, explorer.leavesMuch(), plan.gave_up};
     }
     simulation.drive(action.velocity, run.control_period);
     if (window && window->isDue()) {
@@ -218,6 +219,7 @@ std::string shortcomings(const Simulation& simulation, const Explorer& explorer,
     std::snprintf(part, sizeof part, "%d contacts with what stands", simulation.collisions());
     tell(part);
   }
+  if (end.gave_up) tell(end.reason);
   if (end.leaves_much) {
     std::snprintf(part, sizeof part, "%.1f m^2 in view that no way was found to", end.unreached);
     tell(part);
@@ -272,7 +274,7 @@ void explore(const ExploreOptions& options, const Parameters& parameters) {
   std::unique_ptr<ExplorationWindow> window;
   if (options.gui) window = openWindow(simulation.world());
   const std::string folder = chooseFolder(options, simulation.world().name);
-  const FolderLock lock = prepareMapFolder(folder, options.force);
+  const FolderLock lock = prepareMapFolder(folder, options.force, ExplorationRecord::files());
   Explorer explorer(parameters.mapping, parameters.robot, parameters.exploration);
   ExplorationRecord record(simulation, scene.origin, parameters, folder);
   Belief belief(parameters, simulation.T_map_robot());
@@ -283,6 +285,7 @@ void explore(const ExploreOptions& options, const Parameters& parameters) {
   auto end = drive(simulation, explorer, record, belief, parameters.run, interruption,
                    progress.get(), window.get());
   progress.reset();
+  if (interruption.requested()) tellOfSaving();
   if (belief.finish()) correctMap(belief.past(), belief.remembered(), explorer, record);
   tellOfMemory(options, belief);
   awaitCoverage(record.coverage(), interruption);

@@ -60,6 +60,12 @@ std::vector<Eigen::Vector2d> obstaclesAround(const ExplorationGrid& grid,
   return obstacles;
 }
 
+using Way = std::vector<Eigen::Vector2d>;
+
+bool isFinite(const Pose2& pose) {
+  return pose.position().allFinite() && std::isfinite(pose.theta);
+}
+
 /// Whether a beam goes where a place lies, however far.
 bool looksTowards(const Scan& scan, const Eigen::Vector2d& p_map) {
   if (scan.size() == 0) return false;
@@ -140,17 +146,28 @@ Action Explorer::navigate(const Observation& observation) {
   return action;
 }
 
+void Explorer::excuse(double time) {
+  progress_.excuse(time);
+  tangent_bug_.excuse(time);
+}
+
 Action Explorer::decide(const Observation& observation) {
   const Eigen::Vector2d robot = observation.T_map_robot.position();
-  if (!T_map_start_ && robot.allFinite()) T_map_start_ = observation.T_map_robot;
-  if (!observation.hazards.empty()) planner_.place().heed(observation.hazards);
+  if (!isFinite(observation.T_map_robot) || !isFinite(observation.scan.T_map_sensor)) {
+    excuse(observation.time);
+    return {{}, {}, ExplorationStatus::kExploring, "waiting for a pose that is a number"};
+  }
+  if (!T_map_start_) T_map_start_ = observation.T_map_robot;
+  if (observation.is_placed && !observation.hazards.empty()) {
+    planner_.place().heed(observation.hazards);
+  }
   if (is_paused_) {
     if (observation.is_placed) planner_.place().observe(observation.scan, robot);
-    progress_.excuse(observation.time);
+    excuse(observation.time);
     return {{}, {}, ExplorationStatus::kPaused, "paused"};
   }
   if (leaves_driving_ && !observation.is_placed) {
-    progress_.excuse(observation.time);
+    excuse(observation.time);
     return {{}, {}, ExplorationStatus::kExploring, "waiting until the pose is known again"};
   }
   if (is_returning_ != was_returning_) outcome_.reset();  // that of another goal
@@ -194,11 +211,7 @@ Action Explorer::explore(const Observation& observation) {
   const bool is_last = next + 1 == plan.path.size();
   action.velocity = driveTo(plan.path[next], observation);
   const TangentBugState state = tangent_bug_.state();
-  // What a narrow laser does not look at is known by cells, which may leave no way at all.
-  if (state != TangentBugState::kReached && !tangent_bug_.target() &&
-      !looksTowards(observation.scan, plan.path[next])) {
-    turnTowards(plan.path[next], observation.T_map_robot, action);
-  }
+  turnToWayPoint(plan.path[next], observation, action);
   const bool has_failed = state == TangentBugState::kUnreachable || is_overdue;
   if (has_failed || (!goes_straight && progress_.isStuck(observation.time))) {
     const bool goes_around = planner_.goAround(progress_.shortest());
@@ -229,6 +242,15 @@ void Explorer::heedOutcome(const Eigen::Vector2d& robot_map) {
   }
 }
 
+// What a narrow laser does not look at is known by cells, which may leave no way at all.
+void Explorer::turnToWayPoint(const Eigen::Vector2d& way_point_map, const Observation& observation,
+                              Action& action) const {
+  const bool has_way =
+      tangent_bug_.state() == TangentBugState::kReached || tangent_bug_.target().has_value();
+  if (has_way || looksTowards(observation.scan, way_point_map)) return;
+  turnTowards(way_point_map, observation.T_map_robot, action);
+}
+
 void Explorer::turnTowards(const Eigen::Vector2d& p_map, const Pose2& T_map_robot,
                            Action& action) const {
   turnOnTheSpot(velocityTowards(T_map_robot.inverse() * p_map, true, robot_).angular, action);
@@ -243,7 +265,8 @@ void Explorer::turnOnTheSpot(double rate, Action& action) const {
 // A disc may always turn. Should something hold it nevertheless, then not for ever.
 Action Explorer::lookAround(const Observation& observation) {
   const Pose2& T = observation.T_map_robot;
-  progress_.note(kTurnNumber, {T.position()}, observation.time);
+  const double turn = 2.0 * M_PI / (kLookAround * robot_.max_angular_velocity);
+  progress_.note(kTurnNumber, {T.position()}, observation.time, turn);
   if (progress_.isOverdue(observation.time)) planner_.noteLookAround(T.position());
   Action action{{}, T.position(), ExplorationStatus::kExploring, planner_.plan().reason};
   if (leaves_driving_) {
@@ -260,20 +283,27 @@ Action Explorer::lookAround(const Observation& observation) {
 Action Explorer::goHome(const Observation& observation) {
   const Eigen::Vector2d robot = observation.T_map_robot.position(),
                         start = T_map_start_->position();
-  planner_.place().observe(observation.scan, robot);
+  if (observation.is_placed) planner_.place().observe(observation.scan, robot);
   const std::string why = why_finished_.empty() ? "called back" : why_finished_;
   const bool is_back = leaves_driving_ && outcome_ == DriveOutcome::kReached;
   if ((robot - start).norm() < kHome || is_back)
     return {{}, {}, ExplorationStatus::kFinished, why + "; back at the start"};
   const auto path = planner_.pathTo(robot, start);
-  progress_.note(kHomeNumber, path, observation.time);
-  if (path.empty() || progress_.isOverdue(observation.time) || outcome_ == DriveOutcome::kFailed)
+  // Who stands in the way for a moment may leave: a place that there is no way from has time, too.
+  progress_.note(kHomeNumber, path.empty() ? Way{robot, start} : path, observation.time);
+  if (progress_.isOverdue(observation.time) || outcome_ == DriveOutcome::kFailed)
     return {{}, {}, ExplorationStatus::kFinished, why + "; the way back to the start is blocked"};
   Action action{{}, start, ExplorationStatus::kReturning, "back to the start", T_map_start_->theta};
-  if (leaves_driving_) return action;
+  if (leaves_driving_ || path.empty()) return action;
   const std::size_t next = nextWayPoint(path, robot);
-  action.velocity = driveTo(next + 1 < path.size() ? path[next] : start, observation);
-  if (progress_.isStuck(observation.time)) planner_.place().bar(progress_.shortest());
+  const Eigen::Vector2d way_point = next + 1 < path.size() ? path[next] : start;
+  action.velocity = driveTo(way_point, observation);
+  turnToWayPoint(way_point, observation, action);
+  if (tangent_bug_.state() == TangentBugState::kUnreachable ||
+      progress_.isStuck(observation.time)) {
+    planner_.place().bar(progress_.shortest());
+    way_point_.reset();
+  }
   return action;
 }
 

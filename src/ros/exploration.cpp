@@ -103,6 +103,7 @@ void Exploration::tell(const Action& action) {
 void Exploration::finish(const ros::Time& stamp) {
   finished_ = true;
   publisher_.showAll(explorer_, *record_.grid.grid(), stamp);
+  if (explorer_.planner().plan().gave_up) ROS_WARN("%s", explorer_.planner().plan().reason.c_str());
   if (explorer_.leavesMuch()) {
     ROS_WARN("%.1f m^2 in view were not reached: no way was found to them",
              explorer_.planner().plan().unreached);

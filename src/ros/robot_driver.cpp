@@ -18,7 +18,7 @@ constexpr double kOldestOdometry = 0.3;  // s
 constexpr double kWorthTelling = 0.05;   // s, that commands act later than told
 // m, around the robot, of what other lasers see: it stands long before, from any speed.
 constexpr double kHeededBeside = 4.0;
-constexpr double kThinned = 0.02;      // m, between neighbours
+constexpr double kThinned = 0.004;     // m, between neighbours: well below the margin that is kept
 const ros::WallDuration kInsist(1.0);  // zero is said for so long, then others may drive
 
 /// The fixed frame of scans.
@@ -166,6 +166,7 @@ void RobotDriver::use(PlacedScan placed) {
       return exploration_.conclude(placed.stamp);
     }
     if (slam_->place(placed)) {
+      standWhileCorrecting();
       exploration_.correct(slam_->past(), slam_->way(), slam_->remembered());
     }
     exploration_.note("loops", slam_->loops());
@@ -182,6 +183,8 @@ void RobotDriver::use(PlacedScan placed) {
     if (exploration_.drives()) waitForLaser(*silent);
     return stand();
   }
+  // By a scan that has become old meanwhile nobody drives.
+  if ((ros::WallTime::now() - begin).toSec() > settings_.scan_timeout) return;
   explore(placed, placed.T_fixed_robot * T_fixed_robot.inverse());
   diagnostics_.scanUsed((ros::WallTime::now() - begin).toSec(), exploration_.agreement());
 }
@@ -195,6 +198,7 @@ void RobotDriver::makeLastPass() {
 
 void RobotDriver::correctByOthers(const PlacedScan& placed) {
   if (!outer_->take(placed)) return;
+  standWhileCorrecting();
   exploration_.correct(outer_->past(), outer_->way());
   hazards_.move(outer_->past().correctionHere());
   for (Beside& beside : beside_) beside.points.clear();  // the next are a tenth of a second away
@@ -281,6 +285,12 @@ void RobotDriver::stand() {
   } else {
     command({});
   }
+}
+
+// Correcting the past takes a second where the map is large; nobody else would stop the robot.
+// move_base drives on by its own.
+void RobotDriver::standWhileCorrecting() {
+  if (!move_base_) stand();
 }
 
 void RobotDriver::command(const Velocity& velocity) {

@@ -68,6 +68,7 @@ class RobotDriver {
   /// Why the robot cannot be driven; nullptr where it can.
   const char* deaf() const;
   void stand();
+  void standWhileCorrecting();
   void command(const Velocity& velocity);
   Velocity measuredVelocity(const ros::Time& stamp) const;
   void checkLatency();

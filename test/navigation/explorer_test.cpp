@@ -300,9 +300,65 @@ TEST(Explorer, APauseIsNoTimeForLookingAround) {
   explorer.pause(true);
   EXPECT_EQ(reasonAt(100.0), "paused");
   explorer.pause(false);
-  for (const double time : {110.0, 129.9}) EXPECT_EQ(reasonAt(time), "to look around") << time;
-  reasonAt(130.1);
-  EXPECT_NE(reasonAt(130.2), "to look around");
+  for (const double time : {110.0, 138.3}) EXPECT_EQ(reasonAt(time), "to look around") << time;
+  reasonAt(138.5);
+  EXPECT_NE(reasonAt(138.6), "to look around");
+}
+
+TEST(Explorer, LooksAllAroundHoweverSlowlyItTurns) {
+  RobotParameters slow;
+  slow.max_angular_velocity = 0.1;
+  Explorer explorer({}, slow, {});
+  const Scan scan = ahead(kRooms.scanFrom(kStart, 4.0), 0.8);
+  for (const double time : {0.0, 60.0, 120.0, 150.0})
+    EXPECT_EQ(explorer.step({scan, kStart, {}, time}).reason, "to look around") << time;
+}
+
+TEST(Explorer, StandsWherePosesAreNoNumbers) {
+  const double nan = std::nan(""), inf = INFINITY;
+  Explorer explorer({}, {}, {});
+  double time = 0.0;
+  for (const Pose2 pose : {Pose2{nan, 1.0, 0.0}, Pose2{1.0, inf, 0.0}, Pose2{1.0, 1.0, nan}, kStart,
+                           Pose2{nan, nan, nan}, Pose2{inf, 1.0, 0.0}}) {
+    const Scan scan = kRooms.scanFrom(kStart, 4.0);
+    const Action action = explorer.step({scan, pose, {0.3, 0.1}, time += 0.1});
+    EXPECT_EQ(action.status, ExplorationStatus::kExploring);
+    EXPECT_TRUE(std::isfinite(action.velocity.linear + action.velocity.angular));
+    if (pose.x != kStart.x || !std::isfinite(pose.y + pose.theta)) {
+      EXPECT_EQ(action.velocity.linear, 0.0);
+    }
+  }
+}
+
+TEST(Explorer, AddsNothingOnItsWayHomeWhileItsPoseIsUnknown) {
+  Driver driver;
+  for (int i = 0; i < 20; ++i) driver.step();
+  driver.explorer.returnToStart();
+  const std::size_t revealed = driver.explorer.grid().revealed();
+  const Pose2 elsewhere{5.0, 2.0, 0.7};
+  driver.explorer.step({kRooms.scanFrom(elsewhere, 4.0), elsewhere, {}, driver.time, false});
+  EXPECT_EQ(driver.explorer.grid().revealed(), revealed);
+}
+
+// Somebody is in the way for two seconds, on the way back.
+TEST(Explorer, WaitsForTheWayBackToBeFreeAgain) {
+  Driver driver;
+  while (driver.distance < 1.5 && driver.time < 60.0) driver.step();
+  ASSERT_LT(driver.time, 60.0);
+  driver.explorer.returnToStart();
+  for (int i = 0; i < 20; ++i) {
+    Observation observation{kRooms.scanFrom(driver.T_map_robot, 4.0), driver.T_map_robot,
+                            driver.velocity, driver.time};
+    for (double a = 0.0; a < 2.0 * M_PI; a += 0.05) {
+      observation.hazards.push_back(driver.T_map_robot.position() +
+                                    0.5 * Eigen::Vector2d(std::cos(a), std::sin(a)));
+    }
+    const Action action = driver.explorer.step(observation);
+    ASSERT_EQ(action.status, ExplorationStatus::kReturning) << action.reason;
+    driver.move({});
+  }
+  const Action last = driver.run();
+  EXPECT_NE(last.reason.find("back at the start"), std::string::npos) << last.reason;
 }
 
 TEST(Explorer, StandsStillWhilePausedAndGoesOnAfterwards) {

@@ -74,11 +74,13 @@ TEST(WayProgress, StandingStillByOrderIsExcused) {
   progress.note(1, {{0.0, 0.0}, {0.7, 0.0}}, 0.0);
   progress.excuse(1000.0);
   EXPECT_FALSE(progress.isStuck(1010.0));
-  EXPECT_FALSE(progress.isOverdue(1029.9));
-  EXPECT_TRUE(progress.isOverdue(1030.1));
+  EXPECT_FALSE(progress.isOverdue(1034.9)) << "30 s, and 0.7 m at a fifth of full speed";
+  EXPECT_TRUE(progress.isOverdue(1035.1));
   progress.note(2, {{0.0, 0.0}, {14.0, 0.0}}, 1040.0);
   progress.excuse(1041.0);
-  EXPECT_FALSE(progress.isOverdue(1169.0)) << "what time it had is not taken away";
+  for (const double time : {1050.0, 1060.0, 2000.0}) progress.excuse(time);
+  EXPECT_FALSE(progress.isOverdue(2129.0)) << "what time it had is not taken away";
+  EXPECT_TRUE(progress.isOverdue(2131.0));
 }
 
 const Eigen::Vector2d kHere(1.0, 2.0);

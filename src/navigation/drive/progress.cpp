@@ -20,13 +20,15 @@ constexpr double kWalked = 0.2;  // m, along a boundary
 
 }  // namespace
 
-void WayProgress::note(int goal, const std::vector<Eigen::Vector2d>& way, double time) {
+void WayProgress::note(int goal, const std::vector<Eigen::Vector2d>& way, double time,
+                       double more) {
+  time_ = time;
   if (way.empty()) return;
   const double left = pathLength(way);
   const bool is_another_goal = goal != goal_;
   if (is_another_goal) {
     goal_ = goal;
-    deadline_ = time + kGrace + left / (kSlowest * robot_.max_linear_velocity);
+    deadline_ = time + kGrace + more + left / (kSlowest * robot_.max_linear_velocity);
   }
   if (is_another_goal || left < least_ - kShorter || left > last_ + kAnotherWay) {
     shortest_ = way;
@@ -38,7 +40,8 @@ void WayProgress::note(int goal, const std::vector<Eigen::Vector2d>& way, double
 
 void WayProgress::excuse(double time) {
   clock_.restart(time);
-  deadline_ = std::max(deadline_, time + kGrace);
+  deadline_ += std::max(0.0, time - time_);
+  time_ = time;
 }
 
 bool WayProgress::isStuck(double time) {

@@ -135,6 +135,8 @@ void GlobalPlanner::decide(const Eigen::Vector2d& robot_map) {
   plan_.phase = PlanPhase::kFinished;
   place_.findWays(robot_map);
   plan_.unreached = place_.unreached();
+  plan_.gave_up =
+      drivesInVain() || place_.timesHeld() >= kMostTimesHeld || !place_.ways().isStarted();
   plan_.reason = whatIsLeft();
 }
 

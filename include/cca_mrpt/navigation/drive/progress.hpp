@@ -40,9 +40,10 @@ class WayProgress {
   ///              speed and half a minute more.
   /// @param way   corners, m, map frame, from the robot on. One that becomes longer at a stroke is
   ///              another way to the same goal. Empty: nothing is noted.
-  void note(int goal, const std::vector<Eigen::Vector2d>& way, double time);
+  /// @param more  s, that it has beyond that.
+  void note(int goal, const std::vector<Eigen::Vector2d>& way, double time, double more = 0.0);
 
-  /// Standing still by order is no failure.
+  /// Standing still by order is no failure: the time since the last call does not count.
   void excuse(double time);
 
   /// The map has changed: whatever way comes next is another one to the same goal.
@@ -64,7 +65,7 @@ class WayProgress {
   std::vector<Eigen::Vector2d> shortest_;
   double least_ = 0.0, last_ = 0.0;  ///< m: length of the shortest, and at the last step
   ProgressClock clock_;
-  double deadline_ = 0.0;  ///< s
+  double deadline_ = 0.0, time_ = 0.0;  ///< s; the time of the last call
 };
 
 /// Notices that the robot gets nowhere, whatever way it takes: it neither leaves a place nor walks
@@ -74,6 +75,9 @@ class WalkProgress {
   /// Another boundary is followed, or the same one the other way: its length begins at zero, and it
   /// has the whole patience.
   void startWalk(double time);
+
+  /// Standing still by order is no failure.
+  void excuse(double time) { clock_.restart(time); }
 
   /// @param x_map   m, the robot. @param length  m, walked along the boundary so far.
   /// @param excused whether the robot waits for somebody: that time does not count.

@@ -44,6 +44,8 @@ struct Plan {
   std::string reason;
   /// m^2, where finished: places in view at which the robot could stand, had it found a way there.
   double unreached = 0.0;
+  /// Where finished: not for lack of goals, but because the robot did not get on.
+  bool gave_up = false;
 
   bool isFinished() const { return phase == PlanPhase::kFinished; }
 };

@@ -44,6 +44,9 @@ class TangentBug {
   /// Starts anew towards a goal. @param goal_map  m, map frame.
   void setGoal(const Eigen::Vector2d& goal_map);
 
+  /// Standing still by order is no failure. To be called at each moment [s] of it.
+  void excuse(double time) { progress_.excuse(time); }
+
   /// Obstacles (m, map frame) around the robot that are known from elsewhere. Steps heed those out
   /// of the laser's view: what a narrow one saw before the robot turned or drove on.
   void setKnownObstacles(std::vector<Eigen::Vector2d> obstacles_map) {
