@@ -257,10 +257,19 @@ void requireSlam(const ExploreOptions& options, const RunParameters& run) {
                              "needs --pose slam: who is told where it is need not find itself");
 }
 
-void tellOfMemory(const ExploreOptions& options, const Belief& belief) {
+/// Where no place of the earlier map was found, that is told; the run's own memory does not take
+/// the place of the one in its folder, which may be that map's.
+void tellOfMemory(const ExploreOptions& options, const Belief& belief, const fs::path& folder) {
   if (belief.remembered() == 0 || belief.slam()->isInMemory()) return;
   std::fprintf(stderr, "cca-mrpt: no place of %s was found: this is the map of this run alone\n",
                options.resume.c_str());
+  if (!fs::exists(folder / kMemoryFile)) return;
+  fs::path kept = folder / "earlier.slam";
+  for (int number = 2; fs::exists(kept); ++number) {
+    kept = folder / ("earlier-" + std::to_string(number) + ".slam");
+  }
+  fs::rename(folder / kMemoryFile, kept);
+  std::fprintf(stderr, "cca-mrpt: the %s that was there is kept: %s\n", kMemoryFile, kept.c_str());
 }
 
 void explore(const ExploreOptions& options, const Parameters& parameters) {
@@ -287,7 +296,7 @@ void explore(const ExploreOptions& options, const Parameters& parameters) {
   progress.reset();
   if (interruption.requested()) tellOfSaving();
   if (belief.finish()) correctMap(belief.past(), belief.remembered(), explorer, record);
-  tellOfMemory(options, belief);
+  tellOfMemory(options, belief, folder);
   awaitCoverage(record.coverage(), interruption);
   end.wall_s = secondsSince(start);
   record.write(simulation, explorer, belief, end);

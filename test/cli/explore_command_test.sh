@@ -75,6 +75,9 @@ done
 "$program" explore "$maps/two_rooms.yaml" --resume part --out elsewhere --quiet 2>elsewhere.txt || fail "--resume: status $?"
 grep -q "no place of part was found" elsewhere.txt || fail "another place was not told: $(cat elsewhere.txt)"
 grep -q '"found_in_memory": false' elsewhere/summary.json || fail "another place is in summary.json"
+cp -r part grown
+"$program" explore "$maps/two_rooms.yaml" --resume grown --out grown --force --quiet 2>grown.txt || fail "--resume: status $?"
+cmp -s part/map.slam grown/earlier.slam || fail "the map that no place was found of is gone: $(cat grown.txt)"
 expect_error 1 "no place of it was found" merge part a --out none
 [ ! -e none ] || fail "merge left a folder without a map"
 expect_error 1 "map.slam: is not there" merge part "$maps" --out none
