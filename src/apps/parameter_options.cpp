@@ -54,7 +54,7 @@ void ParameterOptions::addAlias(const std::string& option, const std::string& ke
   Parameters defaults;
   for (const auto& field : listParameters(defaults)) {
     if (field.key() != key) continue;
-    addOption(option, field);
+    addOption(option, field)->excludes(command_.get_option_no_throw("--" + key));
     return;
   }
   throw std::logic_error("no parameter " + key);

@@ -22,7 +22,7 @@ class ParameterOptions {
   ///                  the .ini.
   ParameterOptions(CLI::App& command, const std::vector<std::string>& sections);
 
-  /// Also sets a parameter under a name of its own, e.g. addAlias("--laser-range", "laser.range").
+  /// A parameter under another name, e.g. addAlias("--laser-range", "laser.range"); not both.
   void addAlias(const std::string& option, const std::string& key);
 
   /// Defaults, then the .ini, then the command line.

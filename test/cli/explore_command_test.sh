@@ -132,6 +132,7 @@ expect_error 2 "start" explore "$maps/two_rooms.yaml" --start=nan,1,0 --out d
 expect_error 2 "beams" explore "$maps/two_rooms.yaml" --laser.beams 1 --out d
 expect_error 2 "explroe is no command" explroe "$maps/two_rooms.yaml"
 expect_error 2 "strategy" explore "$maps/two_rooms.yaml" --strategy clairvoyance --out d
+expect_error 2 "excludes" explore "$maps/two_rooms.yaml" --seed 1 --run.seed 2 --out d
 expect_error 2 "laser-range" explore "$maps/two_rooms.yaml" --laser-range -3 --out d
 expect_error 2 "pose" explore "$maps/two_rooms.yaml" --pose guess --out d
 unset DISPLAY
