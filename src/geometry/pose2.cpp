@@ -17,6 +17,10 @@ Pose2 Pose2::inverse() const {
   return {-c * x - s * y, s * x - c * y, wrapAngle(-theta)};
 }
 
+bool isFinite(const Pose2& pose) {
+  return pose.position().allFinite() && std::isfinite(pose.theta);
+}
+
 Pose2 operator*(const Pose2& T_a_b, const Pose2& T_b_c) {
   const Eigen::Vector2d p = T_a_b * T_b_c.position();
   return {p.x(), p.y(), wrapAngle(T_a_b.theta + T_b_c.theta)};

@@ -30,10 +30,6 @@ Pose2 toPose2(const mrpt::poses::CPose2D& pose) {
   return {pose.x(), pose.y(), wrapAngle(pose.phi())};
 }
 
-bool isFinite(const Pose2& pose) {
-  return std::isfinite(pose.x) && std::isfinite(pose.y) && std::isfinite(pose.theta);
-}
-
 /// @return  s since 1970; nothing for INVALID_TIMESTAMP.
 std::optional<double> seconds(const mrpt::system::TTimeStamp& stamp) {
   if (stamp == INVALID_TIMESTAMP) return std::nullopt;

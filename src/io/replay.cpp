@@ -14,10 +14,6 @@ constexpr std::size_t kLinesAMoment = 40;
 
 std::int64_t thousandths(double value) { return std::llround(1e3 * value); }
 
-bool isFinite(const Pose2& pose) {
-  return std::isfinite(pose.x) && std::isfinite(pose.y) && std::isfinite(pose.theta);
-}
-
 }  // namespace
 
 bool Replay::Laser::operator==(const Laser& other) const {

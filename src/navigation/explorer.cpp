@@ -45,11 +45,13 @@ std::vector<Eigen::Vector2d> obstaclesAround(const ExplorationGrid& grid,
   const Cell here = grid.cellOf(p_map);
   for (int y = here.y - reach; y <= here.y + reach; ++y) {
     for (int x = here.x - reach; x <= here.x + reach; ++x) {
-      const CellState state = grid.at({x, y});
-      const bool is_beside = isFree(grid.at({x - 1, y})) || isFree(grid.at({x + 1, y})) ||
-                             isFree(grid.at({x, y - 1})) || isFree(grid.at({x, y + 1}));
-      if (isFree(state) || !is_beside) continue;
-      const Eigen::Vector2d centre = grid.centreOf({x, y});
+      const Cell c{x, y};
+      const CellState state = grid.at(c);
+      if (isFree(state)) continue;
+      const bool is_beside = std::any_of(kNeighbours.begin(), kNeighbours.begin() + 4,
+                                         [&](Cell step) { return isFree(grid.at(c + step)); });
+      if (!is_beside) continue;
+      const Eigen::Vector2d centre = grid.centreOf(c);
       const bool was_seen = state == CellState::kOccupied;
       if (!was_seen && (centre - start_map).norm() < kPutDown) continue;
       const Eigen::Vector2d half =
@@ -61,10 +63,6 @@ std::vector<Eigen::Vector2d> obstaclesAround(const ExplorationGrid& grid,
 }
 
 using Way = std::vector<Eigen::Vector2d>;
-
-bool isFinite(const Pose2& pose) {
-  return pose.position().allFinite() && std::isfinite(pose.theta);
-}
 
 /// Whether a beam goes where a place lies, however far.
 bool looksTowards(const Scan& scan, const Eigen::Vector2d& p_map) {

@@ -76,8 +76,8 @@ double nearestPlace(const LineEnd& left, const LineEnd& right) {
 Scan NearSurfaces::update(const Scan& raw, const Scan& smooth, const std::vector<bool>& moving,
                           double range_sigma) {
   const Pose2& T = raw.T_map_sensor;
-  const bool is_usable = std::isfinite(T.theta) && T.position().allFinite() &&
-                         std::isfinite(raw.angle_increment) && raw.angle_increment != 0.0;
+  const bool is_usable =
+      isFinite(T) && std::isfinite(raw.angle_increment) && raw.angle_increment != 0.0;
   if (range_sigma <= kUsualSigma || !is_usable) {
     scans_.clear();
     return smooth;

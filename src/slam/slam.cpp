@@ -56,10 +56,6 @@ Eigen::Matrix3d turned(const Eigen::Matrix3d& matrix, double angle) {
   return R * matrix * R.transpose();
 }
 
-bool isFinite(const Pose2& pose) {
-  return pose.position().allFinite() && std::isfinite(pose.theta);
-}
-
 /// How a heading error of the frame turns a position in it.
 Eigen::Matrix3d carried(const Eigen::Matrix3d& covariance, const Eigen::Vector2d& arm) {
   Eigen::Matrix3d J = Eigen::Matrix3d::Identity();

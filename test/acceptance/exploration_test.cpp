@@ -92,7 +92,6 @@ TEST(NarrowPassages, AreDrivenThroughWithoutHesitation) {
   }
 }
 
-// Much of these can only be looked into, from a few places; which, the noise decides.
 // As near to both walls as it may stand: noise shuts all cells around the robot, but for single
 // ones.
 TEST(Corners, AreLeft) {
@@ -106,6 +105,7 @@ TEST(Corners, AreLeft) {
   }
 }
 
+// Much of these can only be looked into, from a few places; which, the noise decides.
 TEST(CrowdedPlaces, AreLookedIntoFromWhereverTheRobotCanGo) {
   constexpr int kWorlds = 15;
   double sum = 0.0;

@@ -104,9 +104,9 @@ END
 expect_error 3 "m^2 in view that no way was found to; the map is in gap" explore gap.yaml --out gap --quiet
 grep -q '"finished": true' gap/summary.json && [ -s gap/lines.csv ] || fail "the map of what was reached is not there"
 
-# On wheels alone the pose is lost.
 # A laser that sees hardly beyond the robot: it gives up, which is not done.
 expect_error 3 "does not get to what is left" explore "$maps/two_rooms.yaml" --laser-range 0.7 --out near --quiet
+# On wheels alone the pose is lost.
 expect_error 3 "scans contradict the map" explore "$maps/gallery.yaml" --seed 2 --pose odometry --out lost --quiet
 grep -q '"agreement": 0.9' lost/summary.json || fail "summary.json does not say how far scans and map agree"
 

@@ -65,8 +65,7 @@ TEST_P(EveryStrategy, SeesTwoRoomsToTheLastSquareAndFinishes) {
   for (int y = 0; y < kTwoRooms.height(); ++y) {
     for (int x = 0; x < kTwoRooms.width(); ++x) {
       if (kTwoRooms.isOccupied({x, y})) continue;
-      const CellState state = planner.place().grid().at({x, y});
-      unseen += state != CellState::kFree && state != CellState::kPresumedFree;
+      unseen += !isFree(planner.place().grid().at({x, y}));
     }
   }
   const double area = unseen * 0.05 * 0.05;

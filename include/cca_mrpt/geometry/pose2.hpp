@@ -18,6 +18,9 @@ struct Pose2 {
   Pose2 inverse() const;
 };
 
+/// Whether none of its numbers is NaN or infinite.
+bool isFinite(const Pose2& pose);
+
 /// Composition, T_a_c = T_a_b * T_b_c; theta wrapped to (-pi, pi].
 Pose2 operator*(const Pose2& T_a_b, const Pose2& T_b_c);
 

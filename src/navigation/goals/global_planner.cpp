@@ -135,9 +135,9 @@ void GlobalPlanner::decide(const Eigen::Vector2d& robot_map) {
   plan_.phase = PlanPhase::kFinished;
   place_.findWays(robot_map);
   plan_.unreached = place_.unreached();
-  plan_.gave_up =
-      drivesInVain() || place_.timesHeld() >= kMostTimesHeld || !place_.ways().isStarted();
-  plan_.reason = whatIsLeft();
+  const auto given_up = whyGivenUp();
+  plan_.gave_up = given_up.has_value();
+  plan_.reason = given_up.value_or(last_look_.whatIsLeft());
 }
 
 // The way there and back between the farthest places of a building is not in vain yet.
@@ -147,7 +147,7 @@ bool GlobalPlanner::drivesInVain() const {
   return unpaid_way_.metres() > kLongestInVain + around;
 }
 
-std::string GlobalPlanner::whatIsLeft() {
+std::optional<std::string> GlobalPlanner::whyGivenUp() const {
   if (drivesInVain()) {
     const auto frontiers = place_.frontiers();
     const auto left = std::count_if(frontiers.begin(), frontiers.end(), [&](const Frontier& f) {
@@ -158,8 +158,9 @@ std::string GlobalPlanner::whatIsLeft() {
   }
   if (place_.timesHeld() >= kMostTimesHeld)
     return "the robot does not get to what is left from where it stands";
-  return place_.ways().isStarted() ? last_look_.whatIsLeft()
-                                   : "the robot stands where nothing around it is known to be free";
+  if (!place_.ways().isStarted())
+    return "the robot stands where nothing around it is known to be free";
+  return {};
 }
 
 /// A goal that there is no way to is set aside; the next step decides anew.

@@ -123,7 +123,7 @@ class GlobalPlanner {
   void dropGoal(Failure failure, std::optional<Cell> held_at = {});
   std::optional<Cell> heldAt() const;
   bool drivesInVain() const;
-  std::string whatIsLeft();
+  std::optional<std::string> whyGivenUp() const;
   void driveTo(const ViewPoint& chosen, const Eigen::Vector2d& robot_map, const char* reason);
 
   GlobalPlannerParameters parameters_;
