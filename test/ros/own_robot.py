@@ -10,7 +10,7 @@ truth, which it is WRONG by for the first --wrong-until seconds; --path: then it
 as corrected_path. --two-lasers: one looks ahead, one back, 150 degrees each, as scan_front and scan_rear. --bar: lies
 below their plane; hazard_points or hazard_range tell what is within SHORT_SIGHT ahead. Time stands until a
 scan has been answered: how fast the machine is decides nothing. REPORT: contacts, share of the cells that it
-can see at all and has seen, metres, seconds, the last true pose."""
+can see at all and has seen, metres, seconds, the last true pose, where it was, every APART metres and at the end."""
 import argparse
 import collections
 import json
@@ -44,6 +44,7 @@ SHORT_SIGHT, SHORT_FIELD = 0.8, math.radians(20.0)
 SHORT_BEARINGS = [math.radians(degrees) for degrees in (-80, -60, -40, -20, 0, 20, 40, 60, 80)]
 STRETCH = 1.02  # of the odometry
 SPACING = 0.2  # m, between the places that what can be seen at all is looked for from
+APART = 0.2  # m
 
 
 class World:
@@ -326,9 +327,13 @@ class OwnRobot:
                 self.range.publish(message)
 
     def report(self):
+        places = [self.past[0][1][:2]] if self.past else []
+        for _, pose in self.past:
+            if math.dist(pose[:2], places[-1]) >= APART:
+                places.append(pose[:2])
         write_report(self.options.report,
                      {"contacts": self.contacts, "seen": self.world.share_seen(self.to_see), "way_m": self.way,
-                      "time_s": self.time, "pose": self.pose})
+                      "time_s": self.time, "pose": self.pose, "places": [*places, self.pose[:2]]})
 
     def run(self):
         tick = 0
