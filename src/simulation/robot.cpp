@@ -31,6 +31,7 @@ Pose2 driveArc(const Pose2& T_map_robot, const Velocity& velocity, double dt) {
 
 void Odometry::add(const Velocity& velocity, double dt) {
   const double way = velocity.linear * dt, turn = velocity.angular * dt;
+  time_ += dt;
   if (way == 0.0 && turn == 0.0) return;
   constexpr double kRadPerDeg = M_PI / 180.0;
   const double way_noise = parameters_.distance_noise * std::sqrt(std::abs(way));
@@ -39,7 +40,17 @@ void Odometry::add(const Velocity& velocity, double dt) {
                               parameters_.drift_noise_deg * std::sqrt(std::abs(way)));
   const double way_read = way + way_noise * random_.normal();
   const double turn_read = turn + turn_noise * random_.normal();
+  way_error_ += way_read - way;
+  turn_error_ += turn_read - turn;
   T_odom_robot_ = driveArc(T_odom_robot_, {way_read, turn_read}, 1.0);
+}
+
+Velocity Odometry::show(const Velocity& velocity) {
+  if (time_ == 0.0) return velocity;
+  const Velocity shown{velocity.linear + way_error_ / time_,
+                       velocity.angular + turn_error_ / time_};
+  way_error_ = turn_error_ = time_ = 0.0;
+  return shown;
 }
 
 }  // namespace cca

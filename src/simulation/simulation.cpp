@@ -54,7 +54,7 @@ Observation Simulation::observe() {
       sweep(world_, movers_.bodies(), T_map_robot_, parameters_.laser, laser_random_);
   observation.scan.T_map_sensor = T_map_robot_;
   observation.T_map_robot = T_map_robot_;
-  observation.velocity = velocity_;
+  observation.velocity = odometry_.show(velocity_);
   observation.time = time_;
   return observation;
 }

@@ -104,8 +104,13 @@ END
 expect_error 3 "m^2 in view that no way was found to; the map is in gap" explore gap.yaml --out gap --quiet
 grep -q '"finished": true' gap/summary.json && [ -s gap/lines.csv ] || fail "the map of what was reached is not there"
 
-# A laser that sees hardly beyond the robot: it gives up, which is not done.
-expect_error 3 "does not get to what is left" explore "$maps/two_rooms.yaml" --laser-range 0.7 --out near --quiet
+# A corridor in which it cannot keep the margin that it is told: it gives up, which is not done.
+python3 - >tight.pgm <<'END'
+rows = [[254 if 0 < x < 99 and 2 < y < 14 else 0 for x in range(100)] for y in range(17)]
+print("P2 100 17 255", *(" ".join(map(str, row)) for row in rows), sep="\n")
+END
+sed 's/gap/tight/; s/^start.*/start: [1.5, 0.425, 0]/' gap.yaml >tight.yaml
+expect_error 3 "nothing around it is known to be free" explore tight.yaml --robot.safety_margin 0.1 --out tight --quiet
 # On wheels alone the pose is lost.
 expect_error 3 "scans contradict the map" explore "$maps/gallery.yaml" --seed 2 --pose odometry --out lost --quiet
 grep -q '"agreement": 0.9' lost/summary.json || fail "summary.json does not say how far scans and map agree"

@@ -95,6 +95,13 @@ TEST(SafeVelocity, StopsBeforeAWallAtFullSpeed) {
 }
 
 // Until a late command acts, somebody comes nearer by what its latency takes.
+// By noise the robot may be slower than it reads: a fall of one period from there could be faster.
+TEST(SafeVelocity, AsksForAStandstillWhereNothingElseIsSafe) {
+  const std::vector<Hazard> wall{{{0.35, 0.0}, 0.0}};
+  EXPECT_EQ(safeVelocity({0.7, 0.0}, {0.6, 0.0}, wall, kRobot, kRadius, kPeriod, kBrakes).linear,
+            0.0);
+}
+
 TEST(SafeVelocity, OfALateRobotHeedsWhoIsStillFarOff) {
   const Hazard walker{{0.6, 0.0}, 1.0, -0.3};
   EXPECT_EQ(safeVelocity({0.7, 0.0}, {0, 0}, {walker}, kRobot, kRadius, kPeriod, kBrakes).linear,

@@ -101,6 +101,23 @@ TEST(Simulation, OdometryErrsWhileTheTruthStaysTheSame) {
   EXPECT_GT((a.T_odom_robot().position() - a.T_map_robot().position()).norm(), 1e-3);
 }
 
+TEST(Simulation, TheVelocityShownErrsByWhatTheOdometryMisreads) {
+  SimulationParameters parameters;
+  parameters.odometry.turn_noise_deg = parameters.odometry.drift_noise_deg = 0.0;
+  Simulation simulation(room(), {1.0, 1.0, 0.0}, parameters);
+  EXPECT_EQ(simulation.observe().velocity.linear, 0.0);
+  double error = 0.0, largest = 0.0;
+  for (int i = 0; i < 20; ++i) {
+    simulation.drive({0.5, 0.0}, 0.1);
+    const double off = simulation.observe().velocity.linear - simulation.velocity().linear;
+    error += 0.1 * off;
+    largest = std::max(largest, std::abs(off));
+  }
+  EXPECT_NEAR(simulation.T_odom_robot().x - simulation.T_map_robot().x, error, 1e-9);
+  EXPECT_GT(largest, 0.02);
+  EXPECT_LT(largest, 0.2);
+}
+
 TEST(Simulation, EqualSeedsGiveEqualScansAndOtherSeedsOthers) {
   SimulationParameters one, two;
   two.seed = 2;

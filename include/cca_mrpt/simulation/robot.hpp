@@ -42,11 +42,14 @@ class Odometry {
   /// Takes a true motion of `velocity` over dt seconds.
   void add(const Velocity& velocity, double dt);
   const Pose2& T_odom_robot() const { return T_odom_robot_; }
+  /// The velocity that it shows: the true one now, and the mean error since the last call.
+  Velocity show(const Velocity& velocity);
 
  private:
   Pose2 T_odom_robot_;
   OdometryParameters parameters_;
   Random random_;
+  double way_error_ = 0.0, turn_error_ = 0.0, time_ = 0.0;  ///< m, rad, s: since show()
 };
 
 }  // namespace cca

@@ -38,7 +38,8 @@ class Simulation {
   Simulation(World world, const Pose2& T_map_start, const SimulationParameters& parameters,
              const std::vector<Mover>& movers = {});
 
-  /// A new scan from the true place, with the true pose. Each call draws new noise.
+  /// A new scan from the true place, with the true pose and the velocity that the odometry shows.
+  /// Each call draws new noise.
   Observation observe();
 
   /// Drives for dt seconds towards a commanded velocity, within the robot's limits. The base hears

@@ -14,15 +14,15 @@ double towards(double from, double to, double speeds_up, double brakes, double d
   return falls && next * from < 0.0 && to * from < 0.0 ? 0.0 : next;
 }
 
-constexpr double kLongestGap = 0.3;                    // s
-constexpr double kSubstep = 0.0125;                    // s, half of what latencies differ by
-constexpr Velocity kError{0.02, 0.05};                 // of a usual odometry
-constexpr double kResponse = 3.0;                      // errors: more than noise
-constexpr double kChance = 9.0;                        // three sigma
-constexpr double kAsGood = 0.1;                        // of an error's square
-constexpr double kForget = 0.99;                       // of the sums, an observation
-constexpr double kLongestPending = 0.7;                // s, longer than any latency that is learned
-constexpr double kUnbraked = 0.5, kHardBraking = 0.6;  // of the brakes, before the robot has braked
+constexpr double kLongestGap = 0.3;      // s
+constexpr double kSubstep = 0.0125;      // s, half of what latencies differ by
+constexpr Velocity kError{0.02, 0.05};   // of a usual odometry
+constexpr double kResponse = 3.0;        // errors: more than noise
+constexpr double kChance = 9.0;          // three sigma
+constexpr double kAsGood = 0.1;          // of an error's square
+constexpr double kForget = 0.99;         // of the sums, an observation
+constexpr double kLongestPending = 0.7;  // s, longer than any latency that is learned
+constexpr double kReliable = 0.5;        // of the brakes; half of them is weak
 
 constexpr double kOverSpeed = 1.5;     // of full speed: what says more is broken
 constexpr double kSameLatency = 0.05;  // s: half a control period, which safeVelocity() allows for
@@ -65,8 +65,6 @@ void ShownMotion::observe(const SentCommands& sent, const Velocity& measured, do
   if (!follows) beginPending(measured, time);
   if (follows && sent.at(last_time_ - kStep * kLatencies)) {
     addErrors(sent, measured, time);
-    const double fall = std::abs(last_->linear) - std::abs(measured.linear);
-    has_braked_ = has_braked_ || fall > kHardBraking * robot_.max_linear_acceleration * passed;
     const bool responds =
         std::abs(measured.linear - pending_from_.linear) > kResponse * kError.linear ||
         std::abs(measured.angular - pending_from_.angular) > kResponse * kError.angular;
@@ -169,12 +167,10 @@ Velocity ShownMotion::brakes() const {
           shareOf(kTurnsLess) * robot_.max_angular_acceleration};
 }
 
-Velocity ShownMotion::provenBrakes() const {
-  Velocity proven = brakes();
-  if (!has_braked_) {
-    proven.linear = std::min(proven.linear, kUnbraked * robot_.max_linear_acceleration);
-  }
-  return proven;
+Velocity ShownMotion::reliableBrakes() const {
+  Velocity reliable = brakes();
+  reliable.linear = std::min(reliable.linear, kReliable * robot_.max_linear_acceleration);
+  return reliable;
 }
 
 void CommandedMotion::changeMotion(const RobotParameters& robot) {

@@ -156,8 +156,9 @@ Velocity safeVelocity(const Velocity& wanted, const Velocity& present,
   const auto reachable = [&](double v, double w) {
     v = std::clamp(v, 0.0, robot.max_linear_velocity);
     w = std::clamp(w, -robot.max_angular_velocity, robot.max_angular_velocity);
-    // What is measured may be beyond the limits.
-    return Velocity{std::clamp(towards(present.linear, v, dv), -robot.max_linear_velocity,
+    // What is measured may be beyond the limits, and faster than it is: a command to brake must not
+    // be above the velocity, so nothing keeps it from being too low.
+    return Velocity{std::clamp(std::min(v, present.linear + dv), -robot.max_linear_velocity,
                                robot.max_linear_velocity),
                     std::clamp(towards(present.angular, w, dw), -robot.max_angular_velocity,
                                robot.max_angular_velocity)};

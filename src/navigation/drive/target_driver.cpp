@@ -56,7 +56,7 @@ Velocity TargetDriver::step(const std::optional<DriveTarget>& target, const Velo
         {onset.T_now_then.inverse() * other.T_now_then, other.velocity, other.delay - onset.delay});
   }
   const Velocity command = safeVelocity(wish, onset.velocity, near, robot_, clearance,
-                                        motion_.period(), motion_.shown().provenBrakes(), others);
+                                        motion_.period(), motion_.shown().reliableBrakes(), others);
   motion_.note(command);
   noteWhetherHeld(velocity.linear < kStands && command.linear == 0.0 && wish.linear > 0.0, time);
   remember(view, heeded);

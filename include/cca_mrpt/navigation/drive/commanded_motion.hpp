@@ -63,8 +63,8 @@ class ShownMotion {
   bool knowsLatency() const { return latest_ - earliest_ <= kSure; }
   /// m/s^2 and rad/s^2, the hardest that fits, not more than the robot's parameters.
   Velocity brakes() const;
-  /// The same, but half of the parameter at most until the robot has braked harder.
-  Velocity provenBrakes() const;
+  /// What a standstill is reckoned with: the same, but half of the linear parameter at most.
+  Velocity reliableBrakes() const;
 
   static constexpr double kUnsure = 0.15;  ///< s
   static constexpr double kSure = 0.1;     ///< s
@@ -90,7 +90,6 @@ class ShownMotion {
   Velocity pending_from_;
   std::optional<Velocity> last_;
   double last_time_ = 0.0;
-  bool has_braked_ = false;
   std::size_t best_ = 0;
   double latency_ = 0.0, earliest_ = 0.0, latest_ = 0.0;
 };
