@@ -125,7 +125,7 @@ void Explorer::correctNavigation(const PastScans& past) {
   T_drive_map_ = T_drive_map_ * past.correctionHere().inverse();
   if (T_map_start_) T_map_start_ = past.correctionAt(T_map_start_->position()) * *T_map_start_;
   T_map_turned_.reset();
-  progress_.forgetWay();
+  progress_.correctWay();
 }
 
 void Explorer::changeMotion(const RobotParameters& robot) {

@@ -52,6 +52,21 @@ TEST(ScannedPlaces, ScansWithoutDirectionAddNothing) {
   EXPECT_TRUE(places.contains({5, 5}));
 }
 
+TEST(KnownPlace, WhatWasDeclaredScannedIsSoWhereACorrectionMovesIt) {
+  KnownPlace place(0.29);
+  PastScans past;
+  const Pose2 T_was_robot{1.02, 0.02, 0.0}, T_map_robot{2.02, 0.02, 0.0};
+  Scan scan = scanOf(90.0, 0.0);
+  scan.T_map_sensor = T_was_robot;
+  place.observe(scan, T_was_robot.position());
+  past.add(scan, T_was_robot);
+  place.noteScanned(place.grid().cellOf(T_was_robot.position()));
+  past.correct({T_map_robot}, {true});
+  place.correct(past);
+  EXPECT_TRUE(place.scanned().contains(place.grid().cellOf(T_map_robot.position())));
+  EXPECT_FALSE(place.scanned().contains(place.grid().cellOf(T_was_robot.position())));
+}
+
 TEST(ScannedPlaces, CanBeDeclared) {
   ScannedPlaces places;
   places.addAll({-7, 3});

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <functional>
 
 namespace cca {
@@ -57,6 +58,16 @@ TEST(WayProgress, AnotherWayToTheSameGoalHasAPatienceOfItsOwn) {
   WayProgress progress{RobotParameters{}};
   const auto left = [](double time) { return time < 12.0 ? 1.0 : 32.0 - time; };
   EXPECT_EQ(stuckAt(progress, 0.0, 30.0, left), 30.0);
+}
+
+TEST(WayProgress, AMapThatIsCorrectedGivesNoPatience) {
+  WayProgress progress{RobotParameters{}};
+  const auto left = [&](double time) {
+    const bool is_due = std::fmod(time, 3.0) < 0.1;
+    if (is_due) progress.correctWay();
+    return 5.0 + 0.3 * std::floor(time / 3.0);
+  };
+  EXPECT_NEAR(stuckAt(progress, 0.0, 100.0, left), kPatience, 0.2);
 }
 
 TEST(WayProgress, AGoalHasTheTimeOfItsWayAtAFifthOfFullSpeedAndHalfAMinute) {

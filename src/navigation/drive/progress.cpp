@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "cca_mrpt/navigation/place/grid_paths.hpp"
 
@@ -30,10 +31,12 @@ void WayProgress::note(int goal, const std::vector<Eigen::Vector2d>& way, double
     goal_ = goal;
     deadline_ = time + kGrace + more + left / (kSlowest * robot_.max_linear_velocity);
   }
-  if (is_another_goal || left < least_ - kShorter || left > last_ + kAnotherWay) {
+  const bool is_same_way = !is_another_goal && std::exchange(is_corrected_, false);
+  const bool is_better = left < least_ - kShorter || left > last_ + kAnotherWay;
+  if (!is_same_way && (is_another_goal || is_better)) clock_.restart(time);
+  if (is_same_way || is_another_goal || is_better) {
     shortest_ = way;
     least_ = left;
-    clock_.restart(time);
   }
   last_ = left;
 }

@@ -2,6 +2,7 @@
 #include "cca_mrpt/navigation/goals/global_planner.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "cca_mrpt/navigation/place/grid_paths.hpp"
 
@@ -40,8 +41,10 @@ const Plan& GlobalPlanner::update(const Scan& scan, const Eigen::Vector2d& robot
     lookAround();
     return plan_;
   }
-  if (!goalStands() || is_corrected_ || drivesInVain() || isTimeToReconsider(robot_map)) {
+  if (!goalStands() || drivesInVain() || isTimeToReconsider(robot_map)) {
     decide(robot_map);
+  } else if (std::exchange(is_corrected_, false)) {
+    replan(robot_map);
   } else {
     advance(robot_map);
     if (pathStands()) {
@@ -238,8 +241,11 @@ std::optional<ViewPoint> GlobalPlanner::choose() {
 
 void GlobalPlanner::correct(const PastScans& past) {
   const CellMove moved = place_.correct(past);
-  if (goal_) goal_->cell = moved(goal_->cell);
-  if (goal_) goal_->target = moved(goal_->target);
+  if (goal_) {
+    goal_->cell = moved(goal_->cell);
+    goal_->target = moved(goal_->target);
+    plan_.look_at = grid().centreOf(goal_->target);
+  }
   view_tour_ = ViewTour(parameters_.tour);
   last_look_ =
       LastLook(parameters_.smallest_gain, parameters_.smallest_frontier, parameters_.worth);

@@ -95,6 +95,11 @@ void KnownPlace::heed(const std::vector<Eigen::Vector2d>& places_map) {
   takeChanges();
 }
 
+void KnownPlace::noteScanned(Cell c) {
+  scanned_.addAll(c);
+  noted_scanned_.push_back(c);
+}
+
 CellMove KnownPlace::correct(const PastScans& past) {
   KnownPlace anew(space_.clearance());
   for (const auto& kept : past.kept()) anew.observe(kept.scan, kept.T_map_robot.position());
@@ -102,6 +107,7 @@ CellMove KnownPlace::correct(const PastScans& past) {
     const Eigen::Vector2d p_was = grid.centreOf(c);
     return grid.cellOf(past.correctionAt(p_was) * p_was);
   };
+  for (const Cell c : noted_scanned_) anew.noteScanned(moved(c));
   anew.failed_ = std::move(failed_);
   anew.failed_.move(moved, anew.grid_.revealed(), anew.space_);
   *this = std::move(anew);

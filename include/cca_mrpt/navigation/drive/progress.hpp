@@ -2,7 +2,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <limits>
 #include <optional>
 #include <vector>
 
@@ -46,8 +45,8 @@ class WayProgress {
   /// Standing still by order is no failure: the time since the last call does not count.
   void excuse(double time);
 
-  /// The map has changed: whatever way comes next is another one to the same goal.
-  void forgetWay() { last_ = -std::numeric_limits<double>::infinity(); }
+  /// The map was corrected: whatever way comes next is the present one, as it lies now.
+  void correctWay() { is_corrected_ = true; }
 
   /// Whether what is left has not become shorter for ten seconds and a whole turn on the spot. Then
   /// the patience starts anew.
@@ -64,6 +63,7 @@ class WayProgress {
   int goal_ = -1;
   std::vector<Eigen::Vector2d> shortest_;
   double least_ = 0.0, last_ = 0.0;  ///< m: length of the shortest, and at the last step
+  bool is_corrected_ = false;        ///< since then
   ProgressClock clock_;
   double deadline_ = 0.0, time_ = 0.0;  ///< s; the time of the last call
 };

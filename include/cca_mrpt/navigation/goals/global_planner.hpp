@@ -71,9 +71,9 @@ class GlobalPlanner {
   /// Exploration stays inside a polygon (m, map frame); fewer than three corners: no limit.
   void limitTo(std::vector<Eigen::Vector2d> polygon) { views_.limitTo(std::move(polygon)); }
 
-  /// Takes a correction of the past: what is known is made anew from the scans, goals and barred
-  /// ways go with them, and the next goal is decided on at the next update.
-  /// Cost: that of observing all the scans.
+  /// Takes a correction of the past: what is known is made anew from the scans, and goals and
+  /// barred ways go with them. The next update finds the way to the same goal anew. Cost: that of
+  /// observing all the scans.
   void correct(const PastScans& past);
 
   /// Sets the present goal aside until the map has changed, e.g. where it proved unreachable. The

@@ -61,7 +61,7 @@ class KnownPlace {
   void heed(const std::vector<Eigen::Vector2d>& places_map);
 
   /// Nothing more will be seen from a cell, wherever the laser has looked.
-  void noteScanned(Cell c) { scanned_.addAll(c); }
+  void noteScanned(Cell c);
 
   /// Shuts the beginning of a way (m, map frame) that could not be driven, see FailedTries.
   void bar(const std::vector<Eigen::Vector2d>& way) {
@@ -120,6 +120,7 @@ class KnownPlace {
   FreeSpace space_;
   FrontierCells frontier_cells_;
   ScannedPlaces scanned_;
+  std::vector<Cell> noted_scanned_;
   FailedTries failed_;
   DistanceField ways_;
   std::optional<Eigen::Vector2d> last_place_;
