@@ -3,6 +3,8 @@
 #include <cmath>
 #include <vector>
 
+#include "cca_mrpt/navigation/drive/robot.hpp"
+#include "cca_mrpt/simulation/coverage.hpp"
 #include "floor_plan_kinds.hpp"
 #include "furniture.hpp"
 
@@ -15,6 +17,7 @@ constexpr double kLargest = 8.0;     // m, a longer side is always divided
 constexpr double kBesideDoor = 0.3;  // m, from a wall's end to a door
 constexpr double kPost = 0.05;       // m, side of a post in a door
 constexpr double kStartsFree = 0.5;  // m, around the robot's start
+constexpr double kResolution = 0.05;  // m, to see where the robot gets to
 
 /// Divides a floor by walls with a door each (or by a corridor with two), again and again: what
 /// was one region stays one.
@@ -117,12 +120,12 @@ FloorPlan randomBuilding(Random& random) {
   return plan;
 }
 
-/// 14 to 30 by 10 to 20 m of rooms that are full of things: legs of chairs and tables, gaps too
-/// narrow for a robot, and posts in every seventh door. Much of it can only be looked into.
-FloorPlan crowdedBuilding(Random& random) {
-  FloorPlan plan = emptyFloor({14.0, 10.0}, {30.0, 20.0}, random);
-  const Divider divider(plan, random, 0.7, 1.1);
-  const Eigen::Vector2d start = divider.rooms().front().center(), aside(kStartsFree, kStartsFree);
+namespace {
+
+/// Fills rooms with things, except around the start.
+FloorPlan crowd(FloorPlan plan, const Divider& divider, const Eigen::Vector2d& start,
+                Random random) {
+  const Eigen::Vector2d aside(kStartsFree, kStartsFree);
   plan.start = {start.x(), start.y(), 0.0};
   for (const Box& floor : divider.rooms()) {
     const int count = static_cast<int>(floor.volume() * random.uniform(0.12, 0.4));
@@ -139,6 +142,27 @@ FloorPlan crowdedBuilding(Random& random) {
     }
   }
   return plan;
+}
+
+}  // namespace
+
+/// 14 to 30 by 10 to 20 m of rooms that are full of things: legs of chairs and tables, gaps too
+/// narrow for a robot, and posts in every seventh door. Much of it can only be looked into; but the
+/// start is in the first room from which the robot gets to most places where it could stand.
+FloorPlan crowdedBuilding(Random& random) {
+  FloorPlan empty = emptyFloor({14.0, 10.0}, {30.0, 20.0}, random), best;
+  const Divider divider(empty, random, 0.7, 1.1);
+  double most = 0.0;
+  for (const Box& room : divider.rooms()) {
+    FloorPlan plan = crowd(empty, divider, room.center(), random);
+    const double share =
+        shareReached(rasterise(plan, kResolution), room.center(), RobotParameters{}.radius);
+    if (share <= most) continue;
+    most = share;
+    best = std::move(plan);
+    if (most > 0.5) break;
+  }
+  return best;
 }
 
 }  // namespace cca

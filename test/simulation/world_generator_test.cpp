@@ -3,8 +3,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
+
+#include "cca_mrpt/simulation/coverage.hpp"
 
 namespace cca {
 namespace {
@@ -49,6 +52,20 @@ TEST_P(EveryKind, IsOneRegionForARobotWithItsMarginUnlessCrowded) {
       EXPECT_EQ(regions, 1) << GetParam() << " of seed " << seed;
     }
     EXPECT_NO_THROW(requireStandable(world, *world.start, 0.4));
+  }
+}
+
+// Rooms whose middle is another start would be filled a little differently.
+TEST(CrowdedBuilding, BeginsInItsLargestPart) {
+  for (std::uint64_t seed = 1; seed <= 12; ++seed) {
+    const World world = rasterise(generateFloorPlan("crowded", seed), kResolution);
+    const double share = shareReached(world, world.start->position(), 0.25);
+    double most = 0.0;
+    for (double x = 1.0; x < world.width() * kResolution; x += 1.5) {
+      for (double y = 1.0; y < world.height() * kResolution; y += 1.5)
+        most = std::max(most, shareReached(world, {x, y}, 0.25));
+    }
+    EXPECT_GT(share, 0.9 * most) << seed;
   }
 }
 
