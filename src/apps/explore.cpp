@@ -259,16 +259,12 @@ void requireSlam(const ExploreOptions& options, const RunParameters& run) {
 
 /// Where no place of the earlier map was found, that is told; the run's own memory does not take
 /// the place of the one in its folder, which may be that map's.
-void tellOfMemory(const ExploreOptions& options, const Belief& belief, const fs::path& folder) {
+void tellOfMemory(const ExploreOptions& options, const Belief& belief, const std::string& folder) {
   if (belief.remembered() == 0 || belief.slam()->isInMemory()) return;
   std::fprintf(stderr, "cca-mrpt: no place of %s was found: this is the map of this run alone\n",
                options.resume.c_str());
-  if (!fs::exists(folder / kMemoryFile)) return;
-  fs::path kept = folder / "earlier.slam";
-  for (int number = 2; fs::exists(kept); ++number) {
-    kept = folder / ("earlier-" + std::to_string(number) + ".slam");
-  }
-  fs::rename(folder / kMemoryFile, kept);
+  const std::string kept = keepMemory(folder);
+  if (kept.empty()) return;
   std::fprintf(stderr, "cca-mrpt: the %s that was there is kept: %s\n", kMemoryFile, kept.c_str());
 }
 

@@ -82,6 +82,18 @@ void withdrawSummary(const std::string& folder) {
   fs::remove(inFolder(folder, kSummary), none_there);
 }
 
+std::string keepMemory(const std::string& folder) {
+  if (!fs::exists(inFolder(folder, kMemoryFile))) return {};
+  std::string kept = inFolder(folder, "earlier.slam");
+  for (int number = 2; fs::exists(kept); ++number) {
+    kept = inFolder(folder, ("earlier-" + std::to_string(number) + ".slam").c_str());
+  }
+  std::error_code failed;
+  fs::rename(inFolder(folder, kMemoryFile), kept, failed);
+  if (failed) throw std::runtime_error(kept + ": " + failed.message());
+  return kept;
+}
+
 MapProducts seenFrom(const Eigen::Vector2d& p_frame, MapProducts products) {
   products.origin += p_frame;
   for (MapLine& line : products.lines) {

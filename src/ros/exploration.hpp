@@ -60,7 +60,7 @@ class Exploration {
   void correct(const PastScans& past, const std::vector<StampedPose>& way,
                std::size_t remembered = 0);
   /// See MapSaver::saveMemory().
-  void saveMemory(std::function<std::string()> memory) { saver_.saveMemory(std::move(memory)); }
+  void saveMemory(std::function<MapMemory()> memory) { saver_.saveMemory(std::move(memory)); }
 
   /// A line of summary.json.
   void note(const std::string& key, const nlohmann::json& value);

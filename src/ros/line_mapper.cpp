@@ -77,7 +77,7 @@ class LineMapper {
         saver_(private_node, parameters_.out, [this] { return products(); }) {
     if (parameters_.pose == "slam") {
       slam_.emplace(node, parameters_.frames, parameters_.resume);
-      saver_.saveMemory([this] { return slam_->packedMemory(); });
+      saver_.saveMemory([this] { return slam_->memory(); });
     }
     if (parameters_.pose == "tf" && parameters_.corrections) {
       outer_.emplace(node, parameters_.program.mapping);

@@ -19,19 +19,26 @@ MapSaver::MapSaver(const ros::NodeHandle& private_node, std::string folder, Snap
 
 void MapSaver::save() {
   const std::lock_guard<std::mutex> one_at_a_time(writing_);
-  std::function<std::string()> memory;
+  std::function<MapMemory()> make_memory;
   MapProducts products = [&] {
     const std::lock_guard<std::mutex> lock(mutex_);
-    memory = memory_;
+    make_memory = memory_;
     return snapshot_();
   }();
-  if (memory) products.memory = memory();
+  const MapMemory memory = make_memory ? make_memory() : MapMemory{};
+  products.memory = memory.packed;
   const FolderLock lock = prepareMapFolder(folder_, true);
+  if (memory.is_apart && !has_saved_) {
+    const std::string kept = keepMemory(folder_);
+    if (!kept.empty())
+      ROS_WARN("no place of the earlier map was found, it is kept: %s", kept.c_str());
+  }
   writeMapFolder(folder_, products);
+  has_saved_ = true;
   ROS_INFO("map saved to %s", folder_.c_str());
 }
 
-void MapSaver::saveMemory(std::function<std::string()> memory) {
+void MapSaver::saveMemory(std::function<MapMemory()> memory) {
   const std::lock_guard<std::mutex> lock(mutex_);
   memory_ = std::move(memory);
 }

@@ -13,6 +13,14 @@
 
 namespace cca {
 
+/// What goes with a map as map.slam.
+struct MapMemory {
+  std::string packed;
+  /// It is not that of the earlier map that it should have gone on with: no place was found of that
+  /// yet, so a map.slam that is there is kept.
+  bool is_apart = false;
+};
+
 /// Writes the map's folder on `~save` and when asked to, in a thread of its own: pictures and
 /// scenes take a second, and for that long a robot must not be left alone with its last command.
 class MapSaver {
@@ -24,9 +32,8 @@ class MapSaver {
   /// Tells on the console, before the work, where the folder cannot be written.
   MapSaver(const ros::NodeHandle& private_node, std::string folder, Snapshot snapshot);
 
-  /// What goes with the map as map.slam: made in the thread that saves, not under the mutex, for it
-  /// is packed.
-  void saveMemory(std::function<std::string()> memory);
+  /// Made in the thread that saves, not under the mutex, for it is packed.
+  void saveMemory(std::function<MapMemory()> memory);
 
   /// To be held wherever what the snapshot reads is changed.
   std::mutex& mutex() { return mutex_; }
@@ -43,7 +50,8 @@ class MapSaver {
 
   std::string folder_;
   Snapshot snapshot_;
-  std::function<std::string()> memory_;
+  std::function<MapMemory()> memory_;
+  bool has_saved_ = false;  ///< what is there is ours
   std::mutex mutex_, writing_;
   ros::NodeHandle node_;
   ros::CallbackQueue queue_;

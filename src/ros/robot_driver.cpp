@@ -62,7 +62,7 @@ RobotDriver::RobotDriver(ros::NodeHandle& node, ros::NodeHandle& private_node,
   if (settings_.pose == "odometry") publishMapToOdom(node);
   if (settings_.pose == "slam") {
     slam_ = std::make_shared<SlamLocalisation>(node, settings_.frames, settings_.resume);
-    exploration_.saveMemory([slam = slam_] { return slam->packedMemory(); });
+    exploration_.saveMemory([slam = slam_] { return slam->memory(); });
     exploration_.expectLastPass();
   } else if (!settings_.resume.empty()) {
     ROS_WARN("_resume:=%s has no effect: the robot is told where it is", settings_.resume.c_str());

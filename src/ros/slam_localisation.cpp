@@ -31,13 +31,15 @@ SlamLocalisation::SlamLocalisation(ros::NodeHandle& node, FrameNames frames,
   remember(memory, past_);
 }
 
-std::string SlamLocalisation::packedMemory() const {
+MapMemory SlamLocalisation::memory() const {
   SlamMemory memory;
+  bool is_apart = false;
   {
     const std::lock_guard<std::mutex> lock(mutex_);
     memory = slam_.memory();
+    is_apart = remembered() > 0 && !isInMemory();
   }
-  return cca::packedMemory({std::move(memory)});
+  return {packedMemory({std::move(memory)}), is_apart};
 }
 
 bool SlamLocalisation::place(PlacedScan& placed) {

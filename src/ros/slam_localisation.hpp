@@ -13,6 +13,7 @@
 #include "cca_mrpt/sensing/past_scans.hpp"
 #include "cca_mrpt/slam/slam.hpp"
 #include "frame_names.hpp"
+#include "map_saver.hpp"
 #include "node_diagnostics.hpp"
 #include "scan_feed.hpp"
 
@@ -55,7 +56,7 @@ class SlamLocalisation {
   std::size_t remembered() const { return static_cast<std::size_t>(slam_.remembered()); }
   bool isInMemory() const { return slam_.isInMemory(); }
   /// For map.slam; from any thread.
-  std::string packedMemory() const;
+  MapMemory memory() const;
   int loops() const { return static_cast<int>(slam_.loops().size()); }
 
  private:

@@ -4,6 +4,7 @@
 import csv
 import math
 import os
+import time
 import unittest
 
 import numpy
@@ -140,10 +141,17 @@ class ExploreSimulated(unittest.TestCase):
         self.assertGreater(compared, 5)
 
     def test_09_diagnostics_tell_rate_and_state(self):
-        message = self.diagnostics.wait(lambda m: "explore: scans" in [s.name for s in m.status])
-        values = {v.key: v.value for v in message.status[0].values}
-        rate = float(values["scan rate [Hz]"])
-        self.assertTrue(5.0 < rate < 104.0, "of the wall: 80, less on a loaded machine; is %g" % rate)
+        def told():
+            status = [m.status[0] for m in list(self.diagnostics.messages) if m.status[0].name == "explore: scans"]
+            return [{v.key: v.value for v in s.values} for s in status]
+
+        end = time.time() + 30.0
+        while len(told()) < 3 and time.time() < end:
+            time.sleep(0.1)
+        rates = [float(values["scan rate [Hz]"]) for values in told()[-3:]]
+        values = told()[-1]
+        self.assertTrue(5.0 < numpy.median(rates) < 104.0,
+                        "of the wall: 80, less on a loaded machine, and one burst after a stall; is %s" % rates)
         self.assertEqual(values["scans dropped"], "0")
         self.assertIn("state", values)
         self.assertGreater(float(values["time per scan, longest [ms]"]), 0.0)

@@ -15,18 +15,19 @@ from own_robot import World
 from segments import read_segments, samples
 
 WORLD = os.path.join(MAPS, "two_rooms.yaml")
+OTHER_WORLD = os.path.join(MAPS, "corridor_loop.yaml")
 CIRCLE = "{linear: {x: 0.3}, angular: {z: 0.6}}"
 
 
 class MapOwnRobot(OwnMaster):
-    def drive(self, start, seconds, *arguments):
+    def drive(self, start, seconds, *arguments, world=WORLD):
         """Robot and mapper for so long. @return summary.json and the mapped lines."""
         report = os.path.join(self.home.name, "report.json")
         if os.path.exists(report):
             os.remove(report)
         self.ask("rosparam", "set", "/use_sim_time", "true")
         here = os.path.dirname(os.path.abspath(__file__))
-        robot = self.start("python3", os.path.join(here, "own_robot.py"), WORLD, start, report,
+        robot = self.start("python3", os.path.join(here, "own_robot.py"), world, start, report,
                            "--speed", "10", "--two-lasers")
         mapper = self.node("line_mapper", "_out:=" + self.out, "_save_at_end:=true", "_scans:=[scan_front, scan_rear]",
                            *arguments)
@@ -69,6 +70,15 @@ class MapOwnRobot(OwnMaster):
         summary, lines = self.drive("3,2.5,90", 40, "_pose:=slam", "_resume:=" + first)
         self.assertTrue(summary["found_in_memory"], self.words)
         self.assertGreaterEqual(self.check(lines, start), length - 0.5, "nothing is lost")
+
+        # Somewhere else, and into the folder of the map that it does not find itself in.
+        self.out = first
+        with open(os.path.join(first, "map.slam"), "rb") as file:
+            memory = file.read()
+        summary, _ = self.drive("1.2,1.2,0", 5, "_pose:=slam", "_resume:=" + first, world=OTHER_WORLD)
+        self.assertFalse(summary["found_in_memory"])
+        with open(os.path.join(first, "earlier.slam"), "rb") as file:
+            self.assertEqual(file.read(), memory, "the earlier map is kept")
 
 
 if __name__ == "__main__":
