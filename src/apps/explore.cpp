@@ -41,7 +41,7 @@ using Clock = std::chrono::steady_clock;
 
 /// A robot that has not found its place on so much way [m] is not exploring any more.
 constexpr double kLongestLost = 30.0;
-constexpr double kSmallestView = 60.0, kWidestSpacing = 5.0;  // deg
+constexpr double kSmallestView = 90.0, kWidestSpacing = 5.0;  // deg
 
 struct ExploreOptions {
   std::string world, movers, out, resume;
@@ -238,7 +238,7 @@ std::unique_ptr<ExplorationWindow> openWindow(const World& world) {
 void requireLaser(const LaserParameters& laser) {
   if (laser.field_of_view_deg < kSmallestView) {
     throw CLI::ValidationError("--laser.field_of_view_deg",
-                               "to explore, the laser must see 60 deg at least");
+                               "to explore, the laser must see 90 deg at least");
   }
   const double spacing = laser.field_of_view_deg / std::max(laser.beams - 1, 1);
   if (spacing > kWidestSpacing) {

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <string>
 
 #include "cca_mrpt/simulation/world.hpp"
 #include "yaml_file.hpp"
@@ -29,15 +30,36 @@ double pngCells(const fs::path& path) {
   return number(16) * number(20);
 }
 
+/// The value of white that a PGM's header tells; 255 for every other kind of file.
+int pgmWhite(const fs::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  std::string magic, comment;
+  int number = 255;
+  if (!(file >> magic) || (magic != "P2" && magic != "P5")) return number;
+  for (int i = 0; i < 3; ++i) {  // width, height, white
+    while ((file >> std::ws).peek() == '#') std::getline(file, comment);
+    if (!(file >> number)) return 255;
+  }
+  return number;
+}
+
 mrpt::img::CImage loadImage(const YamlNode& file, const std::string& yaml_path) {
   const fs::path path = fs::path(yaml_path).parent_path() / file.text("image");
-  if (!fs::is_regular_file(path)) file.fail("image", path.string() + " does not exist");
+  if (!fs::is_regular_file(path)) {
+    file.fail("image", path.string() + (fs::exists(path) ? " is no file" : " does not exist"));
+  }
   const auto refuse_size = [&](double cells) {
     if (cells > kLargestImage) {
       file.fail("image", path.string() + " has more than 64 million cells");
     }
   };
   refuse_size(pngCells(path));
+  // The image library takes the values of a byte as they are, whatever white is.
+  const int white = pgmWhite(path);
+  if (white < 255) {
+    file.fail("image",
+              path.string() + " has " + std::to_string(white) + " for white, allowed is 255");
+  }
   mrpt::img::CImage image;
   bool loaded = false;
   try {

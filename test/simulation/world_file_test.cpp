@@ -106,6 +106,9 @@ TEST(WorldFile, ErrorsNameFileKeyAndWhatIsAllowed) {
   expect("", "holds no 'key: value' lines");
   std::ofstream(testing::TempDir() + "broken.png") << "no image at all";
   expect("image: broken.png\n" + kRest, "is no readable image");
+  std::ofstream(testing::TempDir() + "dim.pgm") << "P2\n# grey\n3 1\n# white\n100\n0 100 0\n";
+  expect("image: dim.pgm\n" + kRest, "has 100 for white, allowed is 255");
+  expect("image: ../\n" + kRest, "is no file");
   writePgm(testing::TempDir() + "black.pgm", 6, 6, std::string(36, '\0'));
   expect("image: black.pgm\n" + kRest, "has no free cell");
   writePgm(testing::TempDir() + "one.pgm", 1, 1, std::string(1, '\xFE'));
