@@ -12,11 +12,11 @@ namespace cca {
 
 namespace {
 
-constexpr double kSmallest = 3.0;    // m, side of a room
-constexpr double kLargest = 8.0;     // m, a longer side is always divided
-constexpr double kBesideDoor = 0.3;  // m, from a wall's end to a door
-constexpr double kPost = 0.05;       // m, side of a post in a door
-constexpr double kStartsFree = 0.5;  // m, around the robot's start
+constexpr double kSmallest = 3.0;     // m, side of a room
+constexpr double kLargest = 8.0;      // m, a longer side is always divided
+constexpr double kBesideDoor = 0.3;   // m, from a wall's end to a door
+constexpr double kPost = 0.05;        // m, side of a post in a door
+constexpr double kStartsFree = 0.5;   // m, around the robot's start
 constexpr double kResolution = 0.05;  // m, to see where the robot gets to
 
 /// Divides a floor by walls with a door each (or by a corridor with two), again and again: what

@@ -22,8 +22,8 @@ std::vector<unsigned char> visibleCells(const World& world, const Eigen::Vector2
                                         double radius, double max_range,
                                         const std::atomic<bool>& given_up = false);
 
-/// Share of the cells in which a round robot can stand that are 4-connected with the free one nearest
-/// to the start, in [0, 1]; 0 where there is none.
+/// Share of the cells in which a round robot can stand that are 4-connected with the free one
+/// nearest to the start, in [0, 1]; 0 where there is none.
 double shareReached(const World& world, const Eigen::Vector2d& start, double radius);
 
 /// How much of what can be seen has been seen so far. The visible cells are worked out beside the

@@ -22,7 +22,7 @@ constexpr double kChance = 9.0;          // three sigma
 constexpr double kAsGood = 0.1;          // of an error's square
 constexpr double kForget = 0.99;         // of the sums, an observation
 constexpr double kLongestPending = 0.7;  // s, longer than any latency that is learned
-constexpr double kReliable = 0.5;        // of the brakes; half of them is weak
+constexpr double kReliable = 0.5;        // of the linear brakes that are told
 
 constexpr double kOverSpeed = 1.5;     // of full speed: what says more is broken
 constexpr double kSameLatency = 0.05;  // s: half a control period, which safeVelocity() allows for
