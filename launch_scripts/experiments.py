@@ -156,7 +156,7 @@ def main():
     unknown = [n for n in given.names if n not in EXPERIMENTS] + [w for w in worlds if w not in WORLDS]
     if unknown:
         parser.error("unknown: " + ", ".join(unknown))
-    built = subprocess.run([os.path.join(ROOT, "launch_scripts", "build_program.sh")],
+    built = subprocess.run([os.path.join(ROOT, "launch_scripts", "build_program.sh"), "--evidence"],
                            stdout=subprocess.PIPE, text=True, check=True)
     program = built.stdout.strip()
     with tempfile.TemporaryDirectory() as tmp:
