@@ -117,10 +117,9 @@ std::vector<unsigned char> visibleCells(const World& world, const Eigen::Vector2
 }
 
 double shareReached(const World& world, const Eigen::Vector2d& start, double radius) {
-  const std::atomic<bool> given_up{false};
-  const Cells free = standable(world, radius, given_up);
+  const Cells free = standable(world, radius, false);
   const int first = nearestCell(free, world, world.toCells(start));
-  const Cells reached = component(free, world.width(), first, given_up);
+  const Cells reached = component(free, world.width(), first, false);
   const auto all = std::count(free.begin(), free.end(), 1);
   const auto some = std::count(reached.begin(), reached.end(), 1);
   return all > 0 ? static_cast<double>(some) / static_cast<double>(all) : 0.0;

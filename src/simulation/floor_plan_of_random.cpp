@@ -103,25 +103,6 @@ FloorPlan emptyFloor(const Eigen::Vector2d& lowest, const Eigen::Vector2d& highe
   return plan;
 }
 
-}  // namespace
-
-/// 16 to 32 by 12 to 24 m of rooms and corridors, furnished.
-FloorPlan randomBuilding(Random& random) {
-  FloorPlan plan = emptyFloor({16.0, 12.0}, {32.0, 24.0}, random);
-  const Divider divider(plan, random, 0.9, 1.4);
-  for (const Box& floor : divider.rooms()) {
-    Room room{floor, divider.doors()};
-    if (&floor == &divider.rooms().front()) {  // the robot's place stays free
-      plan.start = {floor.center().x(), floor.center().y(), 0.0};
-      room.doors.emplace_back(floor.center(), floor.center());
-    }
-    furnish(plan, room, random.integer(1, 2 + static_cast<int>(floor.volume() / 7.0)), random);
-  }
-  return plan;
-}
-
-namespace {
-
 /// Fills rooms with things, except around the start.
 FloorPlan crowd(FloorPlan plan, const Divider& divider, const Eigen::Vector2d& start,
                 Random random) {
@@ -145,6 +126,21 @@ FloorPlan crowd(FloorPlan plan, const Divider& divider, const Eigen::Vector2d& s
 }
 
 }  // namespace
+
+/// 16 to 32 by 12 to 24 m of rooms and corridors, furnished.
+FloorPlan randomBuilding(Random& random) {
+  FloorPlan plan = emptyFloor({16.0, 12.0}, {32.0, 24.0}, random);
+  const Divider divider(plan, random, 0.9, 1.4);
+  for (const Box& floor : divider.rooms()) {
+    Room room{floor, divider.doors()};
+    if (&floor == &divider.rooms().front()) {  // the robot's place stays free
+      plan.start = {floor.center().x(), floor.center().y(), 0.0};
+      room.doors.emplace_back(floor.center(), floor.center());
+    }
+    furnish(plan, room, random.integer(1, 2 + static_cast<int>(floor.volume() / 7.0)), random);
+  }
+  return plan;
+}
 
 /// 14 to 30 by 10 to 20 m of rooms that are full of things: legs of chairs and tables, gaps too
 /// narrow for a robot, and posts in every seventh door. Much of it can only be looked into; but the

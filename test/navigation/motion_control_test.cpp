@@ -94,7 +94,6 @@ TEST(SafeVelocity, StopsBeforeAWallAtFullSpeed) {
   EXPECT_GT(pose.x, 2.0 - kRadius - 0.35) << "without giving the way away";
 }
 
-// Until a late command acts, somebody comes nearer by what its latency takes.
 // By noise the robot may be slower than it reads: a fall of one period from there could be faster.
 TEST(SafeVelocity, AsksForAStandstillWhereNothingElseIsSafe) {
   const std::vector<Hazard> wall{{{0.35, 0.0}, 0.0}};
@@ -102,6 +101,7 @@ TEST(SafeVelocity, AsksForAStandstillWhereNothingElseIsSafe) {
             0.0);
 }
 
+// Until a late command acts, somebody comes nearer by what its latency takes.
 TEST(SafeVelocity, OfALateRobotHeedsWhoIsStillFarOff) {
   const Hazard walker{{0.6, 0.0}, 1.0, -0.3};
   EXPECT_EQ(safeVelocity({0.7, 0.0}, {0, 0}, {walker}, kRobot, kRadius, kPeriod, kBrakes).linear,

@@ -228,6 +228,7 @@ class OwnRobot:
         self.points = rospy.Publisher("hazard_points", PointCloud2, queue_size=10)
         self.range = rospy.Publisher("hazard_range", Range, queue_size=100)
         self.past, self.has_told_path = [], False  # stamps and true poses at the scans
+        self.places = [self.pose[:2]]
         self.path = rospy.Publisher("corrected_path", Path, queue_size=1)
         rospy.Subscriber("cmd_vel", Twist, self.take, tcp_nodelay=True)
 
@@ -290,6 +291,8 @@ class OwnRobot:
     def look(self):
         self.feel()
         self.past.append((self.now(), self.pose))
+        if math.dist(self.pose[:2], self.places[-1]) >= APART:
+            self.places.append(self.pose[:2])
         time.sleep(SETTLING)
         self.answer.clear()
         for publisher, frame, T_robot_laser, field, beams in self.lasers:
@@ -327,13 +330,9 @@ class OwnRobot:
                 self.range.publish(message)
 
     def report(self):
-        places = [self.past[0][1][:2]] if self.past else []
-        for _, pose in self.past:
-            if math.dist(pose[:2], places[-1]) >= APART:
-                places.append(pose[:2])
         write_report(self.options.report,
                      {"contacts": self.contacts, "seen": self.world.share_seen(self.to_see), "way_m": self.way,
-                      "time_s": self.time, "pose": self.pose, "places": [*places, self.pose[:2]]})
+                      "time_s": self.time, "pose": self.pose, "places": [*self.places, self.pose[:2]]})
 
     def run(self):
         tick = 0

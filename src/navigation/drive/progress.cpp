@@ -31,10 +31,11 @@ void WayProgress::note(int goal, const std::vector<Eigen::Vector2d>& way, double
     goal_ = goal;
     deadline_ = time + kGrace + more + left / (kSlowest * robot_.max_linear_velocity);
   }
-  const bool is_same_way = !is_another_goal && std::exchange(is_corrected_, false);
-  const bool is_better = left < least_ - kShorter || left > last_ + kAnotherWay;
-  if (!is_same_way && (is_another_goal || is_better)) clock_.restart(time);
-  if (is_same_way || is_another_goal || is_better) {
+  const bool was_corrected = std::exchange(is_corrected_, false);
+  const bool has_changed = left < least_ - kShorter || left > last_ + kAnotherWay;
+  const bool gets_on = is_another_goal || (has_changed && !was_corrected);
+  if (gets_on) clock_.restart(time);
+  if (gets_on || was_corrected) {
     shortest_ = way;
     least_ = left;
   }
