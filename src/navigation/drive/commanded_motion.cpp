@@ -28,7 +28,7 @@ constexpr double kOverSpeed = 1.5;     // of full speed: what says more is broke
 constexpr double kSameLatency = 0.05;  // s: half a control period, which safeVelocity() allows for
 
 constexpr double kShortestPeriod = 0.1, kLongestPeriod = 1.0;  // s
-constexpr double kRounding = 1e-6;                             // s, of stamps
+constexpr double kStampRounding = 1e-6;                        // s, of stamps
 constexpr std::size_t kIntervals = 5;
 
 }  // namespace
@@ -195,7 +195,7 @@ void CommandedMotion::observe(const Velocity& measured, double time) {
 
 double CommandedMotion::period() const {
   double longest = kShortestPeriod;
-  for (const double interval : intervals_) longest = std::max(longest, interval - kRounding);
+  for (const double interval : intervals_) longest = std::max(longest, interval - kStampRounding);
   return std::min(longest, kLongestPeriod);
 }
 

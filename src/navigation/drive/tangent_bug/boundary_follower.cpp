@@ -52,10 +52,10 @@ Contact nextContact(const ConfigurationSpace& space, int contact, double angle, 
   return next;
 }
 
-constexpr double kSpacing = 0.1;      // m, between remembered places
-constexpr double kTolerance = 0.2;    // m, below the robot's width: not the wall's other side
-constexpr double kLeastLength = 1.0;  // m, less than once around a single point
-constexpr double kOverlap = 0.8;      // m, walked twice: seen from all of the loop
+constexpr double kPlaceSpacing = 0.1;  // m, between remembered places
+constexpr double kTolerance = 0.2;     // m, below the robot's width: not the wall's other side
+constexpr double kLeastLength = 1.0;   // m, less than once around a single point
+constexpr double kOverlap = 0.8;       // m, walked twice: seen from all of the loop
 constexpr double kTurnTolerance =
     0.8;  // rad, of the whole turn; the boundary is seen anew each time
 
@@ -123,7 +123,7 @@ void Circling::add(const Eigen::Vector2d& p_map, double length, double heading) 
   if (again && again_since_ < 0.0) again_since_ = length;
   if (!again) again_since_ = -1.0;
   closed_ = closed_ || (again && length - again_since_ >= kOverlap);
-  if (places_.empty() || length - places_.back().length >= kSpacing) {
+  if (places_.empty() || length - places_.back().length >= kPlaceSpacing) {
     places_.push_back({p_map, length, heading});
   }
 }
