@@ -209,12 +209,10 @@ Action Explorer::explore(const Observation& observation) {
   const bool is_last = next + 1 == plan.path.size();
   action.velocity = driveTo(plan.path[next], observation);
   const TangentBugState state = tangent_bug_.state();
-  turnToWayPoint(plan.path[next], observation, action);
   const bool has_failed = state == TangentBugState::kUnreachable || is_overdue;
   if (has_failed || (!goes_straight && progress_.isStuck(observation.time))) {
-    const bool goes_around = planner_.goAround(progress_.shortest());
-    if (has_failed && !goes_around) planner_.setGoalAside();
-    if (has_failed || goes_around) way_point_.reset();
+    planner_.leaveWay(progress_.shortest(), has_failed);
+    way_point_.reset();
   } else if (state == TangentBugState::kReached && is_last) {
     if (looksTowards(observation.scan, plan.look_at)) {
       planner_.noteArrival();
@@ -238,15 +236,6 @@ void Explorer::heedOutcome(const Eigen::Vector2d& robot_map) {
   } else {
     planner_.noteArrival();
   }
-}
-
-// What a narrow laser does not look at is known by cells, which may leave no way at all.
-void Explorer::turnToWayPoint(const Eigen::Vector2d& way_point_map, const Observation& observation,
-                              Action& action) const {
-  const bool has_way =
-      tangent_bug_.state() == TangentBugState::kReached || tangent_bug_.target().has_value();
-  if (has_way || looksTowards(observation.scan, way_point_map)) return;
-  turnTowards(way_point_map, observation.T_map_robot, action);
 }
 
 void Explorer::turnTowards(const Eigen::Vector2d& p_map, const Pose2& T_map_robot,
@@ -296,7 +285,6 @@ Action Explorer::goHome(const Observation& observation) {
   const std::size_t next = nextWayPoint(path, robot);
   const Eigen::Vector2d way_point = next + 1 < path.size() ? path[next] : start;
   action.velocity = driveTo(way_point, observation);
-  turnToWayPoint(way_point, observation, action);
   if (tangent_bug_.state() == TangentBugState::kUnreachable ||
       progress_.isStuck(observation.time)) {
     planner_.place().bar(progress_.shortest());

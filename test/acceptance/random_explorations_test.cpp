@@ -272,14 +272,6 @@ TEST(RandomExplorations, WithANarrowFieldOfViewStandBeforeTheyTurnToLook) {
   EXPECT_EQ(outcome.runs, 1);
 }
 
-// Back through a passage of the robot's width, which its laser does not look at: by cells alone
-// there may be no way through.
-TEST(RandomExplorations, WithANarrowFieldOfViewTurnToAWayThatIsOutOfSight) {
-  Outcome outcome;
-  explore(216, ofNarrowView(216), outcome);
-  EXPECT_GT(outcome.coverage, 0.998);
-}
-
 // Places that were looked at, the goal, its time and the robot's patience all survive them.
 TEST(RandomExplorations, WithANarrowFieldOfViewAndCorrectionsEndAndTouchNothing) {
   exploreAll(2, [](int seed) {

@@ -422,7 +422,7 @@ TEST(Explorer, TakesTheOtherDoorWhereSomethingUnseenHoldsIt) {
   EXPECT_EQ(action.status, ExplorationStatus::kFinished);
   EXPECT_NE(action.reason.find("back at the start"), std::string::npos) << action.reason;
   EXPECT_GT(against_the_glass, 50) << "it should have tried";
-  // A minute and a half. Without other ways around the glass it was almost five.
+  // Some 110 s. Without other ways around the glass it was almost five minutes.
   EXPECT_LT(against_the_glass, 1200);
   for (const Cell c : {Cell{140, 20}, Cell{140, 100}, Cell{100, 40}})
     EXPECT_EQ(driver.explorer.grid().at(c), CellState::kFree) << c.x << ", " << c.y;

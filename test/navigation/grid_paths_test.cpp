@@ -153,14 +153,6 @@ TEST(DistanceField, DoesNotBeginBehindAWall) {
   EXPECT_FALSE(field.isReached({11, 7}));
 }
 
-TEST(DistanceField, StopsAtItsHorizon) {
-  const Known known({std::vector<std::string>(100, std::string(100, '.'))}, 0.1);
-  DistanceField field;
-  field.search(known.space, kResolution, {10, 10}, 2.0);
-  EXPECT_TRUE(field.isReached({45, 10}));
-  EXPECT_FALSE(field.isReached({60, 10}));
-}
-
 TEST(DistanceField, StopsAtTheCellThatWasAskedForWithTheSamePath) {
   for (unsigned seed = 1; seed <= 8; ++seed) {
     const Known known(randomWorld(seed, 160, 0.01), 0.2);
@@ -169,7 +161,7 @@ TEST(DistanceField, StopsAtTheCellThatWasAskedForWithTheSamePath) {
     if (!nearestTraversable(known.space, {90, 70}, 20, goal)) continue;
     DistanceField whole, part;
     whole.search(known.space, kResolution, start);
-    part.search(known.space, kResolution, start, DistanceField::kUnreached, goal);
+    part.search(known.space, kResolution, start, goal);
     EXPECT_EQ(part.distanceTo(goal), whole.distanceTo(goal));
     EXPECT_EQ(part.blocksTo(goal), whole.blocksTo(goal));
     int farther = 0;
@@ -181,19 +173,6 @@ TEST(DistanceField, StopsAtTheCellThatWasAskedForWithTheSamePath) {
       }
     }
     EXPECT_EQ(farther, 0);
-  }
-}
-
-TEST(DistanceField, CarriedOnPieceByPieceIsTheSearchInOneGo) {
-  for (unsigned seed = 1; seed <= 8; ++seed) {
-    const Known known(randomWorld(seed, 160, 0.01), 0.2);
-    DistanceField whole, pieces;
-    whole.search(known.space, kResolution, {80, 80}, 6.0);
-    pieces.begin(known.space, kResolution, {80, 80}, 6.0);
-    for (int k = 0; k < 2000; ++k) {
-      const Cell c{(k * 37) % 160, (k * 101) % 160};
-      EXPECT_EQ(pieces.reach(known.space, c), whole.distanceTo(c)) << c.x << ", " << c.y;
-    }
   }
 }
 

@@ -79,99 +79,58 @@ TEST(Tours, ServeTheUrgentStopFirst) {
 
 TEST(Tours, OfNoStopsAreNone) { EXPECT_TRUE(tourCosts(Eigen::MatrixXd::Zero(1, 1), {}).empty()); }
 
-constexpr double kReach = 0.2;  // m: each view point sees its own target only
-
-/// Squares of half a metre: rooms along both sides of a corridor of 19 m.
-const KnownWorld kRooms{
-    {"#########################################", "#......#......#......#......#......#....#",
-     "#......#......#......#......#......#....#", "#......#......#......#......#......#....#",
-     "###..#####..#####..#####..#####..#####..#", "#.......................................#",
-     "#.......................................#", "##..#####..#####..#####..#####..#####..##",
-     "#......#......#......#......#......#....#", "#......#......#......#......#......#....#",
-     "#......#......#......#......#......#....#", "#########################################"},
-    10};
 constexpr Cell kRobot{205, 60};  // in the middle of the corridor
 
+/// Squares of half a metre: rooms along both sides of a corridor of 19 m.
 struct Rooms {
-  ExplorationGrid grid = kRooms.seen();
-  FreeSpace space{0.27, grid.resolution()};
-  DistanceField ways;
+  KnownPlace place{0.27};
   Rooms() {
-    space.update(grid, grid.changed());
-    ways.search(space, grid.resolution(), kRobot);
+    const KnownWorld rooms{
+        {"#########################################", "#......#......#......#......#......#....#",
+         "#......#......#......#......#......#....#", "#......#......#......#......#......#....#",
+         "###..#####..#####..#####..#####..#####..#", "#.......................................#",
+         "#.......................................#", "##..#####..#####..#####..#####..#####..##",
+         "#......#......#......#......#......#....#", "#......#......#......#......#......#....#",
+         "#......#......#......#......#......#....#", "#########################################"},
+        10};
+    place.seed(rooms.walls(), CellState::kOccupied);
+    place.seed(rooms.freeCells(), CellState::kFree);
+    place.findWays(place.grid().centreOf(kRobot));
   }
-
-  ViewPoint at(Cell cell, double gain) const { return {cell, cell, ways.distanceTo(cell), gain}; }
-
-  /// A metre apart at least: nearer ones share the ways from one of them.
-  std::vector<ViewPoint> randomViews(unsigned seed, int count) const {
-    std::mt19937 random(seed);
-    std::vector<ViewPoint> views;
-    while (static_cast<int>(views.size()) < count) {
-      const Cell c{static_cast<int>(random() % static_cast<unsigned>(kRooms.width())),
-                   static_cast<int>(random() % static_cast<unsigned>(kRooms.height()))};
-      const double gain = 0.1 * static_cast<double>(1 + random() % 100);
-      const bool is_apart = std::all_of(views.begin(), views.end(), [c](const ViewPoint& view) {
-        return distanceBetween(view.cell, c) >= 20.0;
-      });
-      if (ways.isReached(c) && is_apart) views.push_back(at(c, gain));
-    }
-    return views;
+  ViewPoint at(Cell cell, double expected) const {
+    return {cell, cell, place.ways().distanceTo(cell), expected, expected};
   }
 };
 
-ViewTour shortest() {
-  ViewTourParameters parameters;
-  parameters.hurry = 0.0;
-  return ViewTour(parameters);
+TEST(FirstOfTour, IsNoneOfNone) { EXPECT_FALSE(firstOfTour(Rooms{}.place, {}, {})); }
+
+// Two stops in rooms at one end of the corridor, one as much and as near towards the other end.
+TEST(FirstOfTour, IsWhereMoreWillBeSeenSoon) {
+  const Rooms rooms;
+  const ViewPoint alone = rooms.at({125, 60}, 0.5), first = rooms.at({285, 60}, 0.5);
+  for (const bool has_second : {false, true}) {
+    std::vector<ViewPoint> stops{alone, first};
+    if (has_second) stops.push_back(rooms.at({305, 60}, 0.5));
+    const auto chosen = firstOfTour(rooms.place, stops, alone.target);
+    ASSERT_TRUE(chosen);
+    EXPECT_EQ(chosen->cell, has_second ? first.cell : alone.cell);
+  }
 }
 
-TEST(ViewTour, ChoosesNoneOfNone) {
+TEST(FirstOfTour, IsTheOneThatMostIsExpectedFromAmongTheNear) {
   const Rooms rooms;
-  EXPECT_FALSE(ViewTour{}.choose(rooms.grid, rooms.space, {}, kReach, {}));
-}
-
-// Two views in a room nearby, three in one farther off.
-TEST(ViewTour, FinishesWhatIsNearBeforeItGoesFar) {
-  const Rooms rooms;
-  const std::vector<ViewPoint> views{rooms.at({380, 15}, 1.0), rooms.at({360, 15}, 1.0),
-                                     rooms.at({240, 20}, 1.0), rooms.at({260, 20}, 1.0),
-                                     rooms.at({385, 20}, 1.0)};
-  const auto first = shortest().choose(rooms.grid, rooms.space, views, kReach, {});
-  ASSERT_TRUE(first);
-  EXPECT_TRUE(*first == 2 || *first == 3) << *first;
+  const std::vector<ViewPoint> stops{rooms.at({125, 60}, 0.2), rooms.at({290, 60}, 0.6)};
+  EXPECT_EQ(firstOfTour(rooms.place, stops, {})->cell, stops[1].cell);
 }
 
 // Two goals as far off as each other: the present one is kept. Not so where the other one is near.
-TEST(ViewTour, KeepsThePresentGoalWhereAnotherTourIsHardlyCheaper) {
+TEST(FirstOfTour, SeesThePresentGoalWhereAnotherTourIsHardlyCheaper) {
   const Rooms rooms;
-  const std::vector<ViewPoint> views{rooms.at({105, 60}, 1.0), rooms.at({305, 60}, 1.0)};
-  for (const std::size_t present : {0u, 1u}) {
-    EXPECT_EQ(shortest().choose(rooms.grid, rooms.space, views, kReach, views[present].target),
-              present);
-  }
-  const std::vector<ViewPoint> uneven{rooms.at({105, 60}, 1.0), rooms.at({245, 60}, 1.0)};
-  EXPECT_EQ(shortest().choose(rooms.grid, rooms.space, uneven, kReach, uneven[0].target), 1u);
-}
-
-TEST(ViewTour, WhatIsPreparedIsNotEstimated) {
-  const Rooms rooms;
-  ViewTourParameters none, all;
-  none.fields_per_choice = 0;
-  all.fields_per_choice = 100;
-  int differ = 0;
-  for (unsigned seed = 1; seed <= 30; ++seed) {
-    const auto views = rooms.randomViews(seed, 8);
-    ViewTour exact(all), prepared(none);
-    const auto choose = [&](ViewTour& tour) {
-      return tour.choose(rooms.grid, rooms.space, views, kReach, {});
-    };
-    const auto best = choose(exact);
-    differ += choose(prepared) != best;
-    for (std::size_t i = 0; i < views.size(); ++i) prepared.prepare(rooms.grid, rooms.space);
-    EXPECT_EQ(choose(prepared), best) << seed;
-  }
-  EXPECT_GT(differ, 0) << "the estimates are as good";
+  const std::vector<ViewPoint> even{rooms.at({44, 60}, 1.0), rooms.at({366, 60}, 1.0)};
+  for (const ViewPoint& present : even)
+    EXPECT_EQ(firstOfTour(rooms.place, even, present.target)->cell, present.cell);
+  const std::vector<ViewPoint> uneven{rooms.at({44, 60}, 1.0), rooms.at({300, 60}, 1.0)};
+  EXPECT_EQ(firstOfTour(rooms.place, uneven, uneven[0].target)->cell, uneven[1].cell);
 }
 
 }  // namespace

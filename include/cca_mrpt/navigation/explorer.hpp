@@ -147,8 +147,6 @@ class Explorer {
   void excuse(double time);
   Action decide(const Observation& observation);
   void heedOutcome(const Eigen::Vector2d& robot_map);
-  void turnToWayPoint(const Eigen::Vector2d& way_point_map, const Observation& observation,
-                      Action& action) const;
   void turnTowards(const Eigen::Vector2d& p_map, const Pose2& T_map_robot, Action& action) const;
   void turnOnTheSpot(double rate, Action& action) const;
   Action explore(const Observation& observation);

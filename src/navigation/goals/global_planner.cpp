@@ -9,24 +9,29 @@
 namespace cca {
 namespace {
 
-// m^2, of gain exp(-0.2 way): a frontier that promises this is driven into. With less there is less
-// way to 90 % coverage, with 1.5 a tenth more to 99 %; with 8 the reverse.
-constexpr double kWorthEntering = 5.0;
 constexpr double kReconsiderAfter = 0.3;         // m driven
 constexpr std::size_t kWorthReconsidering = 20;  // cells newly seen
+constexpr double kPromising = 0.7;               // m^2 that are expected for their way
 constexpr double kPassed = 0.1;                  // m, of a corner
-constexpr int kMostTimesHeld = 3;                // at one place, in the last look
 constexpr std::size_t kWorthAnotherLook = 200;   // cells newly seen: half a square metre
 constexpr double kLongestInVain = 100.0;         // m, and once around what is known
+
+bool isInside(const std::vector<Eigen::Vector2d>& polygon, const Eigen::Vector2d& p) {
+  bool inside = false;
+  for (std::size_t i = 0, j = polygon.size() - 1; i < polygon.size(); j = i++) {
+    const Eigen::Vector2d &a = polygon[i], &b = polygon[j];
+    if ((a.y() > p.y()) == (b.y() > p.y())) continue;
+    if (p.x() < a.x() + (p.y() - a.y()) / (b.y() - a.y()) * (b.x() - a.x())) inside = !inside;
+  }
+  return inside;
+}
 
 }  // namespace
 
 GlobalPlanner::GlobalPlanner(const GlobalPlannerParameters& parameters)
     : parameters_(parameters),
       place_(parameters.clearance),
-      views_(parameters.smallest_gain, parameters.smallest_frontier),
-      view_tour_(parameters.tour),
-      last_look_(parameters.smallest_gain, parameters.smallest_frontier, parameters.worth),
+      view_search_(parameters.smallest_gain, parameters.smallest_frontier, parameters.worth),
       unpaid_way_(parameters.worth) {}
 
 const Plan& GlobalPlanner::update(const Scan& scan, const Eigen::Vector2d& robot_map,
@@ -47,11 +52,7 @@ const Plan& GlobalPlanner::update(const Scan& scan, const Eigen::Vector2d& robot
     replan(robot_map);
   } else {
     advance(robot_map);
-    if (pathStands()) {
-      view_tour_.prepare(grid(), space());
-    } else {
-      replan(robot_map);
-    }
+    if (!pathStands()) replan(robot_map);
   }
   return plan_;
 }
@@ -123,11 +124,10 @@ void GlobalPlanner::decide(const Eigen::Vector2d& robot_map) {
   plan_ = {};
   if (!drivesInVain()) {
     do {
-      if (const auto chosen = choose()) {
-        is_last_look_ = false;
+      place_.findWays(robot_map);
+      if (const auto chosen = bestFrontier())
         return driveTo(*chosen, robot_map, "to see what is behind a frontier");
-      }
-      if (lookLast(robot_map)) return;
+      if (search(robot_map)) return;
     } while (opensMore());
   }
   goal_.reset();
@@ -140,7 +140,7 @@ void GlobalPlanner::decide(const Eigen::Vector2d& robot_map) {
   plan_.unreached = place_.unreached();
   const auto given_up = whyGivenUp();
   plan_.gave_up = given_up.has_value();
-  plan_.reason = given_up.value_or(last_look_.whatIsLeft());
+  plan_.reason = given_up.value_or(view_search_.whatIsLeft());
 }
 
 // The way there and back between the farthest places of a building is not in vain yet.
@@ -159,8 +159,7 @@ std::optional<std::string> GlobalPlanner::whyGivenUp() const {
     return "driving shows hardly anything new any more; " + std::to_string(left) +
            " frontiers are left";
   }
-  if (place_.timesHeld() >= kMostTimesHeld)
-    return "the robot does not get to what is left from where it stands";
+  if (place_.isHeld()) return "the robot does not get to what is left from where it stands";
   if (!place_.ways().isStarted())
     return "the robot stands where nothing around it is known to be free";
   return {};
@@ -176,43 +175,71 @@ void GlobalPlanner::driveTo(const ViewPoint& chosen, const Eigen::Vector2d& robo
   if (!takeWayTo(chosen.cell, robot_map)) dropGoal(Failure::kNotReached);
 }
 
-void GlobalPlanner::findViews() {
-  place_.findWays(decided_at_);
-  views_.find(place_, grid().cellOf(decided_at_));
-  if (is_last_look_ || !isGoalUnseen() || !views_.keep(place_, *goal_)) goal_.reset();
-}
-
 // Where nothing else is left, ways that were barred are open again.
 bool GlobalPlanner::opensMore() {
-  if (place_.timesHeld() >= kMostTimesHeld) return false;  // it gets nowhere from here
+  if (place_.isHeld()) return false;  // it gets nowhere from here
   if (!place_.open()) return false;
-  revealed_at_last_look_.reset();
+  revealed_at_close_search_.reset();
   return true;
 }
 
-// From all places, and again where much was seen since.
-bool GlobalPlanner::lookLast(const Eigen::Vector2d& robot_map) {
-  const auto is_open = [&](const ViewPoint& view) {
-    return !place_.isAside(view.target) && views_.isWithinLimits(place_, view.cell) &&
-           views_.isWithinLimits(place_, view.target);
-  };
-  const Strategy strategy =
-      parameters_.strategy == Strategy::kViewTour ? Strategy::kGainDistance : parameters_.strategy;
-  while (place_.timesHeld() < kMostTimesHeld) {
-    if (const auto chosen = last_look_.next(place_, strategy, is_open)) {
-      is_last_look_ = true;
-      driveTo(*chosen, robot_map, "to see what is left");
+bool GlobalPlanner::isWithinLimits(Cell c) const {
+  return limits_.size() < 3 || isInside(limits_, grid().centreOf(c));
+}
+
+bool GlobalPlanner::isOpen(const ViewPoint& view) const {
+  return !place_.isAside(view.target) && isWithinLimits(view.cell) && isWithinLimits(view.target);
+}
+
+ViewSearch::Filter GlobalPlanner::openOnes() const {
+  return [this](const ViewPoint& view) { return isOpen(view); };
+}
+
+// By the strategies of others, whose goals are frontiers.
+std::optional<ViewPoint> GlobalPlanner::bestFrontier() const {
+  std::optional<ViewPoint> best;
+  if (parameters_.strategy == Strategy::kViewTour || revealed_at_close_search_) return best;
+  for (const ViewPoint& view :
+       frontierPlaces(place_, parameters_.smallest_frontier, parameters_.smallest_gain)) {
+    const bool is_better =
+        !best || scoreOf(parameters_.strategy, view) > scoreOf(parameters_.strategy, *best);
+    if (is_better && isOpen(view)) best = view;
+  }
+  return best;
+}
+
+// Where no place promises much, all that is left is seen in a tour.
+ViewPoint GlobalPlanner::nextStop(const ViewPoint& best) {
+  if (parameters_.strategy != Strategy::kViewTour ||
+      scoreOf(parameters_.strategy, best) >= kPromising)
+    return best;
+  const auto present = isGoalUnseen() ? std::optional<Cell>(goal_->target) : std::nullopt;
+  return firstOfTour(place_, view_search_.stops(place_, openOnes()), present).value_or(best);
+}
+
+// The best of all places; where none is good enough, of all places asked closely, and again where
+// much was seen since.
+bool GlobalPlanner::search(const Eigen::Vector2d& robot_map) {
+  while (!place_.isHeld()) {
+    if (const auto chosen = view_search_.next(place_, parameters_.strategy, openOnes())) {
+      driveTo(nextStop(*chosen), robot_map, "to see what is left");
+      return true;
+    }
+    if (view_search_.isUnderWay()) {
+      if (isGoalUnseen() && place_.ways().isReached(goal_->cell)) {
+        driveTo(ViewPoint(*goal_), robot_map, "to see what is left");
+      } else {
+        goal_.reset();
+        plan_.reason = "to find out what is left to see";
+      }
       return true;
     }
     goal_.reset();
-    if (last_look_.isUnderWay()) {
-      plan_.reason = "to find out what is left to see";
-      return true;
-    }
-    if (revealed_at_last_look_ && grid().revealed() < *revealed_at_last_look_ + kWorthAnotherLook)
+    if (revealed_at_close_search_ &&
+        grid().revealed() < *revealed_at_close_search_ + kWorthAnotherLook)
       break;
-    revealed_at_last_look_ = grid().revealed();
-    last_look_.begin(place_);
+    revealed_at_close_search_ = grid().revealed();
+    view_search_.searchClosely(place_);
   }
   return false;
 }
@@ -223,22 +250,6 @@ void GlobalPlanner::lookAround() {
   plan_.reason = "to look around";
 }
 
-// While the last look is under way the views of before it would be out of date.
-std::optional<ViewPoint> GlobalPlanner::choose() {
-  if (last_look_.isUnderWay()) return {};
-  findViews();
-  const std::vector<ViewPoint>&views = views_.viewPoints(), &entries = views_.entries();
-  if (parameters_.strategy != Strategy::kViewTour) {
-    const auto best = selectGoal(parameters_.strategy, views);
-    return best ? std::optional<ViewPoint>(views[*best]) : std::nullopt;
-  }
-  const auto entry = selectGoal(Strategy::kGainDistance, entries);
-  if (entry && discountedGain(entries[*entry]) >= kWorthEntering) return entries[*entry];
-  const auto present = goal_ ? std::optional<Cell>(goal_->target) : std::nullopt;
-  const auto stop = view_tour_.choose(grid(), space(), views, views_.reach(place_), present);
-  return stop ? std::optional<ViewPoint>(views[*stop]) : std::nullopt;
-}
-
 void GlobalPlanner::correct(const PastScans& past) {
   const CellMove moved = place_.correct(past);
   if (goal_) {
@@ -246,36 +257,33 @@ void GlobalPlanner::correct(const PastScans& past) {
     goal_->target = moved(goal_->target);
     plan_.look_at = grid().centreOf(goal_->target);
   }
-  view_tour_ = ViewTour(parameters_.tour);
-  last_look_ =
-      LastLook(parameters_.smallest_gain, parameters_.smallest_frontier, parameters_.worth);
-  revealed_at_last_look_.reset();
+  view_search_.move(moved);
+  decided_at_ = past.correctionAt(decided_at_) * decided_at_;
+  revealed_then_ = grid().revealed();
+  revealed_at_close_search_.reset();
   is_corrected_ = true;
 }
 
-void GlobalPlanner::setGoalAside() { dropGoal(Failure::kNotReached, heldAt()); }
+void GlobalPlanner::setGoalAside() {
+  if (place_.lastPlace()) dropGoal(Failure::kNotReached, grid().cellOf(*place_.lastPlace()));
+}
 
 void GlobalPlanner::dropGoal(Failure failure, std::optional<Cell> held_at) {
   if (goal_) place_.noteFailure(goal_->target, failure, held_at);
   goal_.reset();
 }
 
-// Of the last look only: before it, each goal is tried from wherever the robot is.
-std::optional<Cell> GlobalPlanner::heldAt() const {
-  if (!is_last_look_ || !place_.lastPlace()) return {};
-  return grid().cellOf(*place_.lastPlace());
-}
-
-// Where there is no other way, the place stays open for some more tries.
-bool GlobalPlanner::goAround(const std::vector<Eigen::Vector2d>& way) {
-  if (!goal_ || !place_.lastPlace()) return false;
+// Who stands in the only way for a moment may leave: it is tried again at once, but only once.
+void GlobalPlanner::leaveWay(const std::vector<Eigen::Vector2d>& way, bool had_its_time) {
+  if (!goal_ || !place_.lastPlace()) return;
   place_.bar(way);
   place_.findWays(*place_.lastPlace());
-  const bool is_in_reach = is_last_look_ ? place_.ways().isReached(goal_->cell)
-                                         : views_.viewOf(place_, goal_->target).has_value();
-  if (!is_in_reach && place_.open()) return false;
-  dropGoal(Failure::kWayLost, heldAt());
-  return true;
+  const bool is_in_reach =
+      place_.ways().isReached(goal_->cell) || view_search_.canBeSeen(place_, goal_->target);
+  const Failure failure = had_its_time && !is_in_reach ? Failure::kNotReached : Failure::kWayLost;
+  const bool is_aside =
+      place_.noteFailure(goal_->target, failure, grid().cellOf(*place_.lastPlace()));
+  if (is_aside || is_in_reach || !place_.open()) goal_.reset();
 }
 
 void GlobalPlanner::noteArrival() {

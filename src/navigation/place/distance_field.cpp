@@ -108,38 +108,18 @@ bool findStart(const FreeSpace& space, Cell robot, int reach, Cell& start) {
 
 }  // namespace
 
-void DistanceField::search(const FreeSpace& space, double resolution, Cell start, double horizon,
+void DistanceField::search(const FreeSpace& space, double resolution, Cell start,
                            std::optional<Cell> until) {
-  begin(space, resolution, start, horizon);
-  grow(space, until);
-}
-
-void DistanceField::begin(const FreeSpace& space, double resolution, Cell start, double horizon) {
   ++search_;
   unit_ = resolution * FreeSpace::kBlock / kStraight;
-  horizon_ = horizon;
   for (auto& bucket : queue_) bucket.clear();
   waiting_ = 0;
-  settled_up_to_ = 0;
   started_ = findStart(space, start, static_cast<int>(kStartReach / resolution), start_);
   if (!started_) return;
   const Cell first = FreeSpace::blockOf(start_);
   relax(nodes_[first], {first, space.traversableCells(first), FreeSpace::bitOf(start_)}, 0);
-}
-
-double DistanceField::reach(const FreeSpace& space, Cell c) {
-  if (!started_) return kUnreached;
-  const Cell to = FreeSpace::blockOf(c), from = FreeSpace::blockOf(start_);
-  const int dx = std::abs(to.x - from.x), dy = std::abs(to.y - from.y);
-  const double least = (kStraight * std::abs(dx - dy) + kDiagonal * std::min(dx, dy)) * unit_;
-  if (least > horizon_) return kUnreached;  // without a search
-  grow(space, c);
-  return distanceTo(c);
-}
-
-void DistanceField::grow(const FreeSpace& space, std::optional<Cell> until) {
-  while (waiting_ > 0 && settled_up_to_ * unit_ <= horizon_ && !(until && isReached(*until))) {
-    auto& bucket = queue_[settled_up_to_ % queue_.size()];
+  for (std::uint32_t cost = 0; waiting_ > 0 && !(until && isReached(*until)); ++cost) {
+    auto& bucket = queue_[cost % queue_.size()];
     for (std::size_t i = 0; i < bucket.size(); ++i) {
       const Entry entry = bucket[i];
       Part& part = nodes_[entry.block].parts[static_cast<std::size_t>(entry.part)];
@@ -149,7 +129,6 @@ void DistanceField::grow(const FreeSpace& space, std::optional<Cell> until) {
     }
     waiting_ -= bucket.size();
     bucket.clear();
-    ++settled_up_to_;
   }
 }
 
@@ -161,7 +140,6 @@ void DistanceField::expand(const FreeSpace& space, const Part& here, const Entry
   for (std::size_t d = 0; d < 8; ++d) around[d] = space.traversableCells(b + kNeighbours[d]);
   const bool is_open = part == kAll && std::all_of(around.begin(), around.end(),
                                                    [](unsigned cells) { return cells == kAll; });
-  // The space may have grown between two blocks of a path: both have to have been open.
   const unsigned onward =
       is_open && here.from_open ? onwardFrom(static_cast<std::size_t>(here.from)) : 0xFF;
   for (std::size_t d = 0; d < 8; ++d) {

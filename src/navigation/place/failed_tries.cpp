@@ -13,11 +13,8 @@ namespace {
 constexpr std::size_t kRetryAfter = 4000;  // cells newly seen: 10 m^2
 constexpr int kSameTarget = 3;             // cells
 constexpr double kSamePlace = 6.0;         // cells, that a robot is held at
-// Of 30 explorations in which the way leads through passages of 53 to 58 cm, nine end before it
-// with 3, two with 5, one with 6; but each takes 14 s before a pane.
-constexpr int kMostTimesHeld = 6;
-constexpr double kAhead = 0.6;  // m, of a way that is barred
-constexpr int kAside = 2;       // cells, to both sides of it
+constexpr double kAhead = 0.6;             // m, of a way that is barred
+constexpr int kAside = 2;                  // cells, to both sides of it
 
 bool isRecent(std::size_t revealed_then, std::size_t revealed) {
   return revealed < revealed_then + kRetryAfter;
@@ -92,7 +89,7 @@ bool FailedTries::staysShut(const Barred& barred, std::size_t revealed) const {
     return distanceBetween(other.held_at, barred.held_at) <= kSamePlace &&
            isRecent(other.revealed_then, revealed);
   });
-  return times >= kMostTimesHeld;
+  return times >= kMostTries;
 }
 
 bool FailedTries::open(std::size_t revealed, FreeSpace& space) {

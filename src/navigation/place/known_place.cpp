@@ -120,8 +120,7 @@ void KnownPlace::takeChanges() {
 }
 
 void KnownPlace::findWays(const Eigen::Vector2d& from_map, std::optional<Cell> until) {
-  ways_.search(space_, grid_.resolution(), grid_.cellOf(from_map), DistanceField::kUnreached,
-               until);
+  ways_.search(space_, grid_.resolution(), grid_.cellOf(from_map), until);
 }
 
 CellSet KnownPlace::openings(std::size_t smallest_frontier) const {

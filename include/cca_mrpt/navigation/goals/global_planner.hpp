@@ -6,9 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "cca_mrpt/navigation/goals/frontier_views.hpp"
-#include "cca_mrpt/navigation/goals/last_look.hpp"
 #include "cca_mrpt/navigation/goals/view_points.hpp"
+#include "cca_mrpt/navigation/goals/view_search.hpp"
 #include "cca_mrpt/navigation/goals/view_tour.hpp"
 #include "cca_mrpt/navigation/place/known_place.hpp"
 
@@ -19,8 +18,7 @@ struct GlobalPlannerParameters {
   double clearance = 0.30;            ///< m, kept from known obstacles
   double smallest_gain = 0.1;         ///< m^2, frontiers that promise less are left
   std::size_t smallest_frontier = 5;  ///< cells, likewise
-  double worth = 60.0;                ///< m of way that an unseen square metre is worth
-  ViewTourParameters tour;
+  double worth = 45.0;                ///< m of way that an unseen square metre is worth
 };
 
 enum class PlanPhase {
@@ -53,9 +51,10 @@ struct Plan {
 /// The paper's global planner (Step 0): keeps what is known of the place, and sets one goal after
 /// the other until no reachable frontier of useful size is left; see docs/exploration.md.
 ///
-/// A goal is a place to look from (FrontierViews), by `view_tour` also the middle of a frontier
-/// that promises much. It is given up as soon as what it is to show has been seen, or the way is
-/// blocked. When no large one is left, all reached places are asked (LastLook).
+/// A goal is the best of all places to look from (ViewSearch), or where none promises much the
+/// first stop of a tour of few of them; by the strategies of others, a place at a frontier as long
+/// as there is one. It is given up as soon as what it is to show has been seen, or the way is
+/// blocked.
 class GlobalPlanner {
  public:
   explicit GlobalPlanner(const GlobalPlannerParameters& parameters = {});
@@ -69,7 +68,7 @@ class GlobalPlanner {
   const KnownPlace& place() const { return place_; }
 
   /// Exploration stays inside a polygon (m, map frame); fewer than three corners: no limit.
-  void limitTo(std::vector<Eigen::Vector2d> polygon) { views_.limitTo(std::move(polygon)); }
+  void limitTo(std::vector<Eigen::Vector2d> polygon) { limits_ = std::move(polygon); }
 
   /// Takes a correction of the past: what is known is made anew from the scans, and goals and
   /// barred ways go with them. The next update finds the way to the same goal anew. Cost: that of
@@ -77,15 +76,14 @@ class GlobalPlanner {
   void correct(const PastScans& past);
 
   /// Sets the present goal aside until the map has changed, e.g. where it proved unreachable. The
-  /// third one of the last look that this happens to at the same place ends the exploration.
+  /// sixth one in a row that this happens to at the same place ends the exploration.
   void setGoalAside();
 
-  /// Says that the robot got no farther on a way (m, map frame), from its beginning on: bars it
-  /// where what the present goal is to show can be seen on another way. A goal that this happens to
-  /// twice is set aside.
-  /// @return whether there is another way, or the place was tried too often (FailedTries): then
-  /// the goal is left. Cost: a search over the known blocks.
-  bool goAround(const std::vector<Eigen::Vector2d>& way);
+  /// Says that the robot got no farther on a way (m, map frame), from its beginning on: bars it, or
+  /// where what the goal is to show can be seen on no other way, lets it be tried once more. A goal
+  /// that this happens to twice, or that on no other way can be seen and has `had_its_time`, is set
+  /// aside. Cost: a search over the known blocks, and a line of sight for each place found.
+  void leaveWay(const std::vector<Eigen::Vector2d>& way, bool had_its_time);
 
   /// Says that the robot is as near to the goal as it gets: if there is nothing new to see from
   /// here, the goal is not tried again until the map has changed.
@@ -115,31 +113,31 @@ class GlobalPlanner {
   bool takeWayTo(Cell goal, const Eigen::Vector2d& robot_map);
   bool isTimeToReconsider(const Eigen::Vector2d& robot_map) const;
   void decide(const Eigen::Vector2d& robot_map);
-  void findViews();
-  std::optional<ViewPoint> choose();
+  bool isOpen(const ViewPoint& view) const;
+  ViewSearch::Filter openOnes() const;
+  bool isWithinLimits(Cell c) const;
+  std::optional<ViewPoint> bestFrontier() const;
   void lookAround();
-  bool lookLast(const Eigen::Vector2d& robot_map);
+  ViewPoint nextStop(const ViewPoint& best);
+  bool search(const Eigen::Vector2d& robot_map);
   bool opensMore();
   void dropGoal(Failure failure, std::optional<Cell> held_at = {});
-  std::optional<Cell> heldAt() const;
   bool drivesInVain() const;
   std::optional<std::string> whyGivenUp() const;
   void driveTo(const ViewPoint& chosen, const Eigen::Vector2d& robot_map, const char* reason);
 
   GlobalPlannerParameters parameters_;
   KnownPlace place_;
-  FrontierViews views_;
-  ViewTour view_tour_;
-  LastLook last_look_;
+  ViewSearch view_search_;
+  std::vector<Eigen::Vector2d> limits_;  ///< m, map frame
   UnpaidWay unpaid_way_;
   bool has_looked_around_ = false;  ///< from the start
   bool is_corrected_ = false;       ///< since the last decision
   std::optional<ViewPoint> goal_;
   Eigen::Vector2d decided_at_ = Eigen::Vector2d::Zero();
   std::size_t revealed_then_ = 0;  ///< at the last decision
-  bool is_last_look_ = false;      ///< the goal is one of last_look_
-  /// When last_look_ began.
-  std::optional<std::size_t> revealed_at_last_look_;
+  /// When the places were last asked closely.
+  std::optional<std::size_t> revealed_at_close_search_;
   int goals_ = 0;
   Plan plan_;
 };

@@ -29,6 +29,10 @@ enum class Failure {
 /// the map has changed.
 class FailedTries {
  public:
+  /// At one place. Of 30 explorations in which the way leads through passages of 53 to 58 cm, nine
+  /// end before it with 3, two with 5, one with 6; but each takes 14 s before a pane.
+  static constexpr int kMostTries = 6;
+
   /// Notes a failure. @param held_at  where the robot got no farther, where that is what failed.
   /// @return whether the target is set aside by it. Cost: O(tries), as of all that follows.
   bool add(Cell target, Failure failure, std::size_t revealed, std::optional<Cell> held_at = {});

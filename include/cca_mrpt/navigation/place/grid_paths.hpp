@@ -25,18 +25,11 @@ class DistanceField {
   /// Searches anew. @param start    a cell; where it is not traversable, or no way leads half a
   ///                                metre away from it, the nearest one within half a metre where
   ///                                that is otherwise; else nothing is reached.
-  /// @param horizon  m, paths longer than this are not searched.
   /// @param until    the search may end as soon as the way to this cell is known; other ways are
   ///                 then known only as far as they are not longer.
   /// Cost: O(blocks reached), without clearing the last search.
-  void search(const FreeSpace& space, double resolution, Cell start, double horizon = kUnreached,
+  void search(const FreeSpace& space, double resolution, Cell start,
               std::optional<Cell> until = std::nullopt);
-
-  /// Begins a search that reach() carries on, only as far as it is asked to.
-  void begin(const FreeSpace& space, double resolution, Cell start, double horizon = kUnreached);
-
-  /// distanceTo(), with the search carried on until that is known. `space` may have grown since.
-  double reach(const FreeSpace& space, Cell c);
 
   /// m, from the start to the block that holds a cell; kUnreached where no path is known.
   double distanceTo(Cell c) const;
@@ -78,7 +71,6 @@ class DistanceField {
     bool from_open = false;
   };
   const Part* partOf(Cell c) const;
-  void grow(const FreeSpace& space, std::optional<Cell> until);
   void expand(const FreeSpace& space, const Part& here, const Entry& entry);
   unsigned relax(Node& node, const Passage& to, std::uint32_t cost);
 
@@ -86,9 +78,7 @@ class DistanceField {
   std::uint32_t search_ = 0;
   std::array<std::vector<Entry>, 32> queue_;
   std::size_t waiting_ = 0;
-  double unit_ = 1.0;                ///< m, of a cost
-  double horizon_ = kUnreached;      ///< m
-  std::uint32_t settled_up_to_ = 0;  ///< all ways of less cost are known
+  double unit_ = 1.0;  ///< m, of a cost
   Cell start_;
   bool started_ = false;
 };

@@ -76,8 +76,8 @@ class KnownPlace {
   }
   /// Whether a target was set aside, and may not be tried again yet.
   bool isAside(Cell target) const { return failed_.isAside(target, grid_.revealed()); }
-  /// See FailedTries.
-  int timesHeld() const { return failed_.timesHeld(); }
+  /// Whether the robot was held at one place in all of its last tries, as often as it may.
+  bool isHeld() const { return failed_.timesHeld() >= FailedTries::kMostTries; }
 
   /// Finds the shortest ways from a place (m, map frame) anew: to everywhere, or at least to
   /// `until`. Cost: O(known blocks).

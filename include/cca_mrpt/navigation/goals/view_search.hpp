@@ -13,15 +13,13 @@
 
 namespace cca {
 
-/// What is left to see when there is no large frontier left to go to: all places that the robot can
-/// reach, one or two in each block of the free space (0.2 m) that has a frontier in view, are asked
-/// what is unknown in view from there.
+/// What there is to see, and the best place to look from: all places that the robot can reach are
+/// asked what is expected to be seen from there.
 ///
-/// A large frontier asks the other way round, from where a point behind it is seen; but one place
-/// may see what many small ones hide, and through a gap that the robot does not fit through each
-/// place sees another wedge of what lies behind. It is done a bounded number of looks at a time,
-/// while the robot stands.
-class LastLook {
+/// First one place in every other block of the free space (0.2 m), as it becomes known. Where none
+/// of these shows enough, searchClosely() asks one or two in each block that has a frontier in
+/// view: a few centimetres count beside a corner. It is done a bounded number of looks at a time.
+class ViewSearch {
  public:
   /// What a view point must fulfil beyond its gain.
   using Filter = std::function<bool(const ViewPoint&)>;
@@ -29,18 +27,30 @@ class LastLook {
   /// @param smallest_gain      m^2, places that promise less are left.
   /// @param smallest_frontier  cells; what lies behind smaller frontiers does not count.
   /// @param worth              m of way that an unseen square metre is worth; likewise.
-  LastLook(double smallest_gain, std::size_t smallest_frontier, double worth)
+  ViewSearch(double smallest_gain, std::size_t smallest_frontier, double worth)
       : smallest_gain_(smallest_gain), smallest_frontier_(smallest_frontier), worth_(worth) {}
 
-  /// Begins anew with the frontiers of now. Cost: O(frontier cells).
-  void begin(const KnownPlace& place);
-
-  /// The best place to look from by a strategy other than kViewTour, by the ways last found, of
-  /// those that are worth their way; it stays among the places. Asks places first that were not
-  /// asked yet.
+  /// The best place to look from by a strategy, by the ways last found, of those that are worth
+  /// their way; it stays among the places. Asks places first that were not asked yet.
   /// @return empty if there is none, or not before another call, see isUnderWay().
-  /// Cost: O(frontier cells), and a bounded number of looks.
+  /// Cost: O(known blocks), and a bounded number of looks.
   std::optional<ViewPoint> next(const KnownPlace& place, Strategy strategy, const Filter& filter);
+
+  /// Few places that see all between them that is worth its way: those that promise most for their
+  /// way first, each asked anew, and none of which another one sees what it is there to see.
+  /// Cost: O(places found) lines of sight, and a bounded number of looks.
+  std::vector<ViewPoint> stops(const KnownPlace& place, const Filter& filter);
+
+  /// Asks all places anew, those of each block that sees a frontier of now. Cost: O(frontier
+  /// cells).
+  void searchClosely(const KnownPlace& place);
+
+  /// Whether a target is in view of a place found so far that the ways last found lead to.
+  bool canBeSeen(const KnownPlace& place, Cell target) const;
+
+  /// The past was corrected: what was found and what is still to be asked goes with it. Places
+  /// are asked closely anew by searchClosely() only.
+  void move(const CellMove& moved);
 
   /// The places that were left when next() found none that is worth its way, with their ways.
   const std::vector<ViewPoint>& left() const { return found_; }
@@ -52,7 +62,9 @@ class LastLook {
 
  private:
   void findPlaces(const KnownPlace& place);
-  void askPlaces(const KnownPlace& place);
+  void findPlacesCloseBy(const KnownPlace& place);
+  void askPlaces(const KnownPlace& place, double best);
+  bool isWorthItsWay(const ViewPoint& view) const;
   std::optional<ViewPoint> choose(const KnownPlace& place, Strategy strategy, const Filter& filter);
   ViewPoint lookFrom(const KnownPlace& place, Cell cell);
 
@@ -60,11 +72,13 @@ class LastLook {
   std::size_t smallest_frontier_;
   double worth_;
   bool is_under_way_ = false;
-  int looks_left_ = 0;           ///< that may be made in this call
-  CellSet openings_;             ///< of now
-  std::vector<Cell> unseen_;     ///< frontier cells that were not asked yet for who sees them
-  std::vector<Cell> blocks_;     ///< that see one, and were not asked yet
-  TiledGrid<char> is_block_{0};  ///< whether a block was ever put among them
+  int looks_left_ = 0;             ///< that may be made in this call, in sixteenths
+  CellSet openings_;               ///< of now
+  std::vector<Cell> unseen_;       ///< frontier cells that were not asked yet for who sees them
+  std::vector<Cell> blocks_;       ///< that see one, and were not asked yet
+  TiledGrid<char> is_block_{0};    ///< whether a block was ever put among them
+  std::vector<ViewPoint> places_;  ///< in every other block, not asked yet, the nearest last
+  TiledGrid<char> has_place_{0};   ///< whether a block's place was ever put among them
   /// As they were when they were asked: gains only become less as more is seen.
   std::vector<ViewPoint> found_;
 };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "cca_mrpt/navigation/goals/last_look.hpp"
+#include "cca_mrpt/navigation/goals/view_search.hpp"
 
 #include <gtest/gtest.h>
 
@@ -21,24 +21,24 @@ const Eigen::Vector2d kBeforeTheGap{2.6, 1.8};
 constexpr double kPriceless = 1e3;  // m/m^2: worth any way
 
 /// Calls until all places have been asked.
-std::optional<ViewPoint> nextOf(LastLook& last_look, KnownPlace& place, Strategy strategy,
-                                const LastLook::Filter& filter) {
-  auto view = last_look.next(place, strategy, filter);
-  while (!view && last_look.isUnderWay()) view = last_look.next(place, strategy, filter);
+std::optional<ViewPoint> nextOf(ViewSearch& view_search, KnownPlace& place, Strategy strategy,
+                                const ViewSearch::Filter& filter) {
+  auto view = view_search.next(place, strategy, filter);
+  while (!view && view_search.isUnderWay()) view = view_search.next(place, strategy, filter);
   return view;
 }
 
 struct Look {
   KnownPlace place{0.27};
-  LastLook last_look{0.1, 5, kPriceless};
+  ViewSearch view_search{0.1, 5, kPriceless};
 
   explicit Look(const Eigen::Vector2d& robot = kBeforeTheGap) {
     place.observe(kRoomBehindAGap.scanFrom({robot.x(), robot.y(), 0.0}), robot);
     place.findWays(robot);
-    last_look.begin(place);
+    view_search.searchClosely(place);
   }
-  std::optional<ViewPoint> next(Strategy strategy, const LastLook::Filter& filter = takesAll) {
-    return nextOf(last_look, place, strategy, filter);
+  std::optional<ViewPoint> next(Strategy strategy, const ViewSearch::Filter& filter = takesAll) {
+    return nextOf(view_search, place, strategy, filter);
   }
   static bool takesAll(const ViewPoint&) { return true; }
   /// m^2 that a place promises behind frontiers of five cells and more.
@@ -47,7 +47,7 @@ struct Look {
   }
 };
 
-TEST(LastLook, FindsReachedPlacesThatSeeMoreThroughAGap) {
+TEST(ViewSearch, FindsReachedPlacesThatSeeMoreThroughAGap) {
   Look look;
   const auto view = look.next(Strategy::kGreedy);
   ASSERT_TRUE(view);
@@ -64,7 +64,7 @@ TEST(LastLook, FindsReachedPlacesThatSeeMoreThroughAGap) {
 }
 
 // A drive from place to place ends, and then no place sees more than was asked for.
-TEST(LastLook, EndsWhenNoPlaceSeesMore) {
+TEST(ViewSearch, EndsWhenNoPlaceSeesMore) {
   Look look;
   int looks = 0;
   for (; const auto view = look.next(Strategy::kNearestFrontier); ++looks) {
@@ -83,7 +83,7 @@ TEST(LastLook, EndsWhenNoPlaceSeesMore) {
   }
 }
 
-TEST(LastLook, LeavesOutWhatTheFilterRefuses) {
+TEST(ViewSearch, LeavesOutWhatTheFilterRefuses) {
   Look look;
   const auto refuses_above = [&](const ViewPoint& view) {
     return look.place.grid().centreOf(view.cell).y() < 1.8;
@@ -97,7 +97,7 @@ TEST(LastLook, LeavesOutWhatTheFilterRefuses) {
 }
 
 // What is behind a wall that lacks a few cells would be a promise that is never kept.
-TEST(LastLook, ExpectsNothingBehindASmallFrontier) {
+TEST(ViewSearch, ExpectsNothingBehindASmallFrontier) {
   KnownPlace place(0.27);
   std::vector<Cell> walls = kRoomBehindAGap.walls(), room;
   for (const Cell c : kRoomBehindAGap.freeCells()) {
@@ -108,44 +108,104 @@ TEST(LastLook, ExpectsNothingBehindASmallFrontier) {
   place.seed(room, CellState::kFree);
   place.findWays(kBeforeTheGap);
   for (const std::size_t smallest : {std::size_t{3}, std::size_t{5}}) {
-    LastLook last_look(0.1, smallest, kPriceless);
-    last_look.begin(place);
-    const auto view = nextOf(last_look, place, Strategy::kGreedy, Look::takesAll);
+    ViewSearch view_search(0.1, smallest, kPriceless);
+    view_search.searchClosely(place);
+    const auto view = nextOf(view_search, place, Strategy::kGreedy, Look::takesAll);
     EXPECT_EQ(view.has_value(), smallest == 3);
   }
 }
 
-TEST(LastLook, GoesThroughALargePlaceAFewAtATime) {
+/// Squares of 20 cm: a corridor of 20 m, and slots in its walls with a pocket behind each, unknown.
+struct Corridor {
+  KnownPlace place{0.27};
+  ViewSearch view_search{0.1, 5, kPriceless};
+  int slots = 0;
+
+  Corridor() {
+    std::string wall(100, '#');
+    for (std::size_t x = 5; x < 100; x += 6, ++slots) wall.replace(x, 2, "..");
+    std::vector<std::string> rows(8, '#' + std::string(98, '.') + '#');
+    rows.insert(rows.begin(), wall);
+    rows.push_back(std::string(100, '#'));
+    const KnownWorld corridor{rows, 4};
+    std::vector<Cell> known = corridor.freeCells();
+    known.erase(std::remove_if(known.begin(), known.end(), [](Cell c) { return c.y >= 36; }),
+                known.end());
+    place.seed(corridor.walls(), CellState::kOccupied);
+    place.seed(known, CellState::kFree);
+    place.findWays({10.0, 1.0});
+  }
+  std::vector<ViewPoint> stops(const ViewSearch::Filter& filter) {
+    nextOf(view_search, place, Strategy::kGreedy, filter);
+    view_search.next(place, Strategy::kViewTour, filter);
+    return view_search.stops(place, filter);
+  }
+};
+
+TEST(ViewSearch, StopsAreFewAndNoneSeesWhatAnotherIsThereToSee) {
+  Corridor corridor;
+  ASSERT_GT(corridor.slots, 12);
+  const auto stops = corridor.stops(Look::takesAll);
+  EXPECT_GT(stops.size(), 3u);
+  EXPECT_LE(stops.size(), 12u);
+  const KnownPlace& place = corridor.place;
+  for (std::size_t a = 0; a < stops.size(); ++a) {
+    EXPECT_GT(stops[a].expected, 0.0);
+    EXPECT_DOUBLE_EQ(stops[a].distance, place.ways().distanceTo(stops[a].cell));
+    for (std::size_t b = a + 1; b < stops.size(); ++b)
+      EXPECT_FALSE(isInView(place.grid(), stops[a].cell, stops[b].target, place.laserRange()));
+  }
+}
+
+TEST(ViewSearch, StopsAreOpenAndStillPromiseWhatTheySay) {
+  Corridor corridor;
+  const auto is_right = [](const ViewPoint& view) { return view.cell.x > 200; };
+  const auto before = corridor.stops(is_right);
+  ASSERT_FALSE(before.empty());
+  for (const ViewPoint& stop : before) EXPECT_TRUE(is_right(stop));
+  // What has been seen since promises nothing.
+  std::vector<Cell> seen;
+  for (int x = 200; x < 400; ++x) {
+    for (int y = 36; y < 40; ++y) seen.push_back({x, y});
+  }
+  corridor.place.seed(seen, CellState::kOccupied);
+  corridor.place.findWays({10.0, 1.0});
+  corridor.view_search.next(corridor.place, Strategy::kViewTour, Look::takesAll);
+  for (const ViewPoint& stop : corridor.view_search.stops(corridor.place, is_right))
+    EXPECT_LT(stop.target.x, 200 + 8);
+}
+
+TEST(ViewSearch, GoesThroughALargePlaceAFewAtATime) {
   const KnownWorld hall{std::vector<std::string>(20, std::string(20, '.')), 10};
   KnownPlace place(0.27);
   place.seed(hall.freeCells(), CellState::kFree);  // nothing is known of what is around it
   place.findWays({5.0, 5.0});
-  LastLook last_look(0.1, 5, kPriceless);
-  last_look.begin(place);
+  ViewSearch view_search(0.1, 5, kPriceless);
+  view_search.searchClosely(place);
   int calls = 0;
-  while (!last_look.next(place, Strategy::kGreedy, Look::takesAll) && last_look.isUnderWay())
+  while (!view_search.next(place, Strategy::kGreedy, Look::takesAll) && view_search.isUnderWay())
     ++calls;
   EXPECT_GT(calls, 5) << "of 2500 places";
   EXPECT_LT(calls, 50);
 }
 
-TEST(LastLook, LeavesWhatIsNotWorthItsWay) {
+TEST(ViewSearch, LeavesWhatIsNotWorthItsWay) {
   Look look;
-  look.last_look = LastLook(0.1, 5, 0.1);  // m/m^2
-  look.last_look.begin(look.place);
+  look.view_search = ViewSearch(0.1, 5, 0.1);  // m/m^2
+  look.view_search.searchClosely(look.place);
   EXPECT_FALSE(look.next(Strategy::kGreedy));
-  EXPECT_FALSE(look.last_look.isUnderWay());
-  ASSERT_FALSE(look.last_look.left().empty());
-  EXPECT_GT(look.last_look.left().front().expected, 0.0);
+  EXPECT_FALSE(look.view_search.isUnderWay());
+  ASSERT_FALSE(look.view_search.left().empty());
+  EXPECT_GT(look.view_search.left().front().expected, 0.0);
 }
 
-TEST(LastLook, FindsNothingBeforeItBeginsOrWhereAllIsKnown) {
-  LastLook last_look(0.1, 5, kPriceless);
+TEST(ViewSearch, FindsNothingBeforeItBeginsOrWhereAllIsKnown) {
+  ViewSearch view_search(0.1, 5, kPriceless);
   KnownPlace nowhere(0.27);
-  EXPECT_FALSE(last_look.next(nowhere, Strategy::kGreedy, Look::takesAll));
-  last_look.begin(nowhere);
-  EXPECT_FALSE(last_look.next(nowhere, Strategy::kGreedy, Look::takesAll));
-  EXPECT_FALSE(last_look.isUnderWay());
+  EXPECT_FALSE(view_search.next(nowhere, Strategy::kGreedy, Look::takesAll));
+  view_search.searchClosely(nowhere);
+  EXPECT_FALSE(view_search.next(nowhere, Strategy::kGreedy, Look::takesAll));
+  EXPECT_FALSE(view_search.isUnderWay());
   Look look;
   look.place.seed(kRoomBehindAGap.walls(), CellState::kOccupied);
   look.place.seed(kRoomBehindAGap.freeCells(), CellState::kFree);

@@ -1,0 +1,228 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "cca_mrpt/navigation/goals/view_search.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <sstream>
+#include <utility>
+
+namespace cca {
+namespace {
+
+constexpr int kLook = 16;                  // what a look takes; 1 where no frontier is in reach
+constexpr int kLooksAtATime = 60 * kLook;  // some 10 ms, 20 in a wide hall
+constexpr double kMostExpected = 10.0;     // m^2, that any place may show
+constexpr int kEveryOther = 2;             // blocks, between places
+constexpr std::size_t kMostStops = 12;     // of a tour: some 1 ms
+constexpr double kNone = -std::numeric_limits<double>::infinity();
+
+/// m^2 / m, what is expected for the way: a place at hand is a metre off, too.
+double perMetre(const ViewPoint& view) { return view.expected / (1.0 + view.distance); }
+
+/// Cells of a block that the robot can reach.
+std::vector<Cell> reachedCells(const KnownPlace& place, Cell block) {
+  std::vector<Cell> cells;
+  FreeSpace::eachCell(block, place.space().traversableCells(block), [&](Cell c) {
+    if (place.ways().isReached(c)) cells.push_back(c);
+  });
+  return cells;
+}
+
+/// The first one, and beside obstacles, where a few centimetres count, also the last one.
+std::vector<Cell> placesIn(const KnownPlace& place, Cell block) {
+  constexpr unsigned kAll = 0xFFFF;
+  std::vector<Cell> cells = reachedCells(place, block);
+  const bool is_open = place.space().traversableCells(block) == kAll;
+  if (cells.size() > 1) cells.erase(cells.begin() + 1, cells.end() - (is_open ? 0 : 1));
+  return cells;
+}
+
+}  // namespace
+
+void ViewSearch::searchClosely(const KnownPlace& place) {
+  unseen_ = place.openings(smallest_frontier_).cells();
+  blocks_.clear();
+  found_.clear();
+  is_block_ = TiledGrid<char>{0};
+  is_under_way_ = !unseen_.empty();
+}
+
+std::optional<ViewPoint> ViewSearch::next(const KnownPlace& place, Strategy strategy,
+                                          const Filter& filter) {
+  looks_left_ = kLooksAtATime;
+  openings_ = place.openings(smallest_frontier_);
+  for (ViewPoint& view : found_) view.distance = place.ways().distanceTo(view.cell);
+  double best = 0.0;
+  for (const ViewPoint& view : found_) {
+    if (isWorthItsWay(view) && filter(view))
+      best = std::max(best, scoreOf(Strategy::kViewTour, view));
+  }
+  const bool asks_all = strategy != Strategy::kViewTour;
+  findPlaces(place);
+  findPlacesCloseBy(place);
+  askPlaces(place, asks_all ? 0.0 : best);
+  return is_under_way_ ? std::nullopt : choose(place, strategy, filter);
+}
+
+bool ViewSearch::isWorthItsWay(const ViewPoint& view) const {
+  return worth_ * view.expected > view.distance;
+}
+
+bool ViewSearch::canBeSeen(const KnownPlace& place, Cell target) const {
+  return std::any_of(found_.begin(), found_.end(), [&](const ViewPoint& view) {
+    return place.ways().isReached(view.cell) &&
+           isInView(place.grid(), view.cell, target, place.laserRange());
+  });
+}
+
+void ViewSearch::move(const CellMove& moved) {
+  for (ViewPoint& view : found_) {
+    view.cell = moved(view.cell);
+    view.target = moved(view.target);
+  }
+  for (ViewPoint& view : places_) view.cell = moved(view.cell);
+  unseen_.clear();
+  blocks_.clear();
+}
+
+std::string ViewSearch::whatIsLeft() const {
+  const auto best =
+      std::max_element(found_.begin(), found_.end(),
+                       [](const auto& a, const auto& b) { return perMetre(a) < perMetre(b); });
+  if (best == found_.end() || best->distance == DistanceField::kUnreached)
+    return "no reachable frontier of useful size is left";
+  std::ostringstream text;
+  text.precision(2);
+  text << "nothing that is left is worth its way, at best some " << best->expected << " m^2 for "
+       << best->distance << " m";
+  return text.str();
+}
+
+void ViewSearch::findPlaces(const KnownPlace& place) {
+  const auto down = [](int k) { return k - (k % kEveryOther + kEveryOther) % kEveryOther; };
+  const Cell low = FreeSpace::blockOf(place.grid().lowest());
+  const Cell high = FreeSpace::blockOf(place.grid().highest());
+  for (int y = down(low.y); y <= high.y; y += kEveryOther) {
+    for (int x = down(low.x); x <= high.x; x += kEveryOther) {
+      if (has_place_.at({x, y})) continue;
+      const std::vector<Cell> cells = reachedCells(place, {x, y});
+      if (cells.empty()) continue;
+      has_place_[{x, y}] = 1;
+      places_.push_back({cells.back(), cells.back()});
+    }
+  }
+  for (ViewPoint& view : places_) {
+    view.distance = place.ways().distanceTo(view.cell);
+    view.expected = kMostExpected;
+  }
+  std::stable_sort(places_.begin(), places_.end(),
+                   [](const ViewPoint& a, const ViewPoint& b) { return a.distance > b.distance; });
+}
+
+void ViewSearch::findPlacesCloseBy(const KnownPlace& place) {
+  for (; !unseen_.empty() && looks_left_ > 0; unseen_.pop_back(), looks_left_ -= kLook) {
+    eachBlockInView(place.grid(), unseen_.back(), place.laserRange(), [&](Cell block) {
+      if (std::exchange(is_block_[block], 1)) return;
+      blocks_.push_back(block);
+    });
+  }
+}
+
+// The nearest first, as long as one can be better than the best.
+void ViewSearch::askPlaces(const KnownPlace& place, double best) {
+  const auto keep = [this](const ViewPoint& view) {
+    if (view.gain >= smallest_gain_) found_.push_back(view);
+  };
+  const auto canBeBetter = [&] {
+    return !places_.empty() && scoreOf(Strategy::kViewTour, places_.back()) > best;
+  };
+  for (; canBeBetter() && looks_left_ > 0; places_.pop_back()) {
+    if (place.scanned().contains(places_.back().cell)) continue;
+    keep(lookFrom(place, places_.back().cell));
+  }
+  for (; unseen_.empty() && !blocks_.empty() && looks_left_ > 0; blocks_.pop_back()) {
+    if (place.scanned().containsBlock(blocks_.back())) continue;
+    std::optional<ViewPoint> most;
+    for (const Cell c : placesIn(place, blocks_.back())) {
+      const ViewPoint view = lookFrom(place, c);
+      if (!most || view.gain > most->gain) most = view;
+    }
+    if (most) keep(*most);
+  }
+  is_under_way_ = canBeBetter() || !unseen_.empty() || !blocks_.empty();
+}
+
+// Only the place that seems best is asked again, until one is as good as it seemed.
+std::optional<ViewPoint> ViewSearch::choose(const KnownPlace& place, Strategy strategy,
+                                            const Filter& filter) {
+  found_.erase(
+      std::remove_if(found_.begin(), found_.end(),
+                     [&](const ViewPoint& view) { return place.scanned().contains(view.cell); }),
+      found_.end());
+  const auto score = [&](const ViewPoint& view) {
+    return isWorthItsWay(view) && filter(view) ? scoreOf(strategy, view) : kNone;
+  };
+  std::vector<double> scores;
+  for (const ViewPoint& view : found_) scores.push_back(score(view));
+  while (!found_.empty()) {
+    const auto best = std::max_element(scores.begin(), scores.end()) - scores.begin();
+    if (scores[static_cast<std::size_t>(best)] == kNone) break;
+    ViewPoint& view = found_[static_cast<std::size_t>(best)];
+    is_under_way_ = looks_left_ <= 0;
+    if (is_under_way_) break;
+    const ViewPoint now = lookFrom(place, view.cell);
+    const bool is_as_good = now.gain >= view.gain;
+    view = now;
+    double& its_score = scores[static_cast<std::size_t>(best)];
+    its_score = score(now);
+    if (now.gain < smallest_gain_) {
+      found_.erase(found_.begin() + best);
+      scores.erase(scores.begin() + best);
+    } else if (is_as_good && its_score != kNone) {
+      return now;
+    }
+  }
+  return {};
+}
+
+std::vector<ViewPoint> ViewSearch::stops(const KnownPlace& place, const Filter& filter) {
+  std::vector<ViewPoint*> candidates;
+  for (ViewPoint& view : found_) {
+    if (isWorthItsWay(view) && filter(view)) candidates.push_back(&view);
+  }
+  std::stable_sort(candidates.begin(), candidates.end(),
+                   [](const auto* a, const auto* b) { return perMetre(*a) > perMetre(*b); });
+  std::vector<ViewPoint> stops;
+  for (ViewPoint* view : candidates) {
+    if (stops.size() == kMostStops || looks_left_ <= 0) break;
+    const bool is_seen = std::any_of(stops.begin(), stops.end(), [&](const ViewPoint& stop) {
+      return isInView(place.grid(), stop.cell, view->target, place.laserRange());
+    });
+    if (is_seen) continue;
+    *view = lookFrom(place, view->cell);
+    const bool is_open = view->gain >= smallest_gain_ && isWorthItsWay(*view) && filter(*view);
+    if (is_open) stops.push_back(*view);
+  }
+  return stops;
+}
+
+ViewPoint ViewSearch::lookFrom(const KnownPlace& place, Cell cell) {
+  const double range = place.laserRange() / place.grid().resolution();
+  const bool is_in_reach =
+      std::any_of(openings_.cells().begin(), openings_.cells().end(),
+                  [&](Cell opening) { return distanceBetween(opening, cell) <= range; });
+  looks_left_ -= is_in_reach ? kLook : 1;
+  ViewPoint view{cell, cell};
+  if (is_in_reach) view = viewFrom(place.grid(), cell, place.laserRange(), openings_);
+  view.distance = place.ways().distanceTo(cell);
+  return view;
+}
+
+void UnpaidWay::note(const Eigen::Vector2d& robot_map, double seen) {
+  const double way = last_place_ ? (robot_map - *last_place_).norm() : 0.0;
+  metres_ = std::max(0.0, metres_ + way - worth_ * std::max(0.0, seen - seen_));
+  last_place_ = robot_map;
+  seen_ = seen;
+}
+
+}  // namespace cca
