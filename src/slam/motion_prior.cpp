@@ -16,10 +16,15 @@ constexpr double kShiftPerTurn = 0.05;  // m / rad
 constexpr double kStandingShift = 0.02, kStandingTurn = 0.01;
 /// Without wheels the robot may have changed its speed altogether.
 constexpr double kBlindShift = 0.15, kBlindTurn = 0.15;
-/// A systematic error is not above these: a tenth of the way, .1 rad a metre, a tenth of the turn.
-constexpr double kSystematic = 0.1;
-/// What errs by three times as much says nothing of it: a wheel has slipped.
-constexpr double kSlip = 3.0 * kSystematic;
+/// What errs by so much, three systematic errors, says nothing of these: a wheel has slipped.
+constexpr double kSlip = 0.3;
+/// The random part of a way from one key frame to the next, of good wheels.
+constexpr double kRandomWay = 0.02;
+/// What is learned of the way in one place is not so well known in another, floors differ: windows
+/// narrower than that take a place for its like more often.
+constexpr double kVaries = 0.04;
+/// m; of a shorter way a match says too little.
+constexpr double kLeastWay = 0.05;
 constexpr double kForgetAfter = 100.0;  // steps
 constexpr double kLeastScale = 0.02, kMostScale = 10.0;
 
@@ -50,23 +55,15 @@ MotionBelief MotionPrior::predict(const std::optional<Pose2>& step) const {
     return belief;
   }
   const Eigen::Vector2d x = regressors(*step);
-  const double turn = heading_.factors.dot(x), longer = way_.factors.x();
+  const double turn = turns_.dot(x);
   // The error of the heading builds up along the way: half of it turns the step.
   const Pose2 half{0.0, 0.0, 0.5 * turn};
-  const Eigen::Vector2d p = half * Eigen::Vector2d(step->position() * (1.0 + longer));
+  const Eigen::Vector2d p = half * Eigen::Vector2d(step->position() * (1.0 + longer_));
   belief.T_before_after = {p.x(), p.y(), wrapAngle(step->theta + turn)};
-  const double way = scale_ * wayVariance(*step);
-  belief.covariance.diagonal() << way, way, turn_scale_ * turnVariance(*step);
-  if (has_begun_) {
-    belief.covariance(2, 2) += x.dot(heading_.covariance * x);
-    const double sure = x.x() * x.x() * way_.covariance(0, 0);
-    belief.covariance(0, 0) += sure;
-    belief.covariance(1, 1) += sure;
-  } else {
-    belief.covariance(2, 2) += squared(kSystematic) * x.squaredNorm();
-    belief.covariance(0, 0) += squared(kSystematic * x.x());
-    belief.covariance(1, 1) += squared(kSystematic * x.x());
-  }
+  const double way =
+      scale_ * wayVariance(*step) + squared(x.x()) * std::max(longer_variance_, squared(kVaries));
+  belief.covariance.diagonal() << way, way,
+      turn_scale_ * turnVariance(*step) + x.dot(turns_covariance_ * x);
   return belief;
 }
 
@@ -74,10 +71,6 @@ void MotionPrior::learn(const std::optional<Pose2>& step, const MotionBelief& be
                         const Pose2& matched, const Eigen::Matrix3d& covariance) {
   last_step_ = matched;
   if (!step) return;
-  if (!has_begun_) {
-    heading_.covariance = way_.covariance = squared(kSystematic) * Eigen::Matrix2d::Identity();
-    has_begun_ = true;
-  }
   const Eigen::Vector2d x = regressors(*step);
   const Pose2& predicted = belief.T_before_after;
   // Of the random part: what the match found and what it leaves open (so that along a corridor,
@@ -94,29 +87,28 @@ void MotionPrior::learn(const std::optional<Pose2>& step, const MotionBelief& be
   follow(turn_scale_, squared(turn_error) + covariance(2, 2), turnVariance(*step));
   follow(scale_, shift_sq + 0.5 * covariance.topLeftCorner<2, 2>().trace(), wayVariance(*step));
 
-  const auto regress = [&](Systematic& s, const Eigen::Vector2d& of, double error,
-                           double variance) {
-    const double predicted_error = s.factors.dot(of);
-    const Eigen::Vector2d gain = s.covariance * of / (of.dot(s.covariance * of) + variance);
-    s.factors += gain * (error - predicted_error);
-    s.covariance -= gain * (of.transpose() * s.covariance).eval();
-  };
   const double heading_variance = turn_scale_ * turnVariance(*step) + covariance(2, 2);
   const double whole_turn_error = wrapAngle(matched.theta - step->theta);
   if (squared(turn_error) < 9.0 * (belief.covariance(2, 2) + covariance(2, 2)) &&
       std::abs(whole_turn_error) < kSlip * x.norm()) {
-    regress(heading_, x, whole_turn_error, heading_variance);
+    const Eigen::Vector2d known = turns_covariance_ * x;
+    const Eigen::Vector2d gain = known / (x.dot(known) + heading_variance);
+    turns_ += gain * (whole_turn_error - turns_.dot(x));
+    turns_covariance_ -= gain * known.transpose();
   }
-  if (x.x() > 0.05) {
-    const Eigen::Vector2d ahead = step->position() / x.x();
-    const double longer = ahead.dot(matched.position()) - x.x();
-    const double variance =
-        scale_ * wayVariance(*step) + ahead.dot(covariance.topLeftCorner<2, 2>() * ahead);
-    if (squared(longer) < 9.0 * (belief.covariance(0, 0) + variance) &&
-        std::abs(longer) < kSlip * x.x()) {
-      regress(way_, {x.x(), 0.0}, longer, variance);
-    }
+}
+
+void MotionPrior::learnWay(double way, double matched, double variance) {
+  const double error = matched - way * (1.0 + longer_);
+  const double random = squared(kRandomWay * way) + variance;
+  const double systematic = way * way * longer_variance_;
+  if (way < kLeastWay || std::abs(matched - way) > kSlip * way ||
+      squared(error) > 9.0 * (systematic + random)) {
+    return;
   }
+  const double gain = way * longer_variance_ / (systematic + random);
+  longer_ += gain * error;
+  longer_variance_ -= gain * way * longer_variance_;
 }
 
 }  // namespace cca

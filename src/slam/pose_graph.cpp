@@ -218,6 +218,12 @@ void PoseGraph::connect(const GraphEdge& edge) {
   join(before_, edge.from, edge.to);
 }
 
+void PoseGraph::lengthen(int edge, double factor) {
+  Pose2& T = edges_[static_cast<std::size_t>(edge)].T_from_to;
+  T.x *= factor;
+  T.y *= factor;
+}
+
 int PoseGraph::part(int node) const { return firstOf(before_, node); }
 
 void PoseGraph::movePart(int part, const Pose2& T) {

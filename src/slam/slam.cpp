@@ -24,6 +24,10 @@ constexpr double kFirstReach = 0.3;  // m, of a match
 constexpr double kArm = 3.0;         // m
 constexpr std::size_t kJudges = 3;   // frames that say how well a scan agrees with them
 constexpr double kAgree = 0.2;       // m, within which rays do
+/// From a key frame to the next.
+constexpr MatchScale kStepMatch{0.15, 0.04};
+/// Of its sigma, at least: the walls themselves are no better.
+constexpr double kLeastNoise = 0.1;
 /// Where the wheels leave little open, a scan that agrees by this is found downhill from there.
 constexpr double kClear = 0.9;
 /// A scan that agrees less is looked for in all directions; nearly all that are right agree by
@@ -241,6 +245,7 @@ SlamPose Slam::step(const Scan& scan, const Pose2& T_robot_sensor,
   wheels_covariance_ =
       carried(wheels_covariance_, wheel_arm) + turned(motion.covariance, T_frame_wheels_.theta);
   T_frame_wheels_ = T_frame_wheels_ * motion.T_before_after;
+  wheels_tell_ = wheels_tell_ && wheel_step;
 
   if (const auto elsewhere = foundElsewhere(surface, motion, prior, found)) found = *elsewhere;
   const MatchResult& match = found.match;
@@ -263,7 +268,8 @@ SlamPose Slam::step(const Scan& scan, const Pose2& T_robot_sensor,
   } else if (!is_doubtful && isNewPlace(T_map_sensor_, surface)) {
     const GraphEdge wheels{frames_.size() - 1, frames_.size(), T_frame_wheels_,
                            wheels_covariance_.inverse(), EdgeKind::kWheels};
-    goOn(newFrame(scan, T_robot_sensor, std::move(surface)), wheels);
+    const bool is_told = wheels_tell_;
+    goOn(newFrame(scan, T_robot_sensor, std::move(surface)), wheels, is_told);
   }
   const int frame = frames_.size() - 1;
   passed_.push_back(
@@ -296,6 +302,7 @@ int Slam::newFrame(const Scan& scan, const Pose2& T_robot_sensor, ScanSurface su
   key_scans_.push_back({scan, T_robot_sensor});
   at_version_.push_back(T_map_sensor_);
   T_frame_wheels_ = {};
+  wheels_tell_ = true;
   wheels_covariance_.setZero();
   covariance_.setZero();
   return frames_.graph.add(T_map_sensor_);
@@ -315,11 +322,15 @@ void Slam::forgetMovers(int frame) {
   }
 }
 
-void Slam::goOn(int frame, const GraphEdge& wheels) {
+void Slam::goOn(int frame, const GraphEdge& wheels, bool is_told) {
+  if (is_told) {
+    wheel_edges_.push_back({static_cast<int>(frames_.graph.edges().size()), motion_.longer()});
+  }
   frames_.graph.connect(wheels);
   forgetMovers(frame);
   for (const int other : view_) {
-    if (auto edge = matchEdge(frames_, other, frame, {0.15, 0.04})) {
+    if (auto edge = matchEdge(frames_, other, frame, kStepMatch)) {
+      if (other == wheels.from && is_told) learnWay(wheels, *edge);
       if (other >= frame - 20) edge->kind = EdgeKind::kMatch;
       unsettled_ = unsettled_ || edge->kind == EdgeKind::kLoop;
       frames_.graph.connect(*edge);
@@ -329,6 +340,29 @@ void Slam::goOn(int frame, const GraphEdge& wheels) {
   if (soughtPart(frame)) places_.push_back(frame);
   view_ = framesInView(frames_, frame, frames_.graph.pose(frame), kViewFrames);
   T_map_sensor_ = frames_.graph.pose(frame);
+}
+
+void Slam::learnWay(const GraphEdge& wheels, const GraphEdge& match) {
+  const Eigen::Vector2d by_wheels = wheels.T_from_to.position();
+  const double way = by_wheels.norm();
+  if (way == 0.0) return;
+  const Eigen::Vector2d ahead = by_wheels / way;
+  // Its returns count as if they erred by the reach of the match; they err less. What it says
+  // nothing of may be off by a metre.
+  const double noise = frames_.surfaces[static_cast<std::size_t>(match.to)].range_sigma;
+  const double share = std::clamp(noise / kStepMatch.sigma, kLeastNoise, 1.0);
+  const Eigen::Matrix3d covariance =
+      (match.information / (share * share) + Eigen::Matrix3d::Identity()).inverse();
+  motion_.learnWay(way / (1.0 + motion_.longer()), ahead.dot(match.T_from_to.position()),
+                   ahead.dot(covariance.topLeftCorner<2, 2>() * ahead));
+}
+
+/// By what is known of the wheels now: where no wall told how far, they alone did.
+void Slam::measureWaysAnew() {
+  for (WheelEdge& told : wheel_edges_) {
+    frames_.graph.lengthen(told.edge, (1.0 + motion_.longer()) / (1.0 + told.longer));
+    told.longer = motion_.longer();
+  }
 }
 
 void Slam::workOnce() {
@@ -361,6 +395,7 @@ std::vector<GraphEdge> Slam::soughtOnce() {
 
 void Slam::beginSettling(const std::vector<GraphEdge>& loops) {
   closing_ = loops;
+  measureWaysAnew();
   PoseGraph graph = frames_.graph;
   if (!closing_.empty()) connectLoops(graph, closing_);
   settlement_.emplace(graph, !closing_.empty());

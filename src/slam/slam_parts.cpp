@@ -61,6 +61,7 @@ void Slam::finish(const DoAll& do_all) {
     map_part_ = frames_.graph.part(map_part_);
     closed = true;
   }
+  measureWaysAnew();
   if (closed) frames_.graph.settle(true);
   adjust(frames_, 10, do_all);
 }

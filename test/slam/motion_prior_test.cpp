@@ -22,11 +22,31 @@ TEST(MotionPrior, LearnsThatTheWheelsTurnShort) {
   EXPECT_NEAR(prior.predict(wheels).T_before_after.theta, truth.theta, 0.003);
 }
 
+TEST(MotionPrior, LearnsThatTheWheelsTellTooLongAWay) {
+  MotionPrior prior;
+  const double told = 0.51, way = 0.5, one_spins = 0.0;  // m
+  for (int k = 0; k < 20; ++k) {
+    const double match_errs = k % 2 == 0 ? 0.005 : -0.005;
+    prior.learnWay(told, k == 7 ? one_spins : way + match_errs, 0.01 * 0.01);
+  }
+  EXPECT_NEAR((1.0 + prior.longer()) * told, way, 0.002);
+  EXPECT_NEAR(prior.predict(Pose2{told, 0.0, 0.0}).T_before_after.x, way, 0.002);
+}
+
+TEST(MotionPrior, LearnsNothingOfAWayThatIsHardlyKnown) {
+  MotionPrior prior;
+  for (int k = 0; k < 20; ++k) prior.learnWay(0.5, 0.45, 1.0);
+  EXPECT_LT(std::abs(prior.longer()), 0.005);
+}
+
 TEST(MotionPrior, TrustsWheelsThatHaveProvedGood) {
   MotionPrior prior;
   const Pose2 step{0.5, 0.0, 0.1};
   const double before = prior.predict(step).covariance.trace();
-  for (int k = 0; k < 100; ++k) prior.learn(step, prior.predict(step), step, kSure);
+  for (int k = 0; k < 100; ++k) {
+    prior.learn(step, prior.predict(step), step, kSure);
+    prior.learnWay(0.5, 0.5, kSure(0, 0));
+  }
   EXPECT_LT(prior.predict(step).covariance.trace(), 0.1 * before);
 }
 

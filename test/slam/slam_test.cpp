@@ -228,6 +228,24 @@ TEST(Slam, ABareCorridorOfTwoHundredMetresStaysAsStraightAsItIs) {
       << "the wheels' own error, along which the walls say nothing";
 }
 
+TEST(Slam, WallsThatTellHowFarTeachTheWheelsWhatABareCorridorBeforeThemWas) {
+  test::WalledWorld world;
+  world.addBox(-20.0, -1.0, 60.0, 1.0);  // its ends are never seen
+  for (double x = 22.0; x < 34.0; x += 3.0) world.addBox(x, 0.4, x + 0.5, 1.0);
+  std::vector<Pose2> way, wheels;
+  for (double x = 0.0; x < 30.0; x += 0.1) {
+    way.push_back({x, 0.0, 0.0});
+    wheels.push_back({1.03 * x, 0.0, 0.0});
+  }
+  Slam slam;
+  for (std::size_t k = 0; k < way.size(); ++k) {
+    slam.step(world.scan(way[k], 181, M_PI, 0.01, 8.0), {}, wheels[k]);
+  }
+  slam.finish();
+  EXPECT_GT(worstError(wheels, way), 0.8) << "else nothing is shown";
+  EXPECT_LT(worstError(slam.trajectory(), way), 0.06);
+}
+
 TEST(Slam, ATurnThatTheWheelsKnowNothingOfIsFound) {
   Drive drive;
   std::vector<Pose2> wheels = drive.wheels;

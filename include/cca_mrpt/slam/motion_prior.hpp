@@ -20,6 +20,10 @@ struct MotionBelief {
 /// The error of a step is a systematic part, linear in way and turn, and a random one whose
 /// variances grow with way and turn. Both are learned from matches, by as much as these knew
 /// better.
+///
+/// By how much the wheels count a way too short is learned from one key frame to the next: two
+/// matches to the same walls differ by less than the errors of all the steps between them add up
+/// to.
 class MotionPrior {
  public:
   /// @param step  of the wheels, in the frame of the sensor; nothing: the robot goes on as it went.
@@ -32,13 +36,23 @@ class MotionPrior {
   void learn(const std::optional<Pose2>& step, const MotionBelief& belief, const Pose2& matched,
              const Eigen::Matrix3d& covariance);
 
+  /// @param way       m, from one key frame to the next as the wheels tell it.
+  /// @param matched   m, the same way by a match of these two alone.
+  /// @param variance  m^2, of that match.
+  void learnWay(double way, double matched, double variance);
+
+  /// A way is longer than the wheels tell by this share of it, as predict() has it.
+  double longer() const { return longer_; }
+
  private:
-  struct Systematic {  // recursive least squares of one error on (way, turn)
-    Eigen::Vector2d factors = Eigen::Vector2d::Zero();
-    Eigen::Matrix2d covariance = Eigen::Matrix2d::Zero();
-  };
-  Systematic heading_, way_;
-  bool has_begun_ = false;
+  /// A systematic error is not above these: a tenth of the way, .1 rad a metre, a tenth of the
+  /// turn.
+  static constexpr double kSystematic = 0.1;
+
+  // Of the heading, by (way, turn): recursive least squares.
+  Eigen::Vector2d turns_ = Eigen::Vector2d::Zero();
+  Eigen::Matrix2d turns_covariance_ = kSystematic * kSystematic * Eigen::Matrix2d::Identity();
+  double longer_ = 0.0, longer_variance_ = kSystematic * kSystematic;
   double scale_ = 1.0,
          turn_scale_ = 1.0;  ///< of the random part's variances, over their first guess
   double weight_ = 0.0;      ///< of what the scales have been learned from, bounded

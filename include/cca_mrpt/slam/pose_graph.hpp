@@ -38,6 +38,8 @@ class PoseGraph {
 
   int size() const { return static_cast<int>(poses_.size()); }
   const Pose2& pose(int node) const { return poses_[static_cast<std::size_t>(node)]; }
+  /// Scales how far one of the edges says that it leads.
+  void lengthen(int edge, double factor);
   void place(int node, const Pose2& pose) { poses_[static_cast<std::size_t>(node)] = pose; }
   const std::vector<GraphEdge>& edges() const { return edges_; }
   /// The first node of those that edges tie to this one: two nodes are in one part of the graph

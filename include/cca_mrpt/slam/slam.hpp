@@ -120,7 +120,10 @@ class Slam {
   bool isNewPlace(const Pose2& T_map_sensor, const ScanSurface& surface) const;
   int newFrame(const Scan& scan, const Pose2& T_robot_sensor, ScanSurface surface);
   void forgetMovers(int frame);
-  void goOn(int frame, const GraphEdge& wheels);
+  /// @param is_told  by wheels: where they are silent, the robot went on as it had.
+  void goOn(int frame, const GraphEdge& wheels, bool is_told);
+  void learnWay(const GraphEdge& wheels, const GraphEdge& match);
+  void measureWaysAnew();
   void startPart(int frame);
   SlamPose poseNow(const Pose2& T_robot_sensor, double agreement) const;
   void countDoubt(bool is_doubtful, const Pose2& step);
@@ -168,8 +171,14 @@ class Slam {
   std::optional<Elsewhere> elsewhere_;
   // Since the last key frame: what the wheels alone say, and how well.
   Pose2 T_frame_wheels_;
+  bool wheels_tell_ = true;  ///< of each scan since
   Eigen::Matrix3d wheels_covariance_ = Eigen::Matrix3d::Zero();
   Eigen::Matrix3d covariance_ = Eigen::Matrix3d::Zero();
+  struct WheelEdge {
+    int edge;       ///< of the graph
+    double longer;  ///< as its way has been taken, see MotionPrior
+  };
+  std::vector<WheelEdge> wheel_edges_;
   LoopCloser loop_closer_;
   int version_ = 0;
   std::vector<Pose2> at_version_;  ///< poses of the frames as whoever holds a map knows them
