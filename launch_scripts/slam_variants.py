@@ -78,6 +78,16 @@ def worse_wheels(stamps, ranges, wheels, poses):
     return stamps, ranges, np.array(driven), poses
 
 
+def wheels_off_by(share):
+    """Wheels whose radius is not what the robot takes it for."""
+    def off(stamps, ranges, wheels, poses):
+        driven = [wheels[0]]
+        for before, after in zip(wheels[:-1], wheels[1:]):
+            driven.append(compose(driven[-1], between(before, after) * (1.0 + share, 1.0 + share, 1.0)))
+        return stamps, ranges, np.array(driven), poses
+    return off
+
+
 def among_people(seed):
     """Three at a time, round, half a metre wide, within 5 m of the laser (180 degrees ahead), who walk along for a while."""
     def peopled(stamps, ranges, wheels, poses):
@@ -107,6 +117,7 @@ KINDS = {"as_it_is": lambda *log: log, "backwards": backwards, "last_two_thirds"
          "tenth_left_out_3": left_out(0.1, 3), "third_left_out": left_out(0.33, 4),
          "half_of_beams": every_beam_in(2), "third_of_beams": every_beam_in(3),
          "noise_3_cm": noisier(0.03, 5), "noise_5_cm": noisier(0.05, 6), "worse_wheels": worse_wheels,
+         "wheels_4_percent_long": wheels_off_by(0.04), "wheels_4_percent_short": wheels_off_by(-0.04),
          "among_people_1": among_people(1), "among_people_2": among_people(2)}
 
 
