@@ -223,25 +223,13 @@ TEST(GlobalPlanner, WaysLeadAroundThePlaceWhereItGotStuckWhileThereIsAnother) {
   EXPECT_FALSE(planner.plan().path.empty()) << "where both are barred they are tried again";
 }
 
-/// Squares of 20 cm: a corridor of 20 m with slots in its wall; what is behind them is not known.
 TEST(GlobalPlanner, WhereNothingPromisesMuchTheTourDecides) {
   const Eigen::Vector2d robot(9.9, 1.0);
   for (const bool has_more : {false, true}) {
-    std::string wall(100, '#');
-    for (const std::size_t slot : {35, 63}) wall.replace(slot, 2, "..");
-    for (const std::size_t slot : {68, 73}) {
-      if (has_more) wall.replace(slot, 2, "..");
-    }
-    std::vector<std::string> rows(8, '#' + std::string(98, '.') + '#');
-    rows.insert(rows.begin(), wall);
-    rows.push_back(std::string(100, '#'));
-    const KnownWorld corridor{rows, 4};
-    std::vector<Cell> known = corridor.freeCells();
-    known.erase(std::remove_if(known.begin(), known.end(), [](Cell c) { return c.y >= 36; }),
-                known.end());
+    std::vector<std::size_t> slots{35, 63};
+    if (has_more) slots.insert(slots.end(), {68, 73});
     GlobalPlanner planner;
-    planner.place().seed(corridor.walls(), CellState::kOccupied);
-    planner.place().seed(known, CellState::kFree);
+    const KnownWorld corridor = showCorridor(planner.place(), slots);
     update(planner, corridor.scanFrom({robot.x(), robot.y(), 0.0}, 1.5), robot);
     ASSERT_FALSE(planner.plan().path.empty());
     EXPECT_EQ(planner.plan().path.back().x() > robot.x(), has_more);

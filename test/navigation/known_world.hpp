@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <random>
@@ -9,6 +10,7 @@
 
 #include "cca_mrpt/navigation/place/cell.hpp"
 #include "cca_mrpt/navigation/place/exploration_grid.hpp"
+#include "cca_mrpt/navigation/place/known_place.hpp"
 #include "cca_mrpt/sensing/scan.hpp"
 
 namespace cca {
@@ -83,6 +85,24 @@ inline KnownWorld randomWorld(unsigned seed, int side, double share) {
     world.rows.push_back(row);
   }
   return world;
+}
+
+/// A corridor of 20 m that a place has seen, in squares of 20 cm, but not what is in the slots of
+/// its upper wall.
+/// @param slots  the first of two squares of each.
+inline KnownWorld showCorridor(KnownPlace& place, const std::vector<std::size_t>& slots) {
+  std::string wall(100, '#');
+  for (const std::size_t slot : slots) wall.replace(slot, 2, "..");
+  std::vector<std::string> rows(8, '#' + std::string(98, '.') + '#');
+  rows.insert(rows.begin(), wall);
+  rows.push_back(std::string(100, '#'));
+  const KnownWorld corridor{rows, 4};
+  std::vector<Cell> known = corridor.freeCells();
+  known.erase(std::remove_if(known.begin(), known.end(), [](Cell c) { return c.y >= 36; }),
+              known.end());
+  place.seed(corridor.walls(), CellState::kOccupied);
+  place.seed(known, CellState::kFree);
+  return corridor;
 }
 
 }  // namespace cca

@@ -115,24 +115,14 @@ TEST(ViewSearch, ExpectsNothingBehindASmallFrontier) {
   }
 }
 
-/// Squares of 20 cm: a corridor of 20 m, and slots in its walls with a pocket behind each, unknown.
 struct Corridor {
   KnownPlace place{0.27};
   ViewSearch view_search{0.1, 5, kPriceless};
-  int slots = 0;
+  std::vector<std::size_t> slots;
 
   Corridor() {
-    std::string wall(100, '#');
-    for (std::size_t x = 5; x < 100; x += 6, ++slots) wall.replace(x, 2, "..");
-    std::vector<std::string> rows(8, '#' + std::string(98, '.') + '#');
-    rows.insert(rows.begin(), wall);
-    rows.push_back(std::string(100, '#'));
-    const KnownWorld corridor{rows, 4};
-    std::vector<Cell> known = corridor.freeCells();
-    known.erase(std::remove_if(known.begin(), known.end(), [](Cell c) { return c.y >= 36; }),
-                known.end());
-    place.seed(corridor.walls(), CellState::kOccupied);
-    place.seed(known, CellState::kFree);
+    for (std::size_t x = 5; x < 100; x += 6) slots.push_back(x);
+    showCorridor(place, slots);
     place.findWays({10.0, 1.0});
   }
   std::vector<ViewPoint> stops(const ViewSearch::Filter& filter) {
@@ -144,7 +134,7 @@ struct Corridor {
 
 TEST(ViewSearch, StopsAreFewAndNoneSeesWhatAnotherIsThereToSee) {
   Corridor corridor;
-  ASSERT_GT(corridor.slots, 12);
+  ASSERT_GT(corridor.slots.size(), 12u);
   const auto stops = corridor.stops(Look::takesAll);
   EXPECT_GT(stops.size(), 3u);
   EXPECT_LE(stops.size(), 12u);

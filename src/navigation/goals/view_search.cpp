@@ -54,8 +54,7 @@ std::optional<ViewPoint> ViewSearch::next(const KnownPlace& place, Strategy stra
   for (ViewPoint& view : found_) view.distance = place.ways().distanceTo(view.cell);
   double best = 0.0;
   for (const ViewPoint& view : found_) {
-    if (isWorthItsWay(view) && filter(view))
-      best = std::max(best, scoreOf(Strategy::kViewTour, view));
+    if (isWorthItsWay(view, filter)) best = std::max(best, scoreOf(Strategy::kViewTour, view));
   }
   const bool asks_all = strategy != Strategy::kViewTour;
   findPlaces(place);
@@ -64,8 +63,8 @@ std::optional<ViewPoint> ViewSearch::next(const KnownPlace& place, Strategy stra
   return is_under_way_ ? std::nullopt : choose(place, strategy, filter);
 }
 
-bool ViewSearch::isWorthItsWay(const ViewPoint& view) const {
-  return worth_ * view.expected > view.distance;
+bool ViewSearch::isWorthItsWay(const ViewPoint& view, const Filter& filter) const {
+  return worth_ * view.expected > view.distance && filter(view);
 }
 
 bool ViewSearch::canBeSeen(const KnownPlace& place, Cell target) const {
@@ -160,7 +159,7 @@ std::optional<ViewPoint> ViewSearch::choose(const KnownPlace& place, Strategy st
                      [&](const ViewPoint& view) { return place.scanned().contains(view.cell); }),
       found_.end());
   const auto score = [&](const ViewPoint& view) {
-    return isWorthItsWay(view) && filter(view) ? scoreOf(strategy, view) : kNone;
+    return isWorthItsWay(view, filter) ? scoreOf(strategy, view) : kNone;
   };
   std::vector<double> scores;
   for (const ViewPoint& view : found_) scores.push_back(score(view));
@@ -188,7 +187,7 @@ std::optional<ViewPoint> ViewSearch::choose(const KnownPlace& place, Strategy st
 std::vector<ViewPoint> ViewSearch::stops(const KnownPlace& place, const Filter& filter) {
   std::vector<ViewPoint*> candidates;
   for (ViewPoint& view : found_) {
-    if (isWorthItsWay(view) && filter(view)) candidates.push_back(&view);
+    if (isWorthItsWay(view, filter)) candidates.push_back(&view);
   }
   std::stable_sort(candidates.begin(), candidates.end(),
                    [](const auto* a, const auto* b) { return perMetre(*a) > perMetre(*b); });
@@ -200,7 +199,7 @@ std::vector<ViewPoint> ViewSearch::stops(const KnownPlace& place, const Filter& 
     });
     if (is_seen) continue;
     *view = lookFrom(place, view->cell);
-    const bool is_open = view->gain >= smallest_gain_ && isWorthItsWay(*view) && filter(*view);
+    const bool is_open = view->gain >= smallest_gain_ && isWorthItsWay(*view, filter);
     if (is_open) stops.push_back(*view);
   }
   return stops;

@@ -64,7 +64,8 @@ class ViewSearch {
   void findPlaces(const KnownPlace& place);
   void findPlacesCloseBy(const KnownPlace& place);
   void askPlaces(const KnownPlace& place, double best);
-  bool isWorthItsWay(const ViewPoint& view) const;
+  /// Nor refused by the filter.
+  bool isWorthItsWay(const ViewPoint& view, const Filter& filter) const;
   std::optional<ViewPoint> choose(const KnownPlace& place, Strategy strategy, const Filter& filter);
   ViewPoint lookFrom(const KnownPlace& place, Cell cell);
 
