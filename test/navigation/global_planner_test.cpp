@@ -236,6 +236,24 @@ TEST(GlobalPlanner, WhereNothingPromisesMuchTheTourDecides) {
   }
 }
 
+// It would have to come back for it.
+TEST(GlobalPlanner, OnTheWayToAPromisingGoalWhatItPassesIsLookedAt) {
+  const Eigen::Vector2d robot(8.0, 1.0);
+  for (const bool passes_one : {false, true}) {
+    GlobalPlanner planner;
+    const KnownWorld corridor = showCorridor(planner.place(), {passes_one ? 56u : 20u});
+    std::vector<Cell> beyond;
+    for (int y = 0; y < corridor.height(); ++y) {
+      for (int x = 280; x < corridor.width(); ++x) beyond.push_back({x, y});
+    }
+    planner.place().seed(beyond, CellState::kUnknown);
+    update(planner, corridor.scanFrom({robot.x(), robot.y(), 0.0}, 3.0), robot);
+    ASSERT_FALSE(planner.plan().path.empty());
+    EXPECT_GT(planner.plan().look_at.x(), 10.0);
+    EXPECT_EQ(planner.plan().look_at.y() > 1.8, passes_one) << "behind the wall";
+  }
+}
+
 TEST(GlobalPlanner, AWayHomeLeadsAlongABarredPlaceWhereThereIsNoOther) {
   GlobalPlanner planner;
   planner.place().seed(kTwoWays.walls(), CellState::kOccupied);

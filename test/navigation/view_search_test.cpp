@@ -165,6 +165,27 @@ TEST(ViewSearch, StopsAreOpenAndStillPromiseWhatTheySay) {
     EXPECT_LT(stop.target.x, 200 + 8);
 }
 
+TEST(ViewSearch, WhatIsSeenInPassingLiesOnTheWayAndIsNotSeenFromItsEnd) {
+  Corridor corridor;
+  const KnownPlace& place = corridor.place;
+  const double robot_x = 10.0;
+  int found = 0;
+  for (const ViewPoint& goal : corridor.stops(Look::takesAll)) {
+    const auto passed = corridor.view_search.inPassing(place, Look::takesAll, goal);
+    if (!passed) continue;
+    ++found;
+    const double line = distanceBetween(passed->cell, goal.cell) * place.grid().resolution();
+    EXPECT_LT(passed->distance, goal.distance);
+    EXPECT_LE(passed->distance + line, goal.distance + 1.0);
+    EXPECT_FALSE(isInView(place.grid(), goal.cell, passed->target, place.laserRange()));
+    const double x = place.grid().centreOf(passed->cell).x();
+    EXPECT_EQ(x > robot_x, place.grid().centreOf(goal.cell).x() > robot_x);
+    EXPECT_FALSE(corridor.view_search.inPassing(
+        place, [](const ViewPoint&) { return false; }, goal));
+  }
+  EXPECT_GT(found, 1);
+}
+
 TEST(ViewSearch, GoesThroughALargePlaceAFewAtATime) {
   const KnownWorld hall{std::vector<std::string>(20, std::string(20, '.')), 10};
   KnownPlace place(0.27);

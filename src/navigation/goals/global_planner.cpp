@@ -210,9 +210,9 @@ std::optional<ViewPoint> GlobalPlanner::bestFrontier() const {
 
 // Where no place promises much, all that is left is seen in a tour.
 ViewPoint GlobalPlanner::nextStop(const ViewPoint& best) {
-  if (parameters_.strategy != Strategy::kViewTour ||
-      scoreOf(parameters_.strategy, best) >= kPromising)
-    return best;
+  if (parameters_.strategy != Strategy::kViewTour) return best;
+  if (scoreOf(parameters_.strategy, best) >= kPromising)
+    return view_search_.inPassing(place_, openOnes(), best).value_or(best);
   const auto present = isGoalUnseen() ? std::optional<Cell>(goal_->target) : std::nullopt;
   return firstOfTour(place_, view_search_.stops(place_, openOnes()), present).value_or(best);
 }

@@ -14,6 +14,8 @@ constexpr int kLooksAtATime = 60 * kLook;  // some 10 ms, 20 in a wide hall
 constexpr double kMostExpected = 10.0;     // m^2, that any place may show
 constexpr int kEveryOther = 2;             // blocks, between places
 constexpr std::size_t kMostStops = 12;     // of a tour: some 1 ms
+constexpr double kMostDetour = 1.0;        // m, for what is seen in passing
+constexpr double kAtHand = 0.2;            // m, that a look costs at least, a block's length
 constexpr double kNone = -std::numeric_limits<double>::infinity();
 
 /// m^2 / m, what is expected for the way: a place at hand is a metre off, too.
@@ -203,6 +205,33 @@ std::vector<ViewPoint> ViewSearch::stops(const KnownPlace& place, const Filter& 
     if (is_open) stops.push_back(*view);
   }
   return stops;
+}
+
+std::optional<ViewPoint> ViewSearch::inPassing(const KnownPlace& place, const Filter& filter,
+                                               const ViewPoint& goal) {
+  const auto detourBy = [&](const ViewPoint& view) {
+    const double line = distanceBetween(view.cell, goal.cell) * place.grid().resolution();
+    return std::max(0.0, view.distance + line - goal.distance);
+  };
+  const auto isInPassing = [&](const ViewPoint& view) {
+    return view.gain >= smallest_gain_ && view.distance < goal.distance &&
+           detourBy(view) <= kMostDetour && isWorthItsWay(view, filter) &&
+           !isInView(place.grid(), goal.cell, view.target, place.laserRange());
+  };
+  std::vector<std::pair<double, ViewPoint*>> candidates;
+  for (ViewPoint& view : found_) {
+    if (isInPassing(view))
+      candidates.emplace_back((kAtHand + detourBy(view)) / view.expected, &view);
+  }
+  std::stable_sort(candidates.begin(), candidates.end(),
+                   [](const auto& a, const auto& b) { return a.first < b.first; });
+  for (const auto& candidate : candidates) {
+    if (looks_left_ <= 0) break;
+    ViewPoint& view = *candidate.second;
+    view = lookFrom(place, view.cell);
+    if (isInPassing(view)) return view;
+  }
+  return {};
 }
 
 ViewPoint ViewSearch::lookFrom(const KnownPlace& place, Cell cell) {

@@ -41,6 +41,13 @@ class ViewSearch {
   /// Cost: O(places found) lines of sight, and a bounded number of looks.
   std::vector<ViewPoint> stops(const KnownPlace& place, const Filter& filter);
 
+  /// What is looked at on the way to a goal, for it would cost more later: the place of the least
+  /// detour for what is expected, by a metre at most, that is nearer than the goal and worth its
+  /// way, and that is there to see what is not in view from the goal.
+  /// @return empty if there is none. Cost: O(places found) lines of sight, and few looks.
+  std::optional<ViewPoint> inPassing(const KnownPlace& place, const Filter& filter,
+                                     const ViewPoint& goal);
+
   /// Asks all places anew, those of each block that sees a frontier of now. Cost: O(frontier
   /// cells).
   void searchClosely(const KnownPlace& place);
