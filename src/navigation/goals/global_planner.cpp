@@ -9,7 +9,7 @@
 namespace cca {
 namespace {
 
-constexpr double kReconsiderAfter = 0.3;         // m driven
+constexpr double kReconsiderAfter = 0.5;         // m driven
 constexpr std::size_t kWorthReconsidering = 20;  // cells newly seen
 constexpr double kPromising = 0.7;               // m^2 that are expected for their way
 constexpr double kPassed = 0.1;                  // m, of a corner
