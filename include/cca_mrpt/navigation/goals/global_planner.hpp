@@ -51,10 +51,10 @@ struct Plan {
 /// The paper's global planner (Step 0): keeps what is known of the place, and sets one goal after
 /// the other until no reachable frontier of useful size is left; see docs/exploration.md.
 ///
-/// A goal is the best of all places to look from (ViewSearch), or where none promises much the
-/// first stop of a tour of few of them; by the strategies of others, a place at a frontier as long
-/// as there is one. It is given up as soon as what it is to show has been seen, or the way is
-/// blocked.
+/// A goal is the best of all places to look from (ViewSearch) or what is seen in passing on the way
+/// there, or where none promises much the first stop of a tour of few of them; by the strategies of
+/// others, a place at a frontier as long as there is one. It is given up as soon as what it is to
+/// show has been seen, or the way is blocked.
 class GlobalPlanner {
  public:
   explicit GlobalPlanner(const GlobalPlannerParameters& parameters = {});
