@@ -143,8 +143,28 @@ TEST(ViewSearch, StopsAreFewAndNoneSeesWhatAnotherIsThereToSee) {
     EXPECT_GT(stops[a].expected, 0.0);
     EXPECT_DOUBLE_EQ(stops[a].distance, place.ways().distanceTo(stops[a].cell));
     for (std::size_t b = a + 1; b < stops.size(); ++b)
-      EXPECT_FALSE(isInView(place.grid(), stops[a].cell, stops[b].target, place.laserRange()));
+      EXPECT_FALSE(isInView(place.grid(), stops[a].cell, stops[b].edge, place.laserRange()));
   }
+}
+
+// Each looks elsewhere, farther behind the end of what is known than any place is sure to see.
+TEST(ViewSearch, PlacesThatLookThroughOneOpeningAreHardlyMoreThanOneStop) {
+  const std::string wall(50, '#');
+  std::vector<std::string> rows(5, '#' + std::string(48, '.') + '#');
+  rows.insert(rows.begin(), wall);
+  rows.push_back(wall);
+  const KnownWorld corridor{rows, 8};
+  const Eigen::Vector2d robot{2.0, 1.4};
+  KnownPlace place{0.27};
+  place.observe(corridor.scanFrom({robot.x(), robot.y(), 0.0}), robot);
+  place.findWays(robot);
+  ViewSearch view_search{0.1, 5, kPriceless};
+  nextOf(view_search, place, Strategy::kGreedy, Look::takesAll);
+  view_search.next(place, Strategy::kViewTour, Look::takesAll);
+  ASSERT_GT(view_search.left().size(), 12u);
+  const std::size_t stops = view_search.stops(place, Look::takesAll).size();
+  EXPECT_GT(stops, 0u);
+  EXPECT_LT(stops, 4u);
 }
 
 TEST(ViewSearch, StopsAreOpenAndStillPromiseWhatTheySay) {

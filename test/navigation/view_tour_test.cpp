@@ -98,7 +98,7 @@ struct Rooms {
     place.findWays(place.grid().centreOf(kRobot));
   }
   ViewPoint at(Cell cell, double expected) const {
-    return {cell, cell, place.ways().distanceTo(cell), expected, expected};
+    return {cell, cell, cell, place.ways().distanceTo(cell), expected, expected};
   }
 };
 

@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kReconsiderAfter = 0.5;         // m driven
 constexpr std::size_t kWorthReconsidering = 20;  // cells newly seen
-constexpr double kPromising = 0.7;               // m^2 that are expected for their way
+constexpr double kPromising = 0.15;              // m^2 that are expected for their way
 constexpr double kPassed = 0.1;                  // m, of a corner
 constexpr std::size_t kWorthAnotherLook = 200;   // cells newly seen: half a square metre
 constexpr double kLongestInVain = 100.0;         // m, and once around what is known

@@ -113,7 +113,7 @@ void eachBlockInView(const ExplorationGrid& grid, Cell from, double range,
 ViewPoint viewFrom(const ExplorationGrid& grid, Cell from, double range, const CellSet& openings) {
   std::vector<bool> meets_opening(kFineRays.size(), false);
   for (const Cell c : openings.cells()) markRays(from, c, range / grid.resolution(), meets_opening);
-  ViewPoint view{from, from};
+  ViewPoint view{from, from, from};
   const double free_way = kFreeWay / grid.resolution();
   const auto count = static_cast<double>(kFineRays.size());
   double longest = 0.0;
@@ -122,7 +122,8 @@ ViewPoint viewFrom(const ExplorationGrid& grid, Cell from, double range, const C
     const Eigen::Vector2d& direction = kFineRays[k];
     double unknown_since = -1.0;
     bool counts = true;
-    Cell last = from;  // that is known, and no obstacle
+    Cell last = from;   // that is known, and no obstacle
+    Cell first = from;  // that is not
     const auto close = [&](double end) {
       const double begin = std::exchange(unknown_since, -1.0), passed = end - begin;
       if (begin < 0.0 || !counts) return;
@@ -132,6 +133,7 @@ ViewPoint viewFrom(const ExplorationGrid& grid, Cell from, double range, const C
           ((begin + free_way) * (1.0 - fading) - passed * fading) * free_way * 2.0 * M_PI / count;
       if (passed <= longest) return;
       longest = passed;
+      view.edge = first;
       view.target = cellAt(middleOf(from) + 0.5 * (begin + end) * direction);
     };
     const auto enter = [&](Cell c, CellState state, double entered) {
@@ -140,6 +142,7 @@ ViewPoint viewFrom(const ExplorationGrid& grid, Cell from, double range, const C
         if (!isOpaque(state)) last = c;
       } else if (unknown_since < 0.0) {
         unknown_since = entered;
+        first = c;
         counts = openings.contains(last);
       }
     };

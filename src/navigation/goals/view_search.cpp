@@ -80,6 +80,7 @@ void ViewSearch::move(const CellMove& moved) {
   for (ViewPoint& view : found_) {
     view.cell = moved(view.cell);
     view.target = moved(view.target);
+    view.edge = moved(view.edge);
   }
   for (ViewPoint& view : places_) view.cell = moved(view.cell);
   unseen_.clear();
@@ -109,7 +110,7 @@ void ViewSearch::findPlaces(const KnownPlace& place) {
       const std::vector<Cell> cells = reachedCells(place, {x, y});
       if (cells.empty()) continue;
       has_place_[{x, y}] = 1;
-      places_.push_back({cells.back(), cells.back()});
+      places_.push_back({cells.back(), cells.back(), cells.back()});
     }
   }
   for (ViewPoint& view : places_) {
@@ -197,7 +198,7 @@ std::vector<ViewPoint> ViewSearch::stops(const KnownPlace& place, const Filter& 
   for (ViewPoint* view : candidates) {
     if (stops.size() == kMostStops || looks_left_ <= 0) break;
     const bool is_seen = std::any_of(stops.begin(), stops.end(), [&](const ViewPoint& stop) {
-      return isInView(place.grid(), stop.cell, view->target, place.laserRange());
+      return isInView(place.grid(), stop.cell, view->edge, place.laserRange());
     });
     if (is_seen) continue;
     *view = lookFrom(place, view->cell);
@@ -240,7 +241,7 @@ ViewPoint ViewSearch::lookFrom(const KnownPlace& place, Cell cell) {
       std::any_of(openings_.cells().begin(), openings_.cells().end(),
                   [&](Cell opening) { return distanceBetween(opening, cell) <= range; });
   looks_left_ -= is_in_reach ? kLook : 1;
-  ViewPoint view{cell, cell};
+  ViewPoint view{cell, cell, cell};
   if (is_in_reach) view = viewFrom(place.grid(), cell, place.laserRange(), openings_);
   view.distance = place.ways().distanceTo(cell);
   return view;

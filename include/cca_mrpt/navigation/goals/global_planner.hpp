@@ -18,7 +18,7 @@ struct GlobalPlannerParameters {
   double clearance = 0.30;            ///< m, kept from known obstacles
   double smallest_gain = 0.1;         ///< m^2, frontiers that promise less are left
   std::size_t smallest_frontier = 5;  ///< cells, likewise
-  double worth = 45.0;                ///< m of way that an unseen square metre is worth
+  double worth = 36.0;                ///< m of way that an unseen square metre is worth
 };
 
 enum class PlanPhase {
