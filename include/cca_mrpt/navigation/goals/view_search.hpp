@@ -37,7 +37,8 @@ class ViewSearch {
   std::optional<ViewPoint> next(const KnownPlace& place, Strategy strategy, const Filter& filter);
 
   /// Few places that see all between them that is worth its way: those that promise most for their
-  /// way first, each asked anew, and none of which another one sees what it is there to see.
+  /// way first, each asked anew, and none that is there for what another one looks into as well, by
+  /// where the unknown begins.
   /// Cost: O(places found) lines of sight, and a bounded number of looks.
   std::vector<ViewPoint> stops(const KnownPlace& place, const Filter& filter);
 
