@@ -142,8 +142,10 @@ TEST(ViewSearch, StopsAreFewAndNoneSeesWhatAnotherIsThereToSee) {
   for (std::size_t a = 0; a < stops.size(); ++a) {
     EXPECT_GT(stops[a].expected, 0.0);
     EXPECT_DOUBLE_EQ(stops[a].distance, place.ways().distanceTo(stops[a].cell));
-    for (std::size_t b = a + 1; b < stops.size(); ++b)
+    for (std::size_t b = a + 1; b < stops.size(); ++b) {
       EXPECT_FALSE(isInView(place.grid(), stops[a].cell, stops[b].edge, place.laserRange()));
+      EXPECT_FALSE(isInView(place.grid(), stops[a].cell, stops[b].target, place.laserRange()));
+    }
   }
 }
 

