@@ -87,7 +87,9 @@ struct Driver {
 };
 
 TEST(Explorer, ExploresTwoRoomsFinishesAndSaysWhy) {
-  Driver driver;
+  ExplorerParameters parameters;
+  parameters.worth = 1e3;
+  Driver driver(parameters);
   const Action last = driver.run();
   EXPECT_EQ(last.status, ExplorationStatus::kFinished);
   EXPECT_EQ(last.reason, "no reachable frontier of useful size is left");

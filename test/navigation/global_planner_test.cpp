@@ -56,6 +56,7 @@ class EveryStrategy : public ::testing::TestWithParam<const char*> {};
 TEST_P(EveryStrategy, SeesTwoRoomsToTheLastSquareAndFinishes) {
   GlobalPlannerParameters parameters;
   parameters.strategy = strategyNamed(GetParam());
+  parameters.worth = 1e3;
   GlobalPlanner planner(parameters);
   const Drive d = drive(planner, kTwoRooms, {1.0, 1.0});
   EXPECT_TRUE(d.last.isFinished());
@@ -312,6 +313,20 @@ TEST(GlobalPlanner, HasNothingToDoInAPlaceKnownFromASavedMap) {
   planner.place().seed(occupied, CellState::kOccupied);
   planner.place().seed(free, CellState::kFree);
   EXPECT_TRUE(update(planner, kTwoRooms.scanFrom({1.0, 1.0, 0.0}, 4.0), {1.0, 1.0}).isFinished());
+}
+
+// Made anew from its first scan alone, a place that was seen whole is to be seen again.
+TEST(GlobalPlanner, AsksAllPlacesAgainWhereThePastWasCorrected) {
+  GlobalPlanner planner;
+  ASSERT_TRUE(drive(planner, kTwoRooms, {1.0, 1.0}).last.isFinished());
+  const std::size_t all = planner.place().grid().revealed();
+  PastScans past;
+  past.add(kTwoRooms.scanFrom({1.0, 1.0, 0.0}, 4.0), {1.0, 1.0, 0.0});
+  past.correct({{1.0, 1.0, 0.0}}, {true});
+  planner.correct(past);
+  ASSERT_LT(planner.place().grid().revealed(), all / 2);
+  EXPECT_TRUE(drive(planner, kTwoRooms, {1.0, 1.0}).last.isFinished());
+  EXPECT_GT(planner.place().grid().revealed(), all - all / 50);
 }
 
 TEST(GlobalPlanner, IsDeterministic) {

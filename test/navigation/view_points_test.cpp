@@ -101,22 +101,5 @@ TEST(IsInView, EndsAtWallsAndSoonBehindWhatIsKnown) {
   EXPECT_FALSE(isInView(grid, from, kGap + Cell{-1, 5}, kRange)) << "behind the wall";
 }
 
-TEST(EachBlockInView, FindsThePlacesThatAnOpeningIsSeenFrom) {
-  const ExplorationGrid grid = room(true);
-  std::vector<Cell> blocks;
-  eachBlockInView(grid, kGap, kRange, [&](Cell block) { blocks.push_back(block); });
-  const auto isInView = [&](Cell c) {
-    return std::find(blocks.begin(), blocks.end(), FreeSpace::blockOf(c)) != blocks.end();
-  };
-  for (int y = 1; y < kSide - 1; ++y) {
-    for (int x = 1; x < kSide - 1; ++x) {
-      const bool sees = gainFrom(grid, {x, y}) > 0.0;
-      EXPECT_TRUE(!sees || isInView({x, y})) << x << ", " << y;
-    }
-  }
-  EXPECT_TRUE(isInView({7, 28}));
-  EXPECT_FALSE(isInView({1, 1})) << "along the wall";
-}
-
 }  // namespace
 }  // namespace cca::view_points_test

@@ -35,7 +35,6 @@ struct Look {
   explicit Look(const Eigen::Vector2d& robot = kBeforeTheGap) {
     place.observe(kRoomBehindAGap.scanFrom({robot.x(), robot.y(), 0.0}), robot);
     place.findWays(robot);
-    view_search.searchClosely(place);
   }
   std::optional<ViewPoint> next(Strategy strategy, const ViewSearch::Filter& filter = takesAll) {
     return nextOf(view_search, place, strategy, filter);
@@ -63,7 +62,8 @@ TEST(ViewSearch, FindsReachedPlacesThatSeeMoreThroughAGap) {
   EXPECT_GT(look.place.grid().revealed(), before + 200);
 }
 
-// A drive from place to place ends, and then no place sees more than was asked for.
+// A drive from place to place ends, and then no place, the last cell of each block, sees more than
+// was asked for.
 TEST(ViewSearch, EndsWhenNoPlaceSeesMore) {
   Look look;
   int looks = 0;
@@ -76,8 +76,8 @@ TEST(ViewSearch, EndsWhenNoPlaceSeesMore) {
   EXPECT_GT(looks, 1) << "a single place does not see it all";
   for (const Cell c : kRoomBehindAGap.freeCells()) {
     const Cell block = FreeSpace::blockOf(c);
-    const bool is_first = c.x % FreeSpace::kBlock == 0 && c.y % FreeSpace::kBlock == 0;
-    if (!is_first || look.place.space().traversableCells(block) != 0xFFFF) continue;
+    const bool is_last = c.x % FreeSpace::kBlock == 3 && c.y % FreeSpace::kBlock == 3;
+    if (!is_last || look.place.space().traversableCells(block) != 0xFFFF) continue;
     if (!look.place.ways().isReached(c) || look.place.scanned().contains(c)) continue;
     EXPECT_LT(look.gainFrom(c), 0.1) << c.x << ", " << c.y;
   }
@@ -109,7 +109,6 @@ TEST(ViewSearch, ExpectsNothingBehindASmallFrontier) {
   place.findWays(kBeforeTheGap);
   for (const std::size_t smallest : {std::size_t{3}, std::size_t{5}}) {
     ViewSearch view_search(0.1, smallest, kPriceless);
-    view_search.searchClosely(place);
     const auto view = nextOf(view_search, place, Strategy::kGreedy, Look::takesAll);
     EXPECT_EQ(view.has_value(), smallest == 3);
   }
@@ -209,23 +208,21 @@ TEST(ViewSearch, WhatIsSeenInPassingLiesOnTheWayAndIsNotSeenFromItsEnd) {
 }
 
 TEST(ViewSearch, GoesThroughALargePlaceAFewAtATime) {
-  const KnownWorld hall{std::vector<std::string>(20, std::string(20, '.')), 10};
+  const KnownWorld hall{std::vector<std::string>(30, std::string(30, '.')), 10};
   KnownPlace place(0.27);
   place.seed(hall.freeCells(), CellState::kFree);  // nothing is known of what is around it
-  place.findWays({5.0, 5.0});
+  place.findWays({7.5, 7.5});
   ViewSearch view_search(0.1, 5, kPriceless);
-  view_search.searchClosely(place);
   int calls = 0;
   while (!view_search.next(place, Strategy::kGreedy, Look::takesAll) && view_search.isUnderWay())
     ++calls;
-  EXPECT_GT(calls, 5) << "of 2500 places";
+  EXPECT_GT(calls, 5) << "of 1400 places";
   EXPECT_LT(calls, 50);
 }
 
 TEST(ViewSearch, LeavesWhatIsNotWorthItsWay) {
   Look look;
   look.view_search = ViewSearch(0.1, 5, 0.1);  // m/m^2
-  look.view_search.searchClosely(look.place);
   EXPECT_FALSE(look.next(Strategy::kGreedy));
   EXPECT_FALSE(look.view_search.isUnderWay());
   ASSERT_FALSE(look.view_search.left().empty());
@@ -236,7 +233,6 @@ TEST(ViewSearch, FindsNothingBeforeItBeginsOrWhereAllIsKnown) {
   ViewSearch view_search(0.1, 5, kPriceless);
   KnownPlace nowhere(0.27);
   EXPECT_FALSE(view_search.next(nowhere, Strategy::kGreedy, Look::takesAll));
-  view_search.searchClosely(nowhere);
   EXPECT_FALSE(view_search.next(nowhere, Strategy::kGreedy, Look::takesAll));
   EXPECT_FALSE(view_search.isUnderWay());
   Look look;

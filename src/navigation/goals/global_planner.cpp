@@ -13,7 +13,6 @@ constexpr double kReconsiderAfter = 0.5;         // m driven
 constexpr std::size_t kWorthReconsidering = 20;  // cells newly seen
 constexpr double kPromising = 0.15;              // m^2 that are expected for their way
 constexpr double kPassed = 0.1;                  // m, of a corner
-constexpr std::size_t kWorthAnotherLook = 200;   // cells newly seen: half a square metre
 constexpr double kLongestInVain = 100.0;         // m, and once around what is known
 
 bool isInside(const std::vector<Eigen::Vector2d>& polygon, const Eigen::Vector2d& p) {
@@ -128,7 +127,7 @@ void GlobalPlanner::decide(const Eigen::Vector2d& robot_map) {
       if (const auto chosen = bestFrontier())
         return driveTo(*chosen, robot_map, "to see what is behind a frontier");
       if (search(robot_map)) return;
-    } while (opensMore());
+    } while (!place_.isHeld() && place_.open());  // where it is held it gets nowhere from here
   }
   goal_.reset();
   if (!isScanned(robot_map)) {
@@ -175,14 +174,6 @@ void GlobalPlanner::driveTo(const ViewPoint& chosen, const Eigen::Vector2d& robo
   if (!takeWayTo(chosen.cell, robot_map)) dropGoal(Failure::kNotReached);
 }
 
-// Where nothing else is left, ways that were barred are open again.
-bool GlobalPlanner::opensMore() {
-  if (place_.isHeld()) return false;  // it gets nowhere from here
-  if (!place_.open()) return false;
-  revealed_at_close_search_.reset();
-  return true;
-}
-
 bool GlobalPlanner::isWithinLimits(Cell c) const {
   return limits_.size() < 3 || isInside(limits_, grid().centreOf(c));
 }
@@ -198,7 +189,7 @@ ViewSearch::Filter GlobalPlanner::openOnes() const {
 // By the strategies of others, whose goals are frontiers.
 std::optional<ViewPoint> GlobalPlanner::bestFrontier() const {
   std::optional<ViewPoint> best;
-  if (parameters_.strategy == Strategy::kViewTour || revealed_at_close_search_) return best;
+  if (parameters_.strategy == Strategy::kViewTour) return best;
   for (const ViewPoint& view :
        frontierPlaces(place_, parameters_.smallest_frontier, parameters_.smallest_gain)) {
     const bool is_better =
@@ -217,31 +208,21 @@ ViewPoint GlobalPlanner::nextStop(const ViewPoint& best) {
   return firstOfTour(place_, view_search_.stops(place_, openOnes()), present).value_or(best);
 }
 
-// The best of all places; where none is good enough, of all places asked closely, and again where
-// much was seen since.
+// The best of all places.
 bool GlobalPlanner::search(const Eigen::Vector2d& robot_map) {
-  while (!place_.isHeld()) {
-    if (const auto chosen = view_search_.next(place_, parameters_.strategy, openOnes())) {
-      driveTo(nextStop(*chosen), robot_map, "to see what is left");
-      return true;
-    }
-    if (view_search_.isUnderWay()) {
-      if (isGoalUnseen() && place_.ways().isReached(goal_->cell)) {
-        driveTo(ViewPoint(*goal_), robot_map, "to see what is left");
-      } else {
-        goal_.reset();
-        plan_.reason = "to find out what is left to see";
-      }
-      return true;
-    }
+  if (place_.isHeld()) return false;
+  const auto chosen = view_search_.next(place_, parameters_.strategy, openOnes());
+  if (chosen) {
+    driveTo(nextStop(*chosen), robot_map, "to see what is left");
+  } else if (!view_search_.isUnderWay()) {
+    return false;
+  } else if (isGoalUnseen() && place_.ways().isReached(goal_->cell)) {
+    driveTo(ViewPoint(*goal_), robot_map, "to see what is left");
+  } else {
     goal_.reset();
-    if (revealed_at_close_search_ &&
-        grid().revealed() < *revealed_at_close_search_ + kWorthAnotherLook)
-      break;
-    revealed_at_close_search_ = grid().revealed();
-    view_search_.searchClosely(place_);
+    plan_.reason = "to find out what is left to see";
   }
-  return false;
+  return true;
 }
 
 void GlobalPlanner::lookAround() {
@@ -257,10 +238,9 @@ void GlobalPlanner::correct(const PastScans& past) {
     goal_->target = moved(goal_->target);
     plan_.look_at = grid().centreOf(goal_->target);
   }
-  view_search_.move(moved);
+  view_search_.forget();
   decided_at_ = past.correctionAt(decided_at_) * decided_at_;
   revealed_then_ = grid().revealed();
-  revealed_at_close_search_.reset();
   is_corrected_ = true;
 }
 

@@ -98,18 +98,6 @@ bool isInView(const ExplorationGrid& grid, Cell from, Cell to, double range) {
   return clear;
 }
 
-void eachBlockInView(const ExplorationGrid& grid, Cell from, double range,
-                     const std::function<void(Cell block)>& visit) {
-  for (const Eigen::Vector2d& direction : kFineRays) {
-    std::optional<Cell> block;
-    followRay(grid, from, direction, range / grid.resolution(), [&](Cell c, CellState, double) {
-      if (block && FreeSpace::blockOf(c) == *block) return;
-      block = FreeSpace::blockOf(c);
-      visit(*block);
-    });
-  }
-}
-
 ViewPoint viewFrom(const ExplorationGrid& grid, Cell from, double range, const CellSet& openings) {
   std::vector<bool> meets_opening(kFineRays.size(), false);
   for (const Cell c : openings.cells()) markRays(from, c, range / grid.resolution(), meets_opening);

@@ -12,7 +12,6 @@ namespace {
 constexpr int kLook = 16;                  // what a look takes; 1 where no frontier is in reach
 constexpr int kLooksAtATime = 60 * kLook;  // some 10 ms, 20 in a wide hall
 constexpr double kMostExpected = 10.0;     // m^2, that any place may show
-constexpr int kEveryOther = 2;             // blocks, between places
 constexpr std::size_t kMostStops = 12;     // of a tour: some 1 ms
 constexpr double kMostDetour = 1.0;        // m, for what is seen in passing
 constexpr double kAtHand = 0.2;            // m, that a look costs at least, a block's length
@@ -21,33 +20,16 @@ constexpr double kNone = -std::numeric_limits<double>::infinity();
 /// m^2 / m, what is expected for the way: a place at hand is a metre off, too.
 double perMetre(const ViewPoint& view) { return view.expected / (1.0 + view.distance); }
 
-/// Cells of a block that the robot can reach.
-std::vector<Cell> reachedCells(const KnownPlace& place, Cell block) {
-  std::vector<Cell> cells;
+/// A cell of a block that the robot can reach, the last one.
+std::optional<Cell> reachedCell(const KnownPlace& place, Cell block) {
+  std::optional<Cell> reached;
   FreeSpace::eachCell(block, place.space().traversableCells(block), [&](Cell c) {
-    if (place.ways().isReached(c)) cells.push_back(c);
+    if (place.ways().isReached(c)) reached = c;
   });
-  return cells;
-}
-
-/// The first one, and beside obstacles, where a few centimetres count, also the last one.
-std::vector<Cell> placesIn(const KnownPlace& place, Cell block) {
-  constexpr unsigned kAll = 0xFFFF;
-  std::vector<Cell> cells = reachedCells(place, block);
-  const bool is_open = place.space().traversableCells(block) == kAll;
-  if (cells.size() > 1) cells.erase(cells.begin() + 1, cells.end() - (is_open ? 0 : 1));
-  return cells;
+  return reached;
 }
 
 }  // namespace
-
-void ViewSearch::searchClosely(const KnownPlace& place) {
-  unseen_ = place.openings(smallest_frontier_).cells();
-  blocks_.clear();
-  found_.clear();
-  is_block_ = TiledGrid<char>{0};
-  is_under_way_ = !unseen_.empty();
-}
 
 std::optional<ViewPoint> ViewSearch::next(const KnownPlace& place, Strategy strategy,
                                           const Filter& filter) {
@@ -60,9 +42,11 @@ std::optional<ViewPoint> ViewSearch::next(const KnownPlace& place, Strategy stra
   }
   const bool asks_all = strategy != Strategy::kViewTour;
   findPlaces(place);
-  findPlacesCloseBy(place);
   askPlaces(place, asks_all ? 0.0 : best);
-  return is_under_way_ ? std::nullopt : choose(place, strategy, filter);
+  if (is_under_way_) return {};
+  const auto chosen = choose(place, strategy, filter);
+  if (!chosen && !is_under_way_) is_under_way_ = std::exchange(apart_, 1) > 1;  // between them
+  return chosen;
 }
 
 bool ViewSearch::isWorthItsWay(const ViewPoint& view, const Filter& filter) const {
@@ -76,23 +60,14 @@ bool ViewSearch::canBeSeen(const KnownPlace& place, Cell target) const {
   });
 }
 
-void ViewSearch::move(const CellMove& moved) {
-  for (ViewPoint& view : found_) {
-    view.cell = moved(view.cell);
-    view.target = moved(view.target);
-    view.edge = moved(view.edge);
-  }
-  for (ViewPoint& view : places_) view.cell = moved(view.cell);
-  unseen_.clear();
-  blocks_.clear();
-}
-
 std::string ViewSearch::whatIsLeft() const {
-  const auto best =
-      std::max_element(found_.begin(), found_.end(),
-                       [](const auto& a, const auto& b) { return perMetre(a) < perMetre(b); });
-  if (best == found_.end() || best->distance == DistanceField::kUnreached)
-    return "no reachable frontier of useful size is left";
+  const ViewPoint* best = nullptr;
+  for (const ViewPoint& view : found_) {
+    const bool is_refused = worth_ * view.expected > view.distance;
+    if (is_refused || view.distance == DistanceField::kUnreached) continue;
+    if (!best || perMetre(view) > perMetre(*best)) best = &view;
+  }
+  if (!best) return "no reachable frontier of useful size is left";
   std::ostringstream text;
   text.precision(2);
   text << "nothing that is left is worth its way, at best some " << best->expected << " m^2 for "
@@ -101,16 +76,16 @@ std::string ViewSearch::whatIsLeft() const {
 }
 
 void ViewSearch::findPlaces(const KnownPlace& place) {
-  const auto down = [](int k) { return k - (k % kEveryOther + kEveryOther) % kEveryOther; };
+  const auto down = [this](int k) { return k - (k % apart_ + apart_) % apart_; };
   const Cell low = FreeSpace::blockOf(place.grid().lowest());
   const Cell high = FreeSpace::blockOf(place.grid().highest());
-  for (int y = down(low.y); y <= high.y; y += kEveryOther) {
-    for (int x = down(low.x); x <= high.x; x += kEveryOther) {
+  for (int y = down(low.y); y <= high.y; y += apart_) {
+    for (int x = down(low.x); x <= high.x; x += apart_) {
       if (has_place_.at({x, y})) continue;
-      const std::vector<Cell> cells = reachedCells(place, {x, y});
-      if (cells.empty()) continue;
+      const auto cell = reachedCell(place, {x, y});
+      if (!cell) continue;
       has_place_[{x, y}] = 1;
-      places_.push_back({cells.back(), cells.back(), cells.back()});
+      places_.push_back({*cell, *cell, *cell});
     }
   }
   for (ViewPoint& view : places_) {
@@ -121,46 +96,26 @@ void ViewSearch::findPlaces(const KnownPlace& place) {
                    [](const ViewPoint& a, const ViewPoint& b) { return a.distance > b.distance; });
 }
 
-void ViewSearch::findPlacesCloseBy(const KnownPlace& place) {
-  for (; !unseen_.empty() && looks_left_ > 0; unseen_.pop_back(), looks_left_ -= kLook) {
-    eachBlockInView(place.grid(), unseen_.back(), place.laserRange(), [&](Cell block) {
-      if (std::exchange(is_block_[block], 1)) return;
-      blocks_.push_back(block);
-    });
-  }
-}
-
 // The nearest first, as long as one can be better than the best.
 void ViewSearch::askPlaces(const KnownPlace& place, double best) {
-  const auto keep = [this](const ViewPoint& view) {
-    if (view.gain >= smallest_gain_) found_.push_back(view);
-  };
   const auto canBeBetter = [&] {
     return !places_.empty() && scoreOf(Strategy::kViewTour, places_.back()) > best;
   };
   for (; canBeBetter() && looks_left_ > 0; places_.pop_back()) {
     if (place.scanned().contains(places_.back().cell)) continue;
-    keep(lookFrom(place, places_.back().cell));
+    const ViewPoint view = lookFrom(place, places_.back().cell);
+    if (view.gain >= smallest_gain_) found_.push_back(view);
   }
-  for (; unseen_.empty() && !blocks_.empty() && looks_left_ > 0; blocks_.pop_back()) {
-    if (place.scanned().containsBlock(blocks_.back())) continue;
-    std::optional<ViewPoint> most;
-    for (const Cell c : placesIn(place, blocks_.back())) {
-      const ViewPoint view = lookFrom(place, c);
-      if (!most || view.gain > most->gain) most = view;
-    }
-    if (most) keep(*most);
-  }
-  is_under_way_ = canBeBetter() || !unseen_.empty() || !blocks_.empty();
+  is_under_way_ = canBeBetter();
 }
 
 // Only the place that seems best is asked again, until one is as good as it seemed.
 std::optional<ViewPoint> ViewSearch::choose(const KnownPlace& place, Strategy strategy,
                                             const Filter& filter) {
-  found_.erase(
-      std::remove_if(found_.begin(), found_.end(),
-                     [&](const ViewPoint& view) { return place.scanned().contains(view.cell); }),
-      found_.end());
+  const auto shows_nothing = [&](const ViewPoint& view) {
+    return view.gain < smallest_gain_ || place.scanned().contains(view.cell);
+  };
+  found_.erase(std::remove_if(found_.begin(), found_.end(), shows_nothing), found_.end());
   const auto score = [&](const ViewPoint& view) {
     return isWorthItsWay(view, filter) ? scoreOf(strategy, view) : kNone;
   };

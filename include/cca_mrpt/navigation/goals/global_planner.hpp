@@ -120,7 +120,6 @@ class GlobalPlanner {
   void lookAround();
   ViewPoint nextStop(const ViewPoint& best);
   bool search(const Eigen::Vector2d& robot_map);
-  bool opensMore();
   void dropGoal(Failure failure, std::optional<Cell> held_at = {});
   bool drivesInVain() const;
   std::optional<std::string> whyGivenUp() const;
@@ -136,8 +135,6 @@ class GlobalPlanner {
   std::optional<ViewPoint> goal_;
   Eigen::Vector2d decided_at_ = Eigen::Vector2d::Zero();
   std::size_t revealed_then_ = 0;  ///< at the last decision
-  /// When the places were last asked closely.
-  std::optional<std::size_t> revealed_at_close_search_;
   int goals_ = 0;
   Plan plan_;
 };

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstddef>
-#include <functional>
 #include <optional>
 #include <string>
 #include <utility>
@@ -31,11 +30,6 @@ struct ViewPoint {
 bool isInView(const ExplorationGrid& grid, Cell from, Cell to, double range);
 
 inline constexpr double kThroughUnknown = 1.5;  ///< m
-
-/// Visits the blocks of FreeSpace in view from a cell, by rays as those of viewFrom: each once for
-/// every ray through it. Cost: O(range / resolution) for each ray.
-void eachBlockInView(const ExplorationGrid& grid, Cell from, double range,
-                     const std::function<void(Cell block)>& visit);
 
 /// What a place (a known cell) is good for. The gain is the unknown area in view if all unknown
 /// cells were free [Gonzalez-Banos & Latombe 2002]: 360 rays, as fine as a laser's beams, end at

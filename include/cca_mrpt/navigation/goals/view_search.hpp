@@ -16,9 +16,9 @@ namespace cca {
 /// What there is to see, and the best place to look from: all places that the robot can reach are
 /// asked what is expected to be seen from there.
 ///
-/// First one place in every other block of the free space (0.2 m), as it becomes known. Where none
-/// of these shows enough, searchClosely() asks one or two in each block that has a frontier in
-/// view: a few centimetres count beside a corner. It is done a bounded number of looks at a time.
+/// One place in every other block of the free space (0.2 m), as it becomes known, and one in every
+/// block from when none of these is worth its way: a few centimetres count beside a corner. The
+/// nearest come first, a bounded number of looks at a time.
 class ViewSearch {
  public:
   /// What a view point must fulfil beyond its gain.
@@ -49,20 +49,16 @@ class ViewSearch {
   std::optional<ViewPoint> inPassing(const KnownPlace& place, const Filter& filter,
                                      const ViewPoint& goal);
 
-  /// Asks all places anew, those of each block that sees a frontier of now. Cost: O(frontier
-  /// cells).
-  void searchClosely(const KnownPlace& place);
-
   /// Whether a target is in view of a place found so far that the ways last found lead to.
   bool canBeSeen(const KnownPlace& place, Cell target) const;
 
-  /// The past was corrected: what was found and what is still to be asked goes with it. Places
-  /// are asked closely anew by searchClosely() only.
-  void move(const CellMove& moved);
+  /// The place was made anew: all places are asked again.
+  void forget() { *this = ViewSearch(smallest_gain_, smallest_frontier_, worth_); }
 
-  /// The places that were left when next() found none that is worth its way, with their ways.
+  /// The places that were left when next() found none that is worth its way, or only such as the
+  /// filter refused, with their ways.
   const std::vector<ViewPoint>& left() const { return found_; }
-  /// Likewise: what the best of them promises. For people.
+  /// Likewise: what the best of those promises that are not worth their way. For people.
   std::string whatIsLeft() const;
 
   /// Whether there are places that have not been asked yet.
@@ -70,7 +66,6 @@ class ViewSearch {
 
  private:
   void findPlaces(const KnownPlace& place);
-  void findPlacesCloseBy(const KnownPlace& place);
   void askPlaces(const KnownPlace& place, double best);
   /// Nor refused by the filter.
   bool isWorthItsWay(const ViewPoint& view, const Filter& filter) const;
@@ -83,11 +78,9 @@ class ViewSearch {
   bool is_under_way_ = false;
   int looks_left_ = 0;             ///< that may be made in this call, in sixteenths
   CellSet openings_;               ///< of now
-  std::vector<Cell> unseen_;       ///< frontier cells that were not asked yet for who sees them
-  std::vector<Cell> blocks_;       ///< that see one, and were not asked yet
-  TiledGrid<char> is_block_{0};    ///< whether a block was ever put among them
-  std::vector<ViewPoint> places_;  ///< in every other block, not asked yet, the nearest last
+  std::vector<ViewPoint> places_;  ///< not asked yet, the nearest last
   TiledGrid<char> has_place_{0};   ///< whether a block's place was ever put among them
+  int apart_ = 2;                  ///< blocks, between places
   /// As they were when they were asked: gains only become less as more is seen.
   std::vector<ViewPoint> found_;
 };

@@ -28,8 +28,7 @@ class ScannedPlaces {
   /// All directions, wherever the laser has looked.
   void addAll(Cell robot);
 
-  bool contains(Cell c) const { return containsBlock(FreeSpace::blockOf(c)); }
-  bool containsBlock(Cell block) const { return looked_.at(block) == kAllAround; }
+  bool contains(Cell c) const { return looked_.at(FreeSpace::blockOf(c)) == kAllAround; }
 
   static constexpr std::uint32_t kAllAround = 0xFFFFFFFF;
 
