@@ -1,7 +1,7 @@
-# find_package(cca_mrpt [COMPONENTS geometry sensing mapping slam navigation baselines simulation io])
+# find_package(cca_mrpt [COMPONENTS geometry motion sensing mapping slam navigation baselines simulation io])
 #
-# The targets cca_mrpt::geometry, ::sensing, ::mapping, ::slam, ::navigation and ::baselines need Eigen only; ::simulation and ::io
-# are there when they are asked for as components, and bring MRPT with them.
+# The targets cca_mrpt::geometry, ::motion, ::sensing, ::mapping, ::slam, ::navigation and ::baselines need Eigen only;
+# ::simulation and ::io are there when they are asked for as components, and bring MRPT with them.
 include(CMakeFindDependencyMacro)
 find_dependency(Eigen3 NO_MODULE)
 include(${cca_mrpt_DIR}/cca_mrpt_eigen.cmake)

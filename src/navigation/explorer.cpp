@@ -23,16 +23,6 @@ constexpr double kTurn = 2.0 / 3.0 * M_PI;  // rad: three make one round, and no
 constexpr double kMuchUnreached = 1.0;  // m^2
 constexpr double kMuchOfAll = 0.05;
 
-GlobalPlannerParameters plannerParameters(const RobotParameters& robot,
-                                          const ExplorerParameters& parameters) {
-  GlobalPlannerParameters planner;
-  planner.strategy = parameters.strategy;
-  planner.smallest_gain = parameters.smallest_gain;
-  planner.worth = parameters.worth;
-  planner.clearance = robot.leastClearance();
-  return planner;
-}
-
 /// Of what may be in each cell beside the free ones around a place, the point nearest to it; m, map
 /// frame. Cells that were never seen may hold something, too, but where the robot was put down.
 std::vector<Eigen::Vector2d> obstaclesAround(const ExplorationGrid& grid,
@@ -64,17 +54,6 @@ std::vector<Eigen::Vector2d> obstaclesAround(const ExplorationGrid& grid,
 
 using Way = std::vector<Eigen::Vector2d>;
 
-/// Whether a beam goes where a place lies, however far.
-bool looksTowards(const Scan& scan, const Eigen::Vector2d& p_map) {
-  if (scan.size() == 0) return false;
-  const Pose2& T = scan.T_map_sensor;
-  const Eigen::Vector2d to = p_map - T.position();
-  const double last = scan.bearing(scan.size() - 1);
-  const double middle = 0.5 * (scan.angle_min + last), half = 0.5 * std::abs(last - scan.angle_min);
-  const double off = wrapAngle(std::atan2(to.y(), to.x()) - T.theta - middle);
-  return std::abs(off) <= half + std::abs(scan.angle_increment);
-}
-
 /// The first way-point that is not reached yet. One that the robot stands at would hold it there:
 /// Tangent Bug has arrived, and the next path may well begin with the same corner.
 std::size_t nextWayPoint(const std::vector<Eigen::Vector2d>& path, const Eigen::Vector2d& robot) {
@@ -96,7 +75,7 @@ Explorer::Explorer(const CcaParameters& mapping, const RobotParameters& robot,
       robot_(robot),
       mapping_(mapping),
       line_map_(mapping),
-      planner_(plannerParameters(robot, parameters)),
+      planner_(parameters, robot.leastClearance()),
       tangent_bug_(robot),
       progress_(robot) {}
 

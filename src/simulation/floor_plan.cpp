@@ -4,8 +4,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "polygon.hpp"
-
 namespace cca {
 
 void FloorPlan::addBox(const Eigen::Vector2d& lowest, const Eigen::Vector2d& highest) {

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <vector>
 
-#include "cca_mrpt/navigation/drive/robot.hpp"
+#include "cca_mrpt/motion/robot.hpp"
 #include "cca_mrpt/simulation/coverage.hpp"
 #include "floor_plan_kinds.hpp"
 #include "furniture.hpp"

@@ -4,7 +4,6 @@
 
 #include "cca_mrpt/geometry/cross.hpp"
 #include "cca_mrpt/simulation/floor_plan.hpp"
-#include "polygon.hpp"
 
 namespace cca {
 

@@ -8,8 +8,8 @@
 #include <ctime>
 #include <limits>
 
+#include "cca_mrpt/geometry/cell.hpp"
 #include "cca_mrpt/navigation/goals/global_planner.hpp"
-#include "cca_mrpt/navigation/place/cell.hpp"
 
 namespace {
 

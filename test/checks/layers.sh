@@ -17,13 +17,14 @@ check() {
 }
 
 check geometry geometry
+check motion 'geometry|motion'
 check sensing 'geometry|sensing'
 check mapping 'geometry|sensing|mapping'
 check slam 'geometry|sensing|mapping|slam'
 check navigation/place 'geometry|sensing|navigation/place'
 check navigation/goals 'geometry|sensing|navigation/place|navigation/goals'
-check navigation/drive 'geometry|sensing|navigation/place|navigation/drive|navigation/drive/tangent_bug'
-check navigation 'geometry|sensing|mapping|navigation|navigation/[a-z_/]+'
+check navigation/drive 'geometry|motion|sensing|navigation/place|navigation/drive|navigation/drive/tangent_bug'
+check navigation 'geometry|motion|sensing|mapping|navigation|navigation/[a-z_/]+'
 check baselines 'geometry|sensing|mapping|baselines'
 [ $failed -eq 0 ] && echo "layers: clean"
 exit $failed

@@ -8,7 +8,7 @@
 #include <random>
 #include <vector>
 
-#include "cca_mrpt/navigation/drive/robot.hpp"
+#include "cca_mrpt/motion/robot.hpp"
 #include "cca_mrpt/sensing/scan.hpp"
 
 namespace cca::testing {

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "cca_mrpt/navigation/place/cell.hpp"
+#include "cca_mrpt/geometry/cell.hpp"
 #include "cca_mrpt/navigation/place/exploration_grid.hpp"
 #include "cca_mrpt/navigation/place/known_place.hpp"
 #include "cca_mrpt/sensing/scan.hpp"

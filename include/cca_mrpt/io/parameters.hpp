@@ -8,7 +8,7 @@
 
 #include "cca_mrpt/io/icp_localizer.hpp"
 #include "cca_mrpt/mapping/parameters.hpp"
-#include "cca_mrpt/navigation/drive/robot.hpp"
+#include "cca_mrpt/motion/robot.hpp"
 #include "cca_mrpt/navigation/explorer.hpp"
 #include "cca_mrpt/simulation/laser.hpp"
 #include "cca_mrpt/simulation/robot.hpp"

@@ -10,10 +10,8 @@
 #include "cca_mrpt/mapping/line_map.hpp"
 #include "cca_mrpt/mapping/scan_agreement.hpp"
 #include "cca_mrpt/navigation/drive/progress.hpp"
-#include "cca_mrpt/navigation/drive/robot.hpp"
 #include "cca_mrpt/navigation/drive/tangent_bug/tangent_bug.hpp"
 #include "cca_mrpt/navigation/goals/global_planner.hpp"
-#include "cca_mrpt/navigation/place/exploration_grid.hpp"
 #include "cca_mrpt/sensing/past_scans.hpp"
 #include "cca_mrpt/sensing/scan.hpp"
 
@@ -62,11 +60,8 @@ enum class PathKind {
 inline constexpr std::pair<const char*, PathKind> kPathNames[] = {
     {"known_space", PathKind::kKnownSpace}, {"paper", PathKind::kPaper}};
 
-struct ExplorerParameters {
-  Strategy strategy = Strategy::kViewTour;
+struct ExplorerParameters : GlobalPlannerParameters {
   PathKind path = PathKind::kKnownSpace;
-  double worth = GlobalPlannerParameters{}.worth;
-  double smallest_gain = 0.1;
   bool return_to_start = false;
 };
 

@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 #include "cca_mrpt/sensing/scan.hpp"
@@ -60,5 +61,13 @@ inline int beamTowards(const Scan& scan, const Eigen::Vector2d& p_sensor) {
   return static_cast<int>(std::lround(
       beamAt(std::atan2(p_sensor.y(), p_sensor.x()), scan.angle_min, scan.angle_increment)));
 }
+
+/// Whether a beam of a scan, or the next one beside it, goes where a place (m, map frame) lies,
+/// however far.
+bool looksTowards(const Scan& scan, const Eigen::Vector2d& p_map);
+
+/// The sectors of the plane, map frame, into which a scan looks: a bit each of 32 around, the first
+/// from the x axis on counter-clockwise. None where it has no beam, or is not finite.
+std::uint32_t sectorsInView(const Scan& scan);
 
 }  // namespace cca

@@ -8,11 +8,11 @@
 #include <vector>
 
 #include "cca_mrpt/geometry/arc.hpp"
+#include "cca_mrpt/geometry/polygon.hpp"
 #include "cca_mrpt/simulation/world.hpp"
 
 namespace cca {
 
-using Polygon = std::vector<Eigen::Vector2d>;                  ///< m, counter-clockwise, simple
 using WallFace = std::pair<Eigen::Vector2d, Eigen::Vector2d>;  ///< m, its two ends
 using Opening = std::pair<double, double>;                     ///< m along a wall, from its start
 

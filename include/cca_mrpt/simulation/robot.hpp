@@ -2,7 +2,7 @@
 #pragma once
 
 #include "cca_mrpt/geometry/pose2.hpp"
-#include "cca_mrpt/navigation/drive/robot.hpp"
+#include "cca_mrpt/motion/robot.hpp"
 #include "cca_mrpt/simulation/random.hpp"
 
 namespace cca {

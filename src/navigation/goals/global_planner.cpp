@@ -4,8 +4,6 @@
 #include <algorithm>
 #include <utility>
 
-#include "cca_mrpt/navigation/place/grid_paths.hpp"
-
 namespace cca {
 namespace {
 
@@ -15,21 +13,11 @@ constexpr double kPromising = 0.15;              // m^2 that are expected for th
 constexpr double kPassed = 0.1;                  // m, of a corner
 constexpr double kLongestInVain = 100.0;         // m, and once around what is known
 
-bool isInside(const std::vector<Eigen::Vector2d>& polygon, const Eigen::Vector2d& p) {
-  bool inside = false;
-  for (std::size_t i = 0, j = polygon.size() - 1; i < polygon.size(); j = i++) {
-    const Eigen::Vector2d &a = polygon[i], &b = polygon[j];
-    if ((a.y() > p.y()) == (b.y() > p.y())) continue;
-    if (p.x() < a.x() + (p.y() - a.y()) / (b.y() - a.y()) * (b.x() - a.x())) inside = !inside;
-  }
-  return inside;
-}
-
 }  // namespace
 
-GlobalPlanner::GlobalPlanner(const GlobalPlannerParameters& parameters)
+GlobalPlanner::GlobalPlanner(const GlobalPlannerParameters& parameters, double clearance)
     : parameters_(parameters),
-      place_(parameters.clearance),
+      place_(clearance),
       view_search_(parameters.smallest_gain, parameters.smallest_frontier, parameters.worth),
       unpaid_way_(parameters.worth) {}
 
@@ -178,12 +166,10 @@ bool GlobalPlanner::isWithinLimits(Cell c) const {
   return limits_.size() < 3 || isInside(limits_, grid().centreOf(c));
 }
 
-bool GlobalPlanner::isOpen(const ViewPoint& view) const {
-  return !place_.isAside(view.target) && isWithinLimits(view.cell) && isWithinLimits(view.target);
-}
-
 ViewSearch::Filter GlobalPlanner::openOnes() const {
-  return [this](const ViewPoint& view) { return isOpen(view); };
+  return [this](const ViewPoint& view) {
+    return !place_.isAside(view.target) && isWithinLimits(view.cell) && isWithinLimits(view.target);
+  };
 }
 
 // By the strategies of others, whose goals are frontiers.
@@ -194,7 +180,7 @@ std::optional<ViewPoint> GlobalPlanner::bestFrontier() const {
        frontierPlaces(place_, parameters_.smallest_frontier, parameters_.smallest_gain)) {
     const bool is_better =
         !best || scoreOf(parameters_.strategy, view) > scoreOf(parameters_.strategy, *best);
-    if (is_better && isOpen(view)) best = view;
+    if (is_better && openOnes()(view)) best = view;
   }
   return best;
 }

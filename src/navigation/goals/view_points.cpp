@@ -3,11 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
 #include <utility>
 
 #include "cca_mrpt/geometry/cross.hpp"
-#include "cca_mrpt/navigation/place/cell.hpp"
 #include "cca_mrpt/sensing/beam.hpp"
 
 namespace cca {
@@ -17,18 +15,14 @@ namespace {
 // drives some 3 % farther.
 constexpr double kFreeWay = 1.0;
 
-/// Cells' length that fine rays may go through opaque ones: cutting corners, but not through a
+/// Cells' length that rays may go through opaque ones: cutting corners, but not through a
 /// wall. A surface on the border of two cells makes both occupied, and a ray that grazes it, or the
 /// jamb of a door, would end there.
 constexpr double kCut = 1.0;
 
-/// Unit vectors all around.
-using Rays = std::vector<Eigen::Vector2d>;
-
+constexpr int kCount = 360;
 /// Never along an axis: no ties at corners.
-Rays rays(int count) { return directionsAround(count, M_PI / count); }
-
-const Rays kFineRays = rays(360);
+const std::vector<Eigen::Vector2d> kRays = directionsAround(kCount, M_PI / kCount);
 
 bool isOpaque(CellState state) {
   return state == CellState::kPresumedWall || state == CellState::kOccupied;
@@ -99,15 +93,14 @@ bool isInView(const ExplorationGrid& grid, Cell from, Cell to, double range) {
 }
 
 ViewPoint viewFrom(const ExplorationGrid& grid, Cell from, double range, const CellSet& openings) {
-  std::vector<bool> meets_opening(kFineRays.size(), false);
+  std::vector<bool> meets_opening(kRays.size(), false);
   for (const Cell c : openings.cells()) markRays(from, c, range / grid.resolution(), meets_opening);
   ViewPoint view{from, from, from};
   const double free_way = kFreeWay / grid.resolution();
-  const auto count = static_cast<double>(kFineRays.size());
   double longest = 0.0;
-  for (std::size_t k = 0; k < kFineRays.size(); ++k) {
+  for (std::size_t k = 0; k < kRays.size(); ++k) {
     if (!meets_opening[k]) continue;
-    const Eigen::Vector2d& direction = kFineRays[k];
+    const Eigen::Vector2d& direction = kRays[k];
     double unknown_since = -1.0;
     bool counts = true;
     Cell last = from;   // that is known, and no obstacle
@@ -116,9 +109,9 @@ ViewPoint viewFrom(const ExplorationGrid& grid, Cell from, double range, const C
       const double begin = std::exchange(unknown_since, -1.0), passed = end - begin;
       if (begin < 0.0 || !counts) return;
       const double fading = std::exp(-passed / free_way);
-      view.gain += (end * end - begin * begin) * M_PI / count;
+      view.gain += (end * end - begin * begin) * M_PI / kCount;
       view.expected +=
-          ((begin + free_way) * (1.0 - fading) - passed * fading) * free_way * 2.0 * M_PI / count;
+          ((begin + free_way) * (1.0 - fading) - passed * fading) * free_way * 2.0 * M_PI / kCount;
       if (passed <= longest) return;
       longest = passed;
       view.edge = first;
@@ -139,15 +132,6 @@ ViewPoint viewFrom(const ExplorationGrid& grid, Cell from, double range, const C
   view.gain *= grid.resolution() * grid.resolution();
   view.expected *= grid.resolution() * grid.resolution();
   return view;
-}
-
-Strategy strategyNamed(const std::string& name) {
-  std::string names;
-  for (const auto& [known, strategy] : kStrategyNames) {
-    if (name == known) return strategy;
-    names += (names.empty() ? "" : ", ") + std::string(known);
-  }
-  throw std::runtime_error("strategy '" + name + "' is none of " + names);
 }
 
 double scoreOf(Strategy strategy, const ViewPoint& view_point) {

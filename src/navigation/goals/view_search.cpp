@@ -11,10 +11,11 @@ namespace {
 
 constexpr int kLook = 16;                  // what a look takes; 1 where no frontier is in reach
 constexpr int kLooksAtATime = 60 * kLook;  // some 10 ms, 20 in a wide hall
-constexpr double kMostExpected = 10.0;     // m^2, that any place may show
-constexpr std::size_t kMostStops = 12;     // of a tour: some 1 ms
-constexpr double kMostDetour = 1.0;        // m, for what is seen in passing
-constexpr double kAtHand = 0.2;            // m, that a look costs at least, a block's length
+constexpr std::size_t kWorthAskingAgain = 200;  // cells newly seen: half a square metre
+constexpr double kMostExpected = 10.0;          // m^2, that any place may show
+constexpr std::size_t kMostStops = 12;          // of a tour: some 1 ms
+constexpr double kMostDetour = 1.0;             // m, for what is seen in passing
+constexpr double kAtHand = 0.2;                 // m, that a look costs at least, a block's length
 constexpr double kNone = -std::numeric_limits<double>::infinity();
 
 /// m^2 / m, what is expected for the way: a place at hand is a metre off, too.
@@ -45,8 +46,15 @@ std::optional<ViewPoint> ViewSearch::next(const KnownPlace& place, Strategy stra
   askPlaces(place, asks_all ? 0.0 : best);
   if (is_under_way_) return {};
   const auto chosen = choose(place, strategy, filter);
-  if (!chosen && !is_under_way_) is_under_way_ = std::exchange(apart_, 1) > 1;  // between them
-  return chosen;
+  const std::size_t revealed = place.grid().revealed();
+  if (chosen || is_under_way_) return chosen;
+  is_under_way_ = canBeBetter(0.0);  // than what proved worse than it had seemed
+  if (is_under_way_ || revealed <= revealed_then_ + kWorthAskingAgain) return {};
+  forget();
+  is_under_way_ = true;
+  revealed_then_ = revealed;
+  apart_ = 1;
+  return {};
 }
 
 bool ViewSearch::isWorthItsWay(const ViewPoint& view, const Filter& filter) const {
@@ -96,17 +104,18 @@ void ViewSearch::findPlaces(const KnownPlace& place) {
                    [](const ViewPoint& a, const ViewPoint& b) { return a.distance > b.distance; });
 }
 
-// The nearest first, as long as one can be better than the best.
+// The nearest place that was not asked yet.
+bool ViewSearch::canBeBetter(double best) const {
+  return !places_.empty() && scoreOf(Strategy::kViewTour, places_.back()) > best;
+}
+
 void ViewSearch::askPlaces(const KnownPlace& place, double best) {
-  const auto canBeBetter = [&] {
-    return !places_.empty() && scoreOf(Strategy::kViewTour, places_.back()) > best;
-  };
-  for (; canBeBetter() && looks_left_ > 0; places_.pop_back()) {
+  for (; canBeBetter(best) && looks_left_ > 0; places_.pop_back()) {
     if (place.scanned().contains(places_.back().cell)) continue;
     const ViewPoint view = lookFrom(place, places_.back().cell);
     if (view.gain >= smallest_gain_) found_.push_back(view);
   }
-  is_under_way_ = canBeBetter();
+  is_under_way_ = canBeBetter(best);
 }
 
 // Only the place that seems best is asked again, until one is as good as it seemed.

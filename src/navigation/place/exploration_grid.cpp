@@ -6,7 +6,6 @@
 #include <cmath>
 
 #include "cca_mrpt/geometry/cross.hpp"
-#include "cca_mrpt/navigation/place/cell.hpp"
 #include "cca_mrpt/sensing/beam.hpp"
 #include "cca_mrpt/sensing/range_noise.hpp"
 
@@ -208,15 +207,5 @@ void ExplorationGrid::write(Cell cell, Evidence& evidence, Evidence value) {
   }
   evidence = value;
 }
-
-bool ExplorationGrid::covers(const Eigen::Vector2d& p_map) const {
-  return p_map.allFinite() && p_map.cwiseAbs().maxCoeff() < resolution_ * kFarthestCell;
-}
-
-Cell ExplorationGrid::cellOf(const Eigen::Vector2d& p_map) const {
-  return cellAt(p_map / resolution_);
-}
-
-Eigen::Vector2d ExplorationGrid::centreOf(Cell cell) const { return resolution_ * middleOf(cell); }
 
 }  // namespace cca

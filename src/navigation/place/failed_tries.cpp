@@ -2,10 +2,7 @@
 #include "cca_mrpt/navigation/place/failed_tries.hpp"
 
 #include <algorithm>
-#include <cstdlib>
 #include <utility>
-
-#include "cca_mrpt/navigation/place/cell.hpp"
 
 namespace cca {
 namespace {

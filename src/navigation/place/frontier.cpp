@@ -18,31 +18,10 @@ Cell memberInTheMiddle(const std::vector<Cell>& cells) {
 
 }  // namespace
 
-void CellSet::insert(Cell c) {
-  if (contains(c)) return;
-  cells_.push_back(c);
-  place_[c] = static_cast<std::uint32_t>(cells_.size());
-}
-
-// The last one takes the place of the one that goes.
-void CellSet::erase(Cell c) {
-  if (!contains(c)) return;
-  const std::uint32_t place = place_[c];
-  place_[cells_.back()] = place;
-  cells_[place - 1] = cells_.back();
-  cells_.pop_back();
-  place_[c] = 0;
-}
-
-std::optional<Cell> unknownBeside(const ExplorationGrid& grid, Cell c) {
-  for (std::size_t d = 0; d < 4; ++d) {
-    if (grid.at(c + kNeighbours[d]) == CellState::kUnknown) return c + kNeighbours[d];
-  }
-  return {};
-}
-
 bool isFrontier(const ExplorationGrid& grid, Cell c) {
-  return isFree(grid.at(c)) && unknownBeside(grid, c);
+  const auto is_unknown = [&](Cell step) { return grid.at(c + step) == CellState::kUnknown; };
+  return isFree(grid.at(c)) &&
+         std::any_of(kNeighbours.begin(), kNeighbours.begin() + 4, is_unknown);
 }
 
 void FrontierCells::update(const ExplorationGrid& grid, const std::vector<Cell>& changed) {

@@ -6,8 +6,6 @@
 #include <queue>
 #include <utility>
 
-#include "cca_mrpt/navigation/place/cell.hpp"
-
 namespace cca {
 namespace {
 

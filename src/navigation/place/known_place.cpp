@@ -4,41 +4,12 @@
 #include <algorithm>
 #include <cmath>
 
-#include "cca_mrpt/navigation/place/cell.hpp"
-#include "cca_mrpt/navigation/place/free_space.hpp"
-
 namespace cca {
 namespace {
-
-constexpr int kSectors = 32;
-
-std::uint32_t directionsOf(const Scan& scan) {
-  constexpr double kSector = 2.0 * M_PI / kSectors;
-  const double span = static_cast<double>(scan.size()) * std::abs(scan.angle_increment);
-  if (scan.size() == 0 || !std::isfinite(span)) return 0;
-  if (span >= 2.0 * M_PI - 0.5 * std::abs(scan.angle_increment)) return ScannedPlaces::kAllAround;
-  const double last = scan.bearing(scan.size() - 1);
-  const double from = scan.T_map_sensor.theta + std::min(scan.angle_min, last);
-  if (!std::isfinite(from)) return 0;
-  std::uint32_t directions = 0;
-  const double lowest = std::floor(from / kSector);
-  const int count = static_cast<int>(std::floor((from + span) / kSector) - lowest);
-  for (int k = 0; k <= count; ++k) {
-    const double sector = std::fmod(lowest + k, kSectors);
-    directions |= 1u << static_cast<int>(sector < 0.0 ? sector + kSectors : sector);
-  }
-  return directions;
-}
 
 constexpr double kLongestStep = 0.5;  // m, between scans; a farther one is a jump
 
 }  // namespace
-
-void ScannedPlaces::add(Cell robot, const Scan& scan) {
-  looked_[FreeSpace::blockOf(robot)] |= directionsOf(scan);
-}
-
-void ScannedPlaces::addAll(Cell robot) { looked_[FreeSpace::blockOf(robot)] = kAllAround; }
 
 void KnownPlace::observe(const Scan& scan, const Eigen::Vector2d& robot_map) {
   learnRange(scan);

@@ -4,8 +4,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "cca_mrpt/geometry/pose2.hpp"
-#include "cca_mrpt/navigation/drive/robot.hpp"
+#include "cca_mrpt/motion/commanded_motion.hpp"
 
 namespace cca {
 
@@ -35,13 +34,6 @@ struct Hazard {
 /// @return rad, robot frame; the wanted one where no hazard is too near, or every direction leads
 ///         nearer to one. Cost: O(hazards + square of those that are too near).
 double bearingPast(const std::vector<Hazard>& hazards, double radius, double bearing);
-
-/// Where the robot is when a command begins to act.
-struct Onset {
-  Pose2 T_now_then;    ///< by the commands under way
-  Velocity velocity;   ///< then
-  double delay = 0.0;  ///< s from now
-};
 
 /// The last word on what the robot does: the velocity nearest to the wanted one from which it can
 /// still stop before it touches anything.

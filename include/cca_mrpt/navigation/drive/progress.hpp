@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "cca_mrpt/navigation/drive/robot.hpp"
+#include "cca_mrpt/motion/robot.hpp"
 
 namespace cca {
 

@@ -7,11 +7,11 @@
 #include <optional>
 #include <vector>
 
-#include "cca_mrpt/navigation/drive/commanded_motion.hpp"
-#include "cca_mrpt/navigation/drive/local_view.hpp"
+#include "cca_mrpt/motion/commanded_motion.hpp"
+#include "cca_mrpt/motion/robot.hpp"
 #include "cca_mrpt/navigation/drive/motion_control.hpp"
 #include "cca_mrpt/navigation/drive/progress.hpp"
-#include "cca_mrpt/navigation/drive/robot.hpp"
+#include "cca_mrpt/sensing/local_view.hpp"
 #include "cca_mrpt/sensing/moving_points.hpp"
 
 namespace cca {

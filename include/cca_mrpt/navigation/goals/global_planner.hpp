@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "cca_mrpt/geometry/polygon.hpp"
 #include "cca_mrpt/navigation/goals/view_points.hpp"
 #include "cca_mrpt/navigation/goals/view_search.hpp"
 #include "cca_mrpt/navigation/goals/view_tour.hpp"
@@ -15,7 +16,6 @@ namespace cca {
 
 struct GlobalPlannerParameters {
   Strategy strategy = Strategy::kViewTour;
-  double clearance = 0.30;            ///< m, kept from known obstacles
   double smallest_gain = 0.1;         ///< m^2, frontiers that promise less are left
   std::size_t smallest_frontier = 5;  ///< cells, likewise
   double worth = 36.0;                ///< m of way that an unseen square metre is worth
@@ -57,7 +57,8 @@ struct Plan {
 /// show has been seen, or the way is blocked.
 class GlobalPlanner {
  public:
-  explicit GlobalPlanner(const GlobalPlannerParameters& parameters = {});
+  /// @param clearance  m, kept from known obstacles.
+  explicit GlobalPlanner(const GlobalPlannerParameters& parameters = {}, double clearance = 0.30);
 
   /// Takes a scan, and decides anew where that is due. Cost: cells crossed by the scan; a decision
   /// costs O(known blocks) for the ways, and a bounded number of view points.
@@ -68,7 +69,7 @@ class GlobalPlanner {
   const KnownPlace& place() const { return place_; }
 
   /// Exploration stays inside a polygon (m, map frame); fewer than three corners: no limit.
-  void limitTo(std::vector<Eigen::Vector2d> polygon) { limits_ = std::move(polygon); }
+  void limitTo(Polygon polygon) { limits_ = std::move(polygon); }
 
   /// Takes a correction of the past: what is known is made anew from the scans, and goals and
   /// barred ways go with them. The next update finds the way to the same goal anew. Cost: that of
@@ -113,7 +114,6 @@ class GlobalPlanner {
   bool takeWayTo(Cell goal, const Eigen::Vector2d& robot_map);
   bool isTimeToReconsider(const Eigen::Vector2d& robot_map) const;
   void decide(const Eigen::Vector2d& robot_map);
-  bool isOpen(const ViewPoint& view) const;
   ViewSearch::Filter openOnes() const;
   bool isWithinLimits(Cell c) const;
   std::optional<ViewPoint> bestFrontier() const;
@@ -128,7 +128,7 @@ class GlobalPlanner {
   GlobalPlannerParameters parameters_;
   KnownPlace place_;
   ViewSearch view_search_;
-  std::vector<Eigen::Vector2d> limits_;  ///< m, map frame
+  Polygon limits_;  ///< map frame
   UnpaidWay unpaid_way_;
   bool has_looked_around_ = false;  ///< from the start
   bool is_corrected_ = false;       ///< since the last decision

@@ -3,10 +3,10 @@
 
 #include <cstddef>
 #include <optional>
-#include <string>
 #include <utility>
 #include <vector>
 
+#include "cca_mrpt/geometry/tiled_grid.hpp"
 #include "cca_mrpt/navigation/place/exploration_grid.hpp"
 #include "cca_mrpt/navigation/place/frontier.hpp"
 #include "cca_mrpt/navigation/place/grid_paths.hpp"
@@ -64,9 +64,6 @@ inline constexpr std::pair<const char*, Strategy> kStrategyNames[] = {
     {"nearest_frontier", Strategy::kNearestFrontier},
     {"gain_distance", Strategy::kGainDistance},
     {"information", Strategy::kInformation}};
-
-/// @throws std::runtime_error for a name that is none.
-Strategy strategyNamed(const std::string& name);
 
 /// How good a view point is by a strategy: the more, the better.
 double scoreOf(Strategy strategy, const ViewPoint& view_point);

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "cca_mrpt/geometry/tiled_grid.hpp"
 #include "cca_mrpt/navigation/goals/view_points.hpp"
 #include "cca_mrpt/navigation/place/known_place.hpp"
 
@@ -16,9 +17,10 @@ namespace cca {
 /// What there is to see, and the best place to look from: all places that the robot can reach are
 /// asked what is expected to be seen from there.
 ///
-/// One place in every other block of the free space (0.2 m), as it becomes known, and one in every
-/// block from when none of these is worth its way: a few centimetres count beside a corner. The
-/// nearest come first, a bounded number of looks at a time.
+/// One place in every other block of the free space (0.2 m), as it becomes known. When none of
+/// these is worth its way, one in every block is asked, and again when much has been seen since: a
+/// few centimetres count beside a corner, and what was in the way may have gone. The nearest come
+/// first, a bounded number of looks at a time.
 class ViewSearch {
  public:
   /// What a view point must fulfil beyond its gain.
@@ -66,6 +68,7 @@ class ViewSearch {
 
  private:
   void findPlaces(const KnownPlace& place);
+  bool canBeBetter(double best) const;
   void askPlaces(const KnownPlace& place, double best);
   /// Nor refused by the filter.
   bool isWorthItsWay(const ViewPoint& view, const Filter& filter) const;
@@ -81,6 +84,7 @@ class ViewSearch {
   std::vector<ViewPoint> places_;  ///< not asked yet, the nearest last
   TiledGrid<char> has_place_{0};   ///< whether a block's place was ever put among them
   int apart_ = 2;                  ///< blocks, between places
+  std::size_t revealed_then_ = 0;  ///< cells, when all were asked again
   /// As they were when they were asked: gains only become less as more is seen.
   std::vector<ViewPoint> found_;
 };

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "cca_mrpt/navigation/place/cell.hpp"
+#include "cca_mrpt/geometry/tiled_grid.hpp"
 #include "cca_mrpt/sensing/scan.hpp"
 #include "cca_mrpt/sensing/sensor_noise.hpp"
 
@@ -60,11 +60,13 @@ class ExplorationGrid {
 
   double resolution() const { return resolution_; }
   /// Whether a place (m, map frame) is finite and within what a grid can hold.
-  bool covers(const Eigen::Vector2d& p_map) const;
+  bool covers(const Eigen::Vector2d& p_map) const {
+    return p_map.allFinite() && p_map.cwiseAbs().maxCoeff() < resolution_ * kFarthestCell;
+  }
   /// The cell that holds a point. @param p_map  m, finite.
-  Cell cellOf(const Eigen::Vector2d& p_map) const;
+  Cell cellOf(const Eigen::Vector2d& p_map) const { return cellAt(p_map / resolution_); }
   /// m, map frame.
-  Eigen::Vector2d centreOf(Cell cell) const;
+  Eigen::Vector2d centreOf(Cell cell) const { return resolution_ * middleOf(cell); }
 
   /// All known cells lie in lowest() .. highest(), both included; highest() < lowest(): none.
   Cell lowest() const { return lowest_; }

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "cca_mrpt/navigation/place/cell.hpp"
+#include "cca_mrpt/geometry/tiled_grid.hpp"
 #include "cca_mrpt/navigation/place/exploration_grid.hpp"
 
 namespace cca {

@@ -2,10 +2,9 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <cstdint>
-#include <optional>
 #include <vector>
 
+#include "cca_mrpt/geometry/tiled_grid.hpp"
 #include "cca_mrpt/navigation/place/exploration_grid.hpp"
 
 namespace cca {
@@ -15,24 +14,6 @@ struct Frontier {
   std::vector<Cell> cells;
   Cell middle;  ///< the member nearest to the mean of all
 };
-
-/// Cells, none twice, that come and go.
-class CellSet {
- public:
-  /// Precondition: isStorable(c). Cost: O(1), as of all that follows.
-  void insert(Cell c);
-  void erase(Cell c);
-  bool contains(Cell c) const { return place_.at(c) != 0; }
-  /// The order depends only on what came and went.
-  const std::vector<Cell>& cells() const { return cells_; }
-
- private:
-  std::vector<Cell> cells_;
-  TiledGrid<std::uint32_t> place_{0};  ///< index in cells_, plus 1; 0: not among them
-};
-
-/// The first unknown side neighbour of a cell.
-std::optional<Cell> unknownBeside(const ExplorationGrid& grid, Cell c);
 
 /// Whether a cell is free, or presumed so, and a side neighbour is unknown. A presumed wall is not
 /// unknown here. At the end of the laser's range most cells of a frontier are presumed ones:

@@ -8,6 +8,7 @@
 #include <optional>
 #include <vector>
 
+#include "cca_mrpt/geometry/tiled_grid.hpp"
 #include "cca_mrpt/navigation/place/free_space.hpp"
 
 namespace cca {

@@ -6,12 +6,12 @@
 #include <optional>
 #include <vector>
 
-#include "cca_mrpt/navigation/place/cell.hpp"
-#include "cca_mrpt/navigation/place/exploration_grid.hpp"
+#include "cca_mrpt/geometry/tiled_grid.hpp"
 #include "cca_mrpt/navigation/place/failed_tries.hpp"
 #include "cca_mrpt/navigation/place/free_space.hpp"
 #include "cca_mrpt/navigation/place/frontier.hpp"
 #include "cca_mrpt/navigation/place/grid_paths.hpp"
+#include "cca_mrpt/sensing/beam.hpp"
 #include "cca_mrpt/sensing/past_scans.hpp"
 #include "cca_mrpt/sensing/scan.hpp"
 
@@ -23,10 +23,12 @@ class ScannedPlaces {
  public:
   /// Takes the directions (map frame) that a scan looks into, in 32 sectors. Scans of a narrow
   /// field of view add up.
-  void add(Cell robot, const Scan& scan);
+  void add(Cell robot, const Scan& scan) {
+    looked_[FreeSpace::blockOf(robot)] |= sectorsInView(scan);
+  }
 
   /// All directions, wherever the laser has looked.
-  void addAll(Cell robot);
+  void addAll(Cell robot) { looked_[FreeSpace::blockOf(robot)] = kAllAround; }
 
   bool contains(Cell c) const { return looked_.at(FreeSpace::blockOf(c)) == kAllAround; }
 

@@ -6,8 +6,8 @@
 #include <optional>
 #include <vector>
 
-#include "cca_mrpt/navigation/drive/local_view.hpp"
 #include "cca_mrpt/navigation/drive/tangent_bug/tangent_graph.hpp"
+#include "cca_mrpt/sensing/local_view.hpp"
 
 namespace cca {
 

@@ -6,13 +6,13 @@
 #include <utility>
 #include <vector>
 
-#include "cca_mrpt/navigation/drive/local_view.hpp"
+#include "cca_mrpt/motion/robot.hpp"
 #include "cca_mrpt/navigation/drive/progress.hpp"
-#include "cca_mrpt/navigation/drive/robot.hpp"
 #include "cca_mrpt/navigation/drive/tangent_bug/boundary_follower.hpp"
 #include "cca_mrpt/navigation/drive/tangent_bug/motion_to_goal.hpp"
 #include "cca_mrpt/navigation/drive/tangent_bug/tangent_graph.hpp"
 #include "cca_mrpt/navigation/drive/target_driver.hpp"
+#include "cca_mrpt/sensing/local_view.hpp"
 #include "cca_mrpt/sensing/moving_points.hpp"
 #include "cca_mrpt/sensing/near_surfaces.hpp"
 #include "cca_mrpt/sensing/scan.hpp"

@@ -4,7 +4,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "cca_mrpt/navigation/drive/local_view.hpp"
+#include "cca_mrpt/sensing/local_view.hpp"
 
 namespace cca {
 

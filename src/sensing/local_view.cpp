@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "cca_mrpt/navigation/drive/local_view.hpp"
+#include "cca_mrpt/sensing/local_view.hpp"
 
 #include <algorithm>
 #include <cmath>

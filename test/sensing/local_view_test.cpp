@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "cca_mrpt/navigation/drive/local_view.hpp"
+#include "cca_mrpt/sensing/local_view.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <limits>
 
-#include "box_world.hpp"
+#include "../navigation/box_world.hpp"
 
 namespace cca::testing {
 namespace {

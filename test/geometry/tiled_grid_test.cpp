@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "cca_mrpt/navigation/place/cell.hpp"
+#include "cca_mrpt/geometry/tiled_grid.hpp"
 
 #include <gtest/gtest.h>
 

@@ -8,8 +8,8 @@
 #include <optional>
 #include <vector>
 
-#include "cca_mrpt/navigation/drive/motion_control.hpp"
-#include "cca_mrpt/navigation/drive/robot.hpp"
+#include "cca_mrpt/geometry/pose2.hpp"
+#include "cca_mrpt/motion/robot.hpp"
 
 namespace cca {
 
@@ -94,12 +94,20 @@ class ShownMotion {
   double latency_ = 0.0, earliest_ = 0.0, latest_ = 0.0;
 };
 
+/// Where the robot is when a command begins to act.
+struct Onset {
+  Pose2 T_now_then;    ///< by the commands under way
+  Velocity velocity;   ///< then
+  double delay = 0.0;  ///< s from now
+};
+
 /// Follows the commands that are under way, and learns from what they do how the base obeys.
 class CommandedMotion {
  public:
   explicit CommandedMotion(const RobotParameters& robot) : robot_(robot), shown_(robot) {}
 
-  /// See Explorer::changeMotion().
+  /// The robot moves otherwise from now on: what was shown is learned anew where accelerations or
+  /// latency change.
   void changeMotion(const RobotParameters& robot);
 
   /// To be called before the command for this moment is chosen. @param measured  velocity now; what
@@ -118,7 +126,7 @@ class CommandedMotion {
   /// The robot's parameters, with accelerations that it can brake with.
   RobotParameters believed() const;
   double latency() const { return std::max(robot_.latency, shown_.latency()); }  ///< s
-  /// Whether that is no more than what safeVelocity() allows for anyway.
+  /// Whether that is no more than half a control period.
   bool actsAtOnce() const;
   double time() const { return time_; }  ///< s, of the last observation
   /// s, how long a command stands until the next one: the longest time between two of the last six

@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <Eigen/Core>
 #include <Eigen/Geometry>
-
-#include "cca_mrpt/simulation/floor_plan.hpp"
+#include <cstddef>
+#include <vector>
 
 namespace cca {
+
+using Polygon = std::vector<Eigen::Vector2d>;  ///< m, corners in their order, simple
 
 inline Eigen::AlignedBox2d boundsOf(const Polygon& polygon) {
   Eigen::AlignedBox2d bounds;
@@ -13,7 +16,8 @@ inline Eigen::AlignedBox2d boundsOf(const Polygon& polygon) {
   return bounds;
 }
 
-/// Even-odd rule; on the edge itself either answer.
+/// Even-odd rule; on the edge itself either answer; nothing is inside of no corners.
+/// Cost: O(corners).
 inline bool isInside(const Polygon& polygon, const Eigen::Vector2d& p) {
   bool inside = false;
   for (std::size_t i = 0, j = polygon.size() - 1; i < polygon.size(); j = i++) {

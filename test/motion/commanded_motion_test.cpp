@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "cca_mrpt/navigation/drive/commanded_motion.hpp"
+#include "cca_mrpt/motion/commanded_motion.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <deque>
 #include <random>
 
-#include "box_world.hpp"
+#include "../navigation/box_world.hpp"
 
 namespace cca::testing::commanded_motion_test {
 namespace {
