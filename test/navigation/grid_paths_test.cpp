@@ -150,6 +150,7 @@ TEST(DistanceField, DoesNotBeginBehindAWall) {
   DistanceField field;
   field.search(known.space, kResolution, {1, 1});
   EXPECT_EQ(field.start(), (Cell{1, 1}));
+  EXPECT_FALSE(field.isStarted()) << "no way leads half a metre away";
   EXPECT_FALSE(field.isReached({11, 7}));
 }
 

@@ -83,8 +83,8 @@ bool isFreeBetween(const FreeSpace& space, Cell from, Cell to) {
   return is_free;
 }
 
-/// The nearest traversable cell that a way leads away from; where there is none the nearest one.
-/// Around a robot that stands too near to something, noise may leave single cells open.
+/// The nearest traversable cell that a way leads away from. Around a robot that stands too near to
+/// something, noise may leave single cells open.
 bool findStart(const FreeSpace& space, Cell robot, int reach, Cell& start) {
   if (!nearestTraversable(space, robot, reach, start)) return false;
   CellSet seen;
@@ -102,7 +102,8 @@ bool findStart(const FreeSpace& space, Cell robot, int reach, Cell& start) {
     return !seen.contains(c) && isFreeBetween(space, robot, c) &&
            leadsAway(space, c, robot, reach, seen);
   });
-  if (other != others.end()) start = *other;
+  if (other == others.end()) return false;
+  start = *other;
   return true;
 }
 
