@@ -83,8 +83,8 @@ bool isFreeBetween(const FreeSpace& space, Cell from, Cell to) {
   return is_free;
 }
 
-/// The nearest traversable cell that a way leads away from. Around a robot that stands too near to
-/// something, noise may leave single cells open.
+/// The nearest traversable cell that a way leads away from: noise may leave single cells open
+/// around a robot that stands too near to something.
 bool findStart(const FreeSpace& space, Cell robot, int reach, Cell& start) {
   if (!nearestTraversable(space, robot, reach, start)) return false;
   CellSet seen;
