@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
-#include <cmath>
 
 #include "cca_mrpt/navigation/place/frontier.hpp"
 #include "cca_mrpt/navigation/place/grid_paths.hpp"
