@@ -220,6 +220,34 @@ TEST(ViewSearch, GoesThroughALargePlaceAFewAtATime) {
   EXPECT_LT(calls, 50);
 }
 
+// While one seems better than any farther off can be, these are not asked; when it proves worse,
+// they are, however little has been seen since all were asked.
+TEST(ViewSearch, AsksThoseFartherOffWhenTheBestProvesWorse) {
+  const auto block = [](int from, int to, int low, int high) {
+    std::vector<Cell> cells;
+    for (int x = from; x < to; ++x) {
+      for (int y = low; y < high; ++y) cells.push_back({x, y});
+    }
+    return cells;
+  };
+  KnownPlace place(0.27);
+  place.seed(block(0, 20, 0, 20), CellState::kFree);
+  place.findWays({0.5, 0.5});
+  ViewSearch view_search(0.1, 5, kPriceless);
+  ASSERT_FALSE(
+      nextOf(view_search, place, Strategy::kViewTour, [](const ViewPoint&) { return false; }));
+  ASSERT_FALSE(view_search.left().empty());
+  // Presumed only, so nothing is seen: walls around it, and a corridor whose far end is open.
+  for (const int y : {-1, 20}) place.seed(block(-1, 250, y, y + 1), CellState::kPresumedWall);
+  place.seed(block(-1, 0, 0, 20), CellState::kPresumedWall);
+  place.seed(block(20, 300, 0, 20), CellState::kPresumedFree);
+  place.findWays({0.5, 0.5});
+  const auto view = nextOf(view_search, place, Strategy::kViewTour,
+                           [](const ViewPoint& v) { return v.gain >= 1.0 || v.cell.x >= 260; });
+  ASSERT_TRUE(view);
+  EXPECT_GT(view->cell.x, 240);
+}
+
 TEST(ViewSearch, LeavesWhatIsNotWorthItsWay) {
   Look look;
   look.view_search = ViewSearch(0.1, 5, 0.1);  // m/m^2
