@@ -25,7 +25,7 @@ constexpr double kLongestPending = 0.7;  // s, longer than any latency that is l
 constexpr double kReliable = 0.5;        // of the linear brakes that are told
 
 constexpr double kOverSpeed = 1.5;     // of full speed: what says more is broken
-constexpr double kSameLatency = 0.05;  // s: half a control period, which safeVelocity() allows for
+constexpr double kSameLatency = 0.05;  // s: half a control period
 
 constexpr double kShortestPeriod = 0.1, kLongestPeriod = 1.0;  // s
 constexpr double kStampRounding = 1e-6;                        // s, of stamps
