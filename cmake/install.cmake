@@ -25,7 +25,7 @@ else()
 endif()
 
 # The Eigen-only layers stand in an export of their own, so that using them needs no MRPT.
-set(eigen_layers cca_geometry cca_motion cca_sensing cca_mapping cca_navigation cca_slam)
+set(eigen_layers cca_geometry cca_motion cca_sensing cca_localisation cca_mapping cca_slam cca_navigation cca_session)
 set(mrpt_layers cca_evaluation cca_simulation cca_io)
 if(CCA_WITH_EVIDENCE)
   list(APPEND eigen_layers cca_baselines)

@@ -158,7 +158,7 @@ void printCell(const std::vector<double>& values) {
     std::printf(" - |");
     return;
   }
-  const Estimate e = bootstrapMean(values);
+  const BootstrapEstimate e = bootstrapMean(values);
   const bool lost = e.low > 0.0, gained = e.high < 0.0;
   const char* mark = lost || gained ? "**" : "";
   std::printf(" %s%.4f%s [%.4f, %.4f] |", mark, e.value, mark, e.low, e.high);

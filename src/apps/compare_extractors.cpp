@@ -87,7 +87,8 @@ std::string title(const ScanGroup& group) {
 }
 
 /// One row of a Markdown table: mean and half the width of its 95 % interval.
-std::string tableRow(const Contender& c, const std::vector<std::optional<Estimate>>& estimates) {
+std::string tableRow(const Contender& c,
+                     const std::vector<std::optional<BootstrapEstimate>>& estimates) {
   std::string row = "| " + c.name + " | " + c.parameters + " |";
   for (std::size_t k = 0; k < figures().size(); ++k) {
     const Figure& figure = figures()[k];
@@ -119,7 +120,7 @@ class Results {
     csv_.precision(9);
   }
   void add(const ScanGroup& group, const Contender& contender, const std::string& figure,
-           const std::optional<Estimate>& e) {
+           const std::optional<BootstrapEstimate>& e) {
     if (!e) return;
     csv_ << group.name << ',' << group.range_noise << ',' << contender.name << ','
          << contender.parameters << ',' << figure << ',' << e->value << ',' << e->low << ','
@@ -141,7 +142,7 @@ void compare(const ExtractorComparison& options, const Parameters& parameters) {
     for (const Contender& contender : contenders(parameters.mapping)) {
       if (!isChosen(options, contender.name)) continue;
       const std::vector<Trial> trials = run(contender, group.scans);
-      std::vector<std::optional<Estimate>> estimates;
+      std::vector<std::optional<BootstrapEstimate>> estimates;
       for (const Figure& figure : figures()) {
         estimates.push_back(summarise(trials, figure));
         results.add(group, contender, figure.name, estimates.back());

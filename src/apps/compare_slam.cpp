@@ -41,11 +41,13 @@ struct Method {
 
 Pose2 startOf(const Log& log) { return referencePose(log.front()).value_or(logPose(log.front())); }
 
-Locate scanByScan(PoseKind kind) {
-  return [kind](const Log& log) {
-    PoseSource poses(kind);
+Locate scanByScan(PoseSource source) {
+  return [source](const Log& log) {
+    const std::unique_ptr<Localiser> localiser = makeLocaliser(source);
     std::vector<Pose2> trajectory;
-    for (const LogRecord& record : log) trajectory.push_back(poses.locate(record));
+    for (const LogRecord& record : log) {
+      trajectory.push_back(localiser->update(measurementOf(record, source), {}).T_map_robot);
+    }
     return trajectory;
   };
 }
@@ -71,8 +73,8 @@ std::vector<Pose2> byParticles(const Log& log) {
 
 std::vector<Method> allMethods() {
   std::vector<Method> methods{
-      {"odometry", "the wheels alone", scanByScan(PoseKind::kOdometry)},
-      {"icp-slam", "MRPT's CMetricMapBuilderICP", scanByScan(PoseKind::kIcp)},
+      {"odometry", "the wheels alone", scanByScan(PoseSource::kOdometry)},
+      {"icp-slam", "MRPT's CMetricMapBuilderICP", scanByScan(PoseSource::kIcp)},
       {"rbpf-slam", "MRPT's CMetricMapBuilderRBPF, 10 particles", byParticles}};
   for (const evidence::ScanMatcher& matcher : evidence::scanMatchers()) {
     methods.push_back({matcher.name, matcher.source, byGraph(matcher.match)});

@@ -84,7 +84,7 @@ Result perform(const Run& run, const World& world, const Parameters& parameters)
   for (const auto& [name, strategy] : kStrategyNames) {
     if (run.strategy == name) exploration.strategy = strategy;
   }
-  Explorer explorer(parameters.mapping, parameters.robot, exploration);
+  Explorer explorer(parameters.robot, exploration);
   Coverage coverage(world, run.T_map_start.position(), parameters.robot.radius,
                     parameters.laser.range);
   Result result;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <utility>
 
 #include "cca_mrpt/io/atomic_file.hpp"
 #include "cca_mrpt/io/local_frame.hpp"
@@ -33,7 +34,8 @@ ExplorationRecord::ExplorationRecord(const Simulation& simulation, const Eigen::
       parameters_(parameters),
       origin_(origin),
       rawlog_(folder + "/" + kLog, simulation.parameters().laser.range),
-      grid_(simulation.T_map_robot().position()),
+      start_(simulation.T_map_robot().position()),
+      grid_(start_),
       coverage_(simulation.world(), simulation.T_map_robot().position(),
                 simulation.parameters().robot.radius, simulation.parameters().laser.range),
       replay_(simulation.world().name, simulation.parameters().robot.radius) {}
@@ -49,20 +51,13 @@ void ExplorationRecord::add(const Cycle& cycle) {
   const Pose2& T_map_robot = cycle.believed.T_map_robot;
   rawlog_.insert(scan, T_map_robot.inverse() * scan.T_map_sensor,
                  seenFrom(-origin_, cycle.T_odom_robot), cycle.believed.time);
-  if (cycle.believed.is_placed && keepIfMoved(last_insertion_, T_map_robot)) {
-    grid_.insert(scan);
-    believed_way_.push_back(T_map_robot);
-  }
-  work_us_.push_back(cycle.work_us);
+  work_us_.push_back(cycle.work_us + std::exchange(mapping_us_, 0.0));
 }
 
-void ExplorationRecord::correct(const PastScans& past, std::size_t remembered) {
-  grid_ = ScanGrid();
-  believed_way_.clear();
-  for (const auto& kept : past.kept()) {
-    grid_.insert(kept.scan);
-    if (kept.step >= remembered) believed_way_.push_back(kept.T_map_robot);
-  }
+void ExplorationRecord::restart() { grid_ = ScanGrid(start_); }
+
+void ExplorationRecord::record(const MappedScan& mapped, const LineMap& /*map*/) {
+  grid_.insert(mapped.scan);
 }
 
 void ExplorationRecord::look(const Pose2& T_map_robot, double time, double distance) {
@@ -82,10 +77,10 @@ void ExplorationRecord::writeTrajectory(const Simulation& simulation) const {
   writeFile(folder_ + "/" + kTrajectory, text);
 }
 
-void ExplorationRecord::writePoses(const Belief& belief) const {
+void ExplorationRecord::writePoses(const MappingSession& mapping) const {
   std::vector<StampedPose> poses;
-  for (std::size_t k = 0; k < belief.trajectory().size(); ++k) {
-    poses.push_back({truth_[k].time, seenFrom(-origin_, belief.trajectory()[k])});
+  for (std::size_t k = 0; k < mapping.trajectory().size(); ++k) {
+    poses.push_back({mapping.times()[k], seenFrom(-origin_, mapping.trajectory()[k])});
   }
   writeFile(folder_ + "/" + kPoses, posesCsv(poses));
 }
@@ -114,8 +109,8 @@ std::string ExplorationRecord::packedReplay(const Simulation& simulation,
 }
 
 nlohmann::ordered_json ExplorationRecord::summary(const Simulation& simulation,
-                                                  const Explorer& explorer, const Belief& belief,
-                                                  const End& end) {
+                                                  const MappingSession& mapping,
+                                                  const SlamLocaliser* slam, const End& end) {
   nlohmann::ordered_json summary;
   summary["program"] = "cca-mrpt " CCA_VERSION;
   summary["world"] = simulation.world().name;
@@ -127,19 +122,21 @@ nlohmann::ordered_json ExplorationRecord::summary(const Simulation& simulation,
   const auto seen = coverage_.sofar();
   summary["coverage"] = seen ? nlohmann::json(rounded(*seen, 1e6)) : nullptr;  // nobody waited
   summary["unreached_m2"] = rounded(end.unreached, 1e2);
-  summary["agreement"] = rounded(explorer.agreement().overall(), 1e5);
+  summary["agreement"] = rounded(mapping.agreement().overall(), 1e5);
   summary["goals"] = goals_;
   summary["collisions"] = simulation.collisions();
   summary["mover_contacts"] = simulation.moverContacts();
   std::vector<Pose2> truth;
   for (const TimedPose& pose : truth_) truth.push_back(pose.T_map_robot);
-  const TrajectoryError error = compareTrajectories(belief.trajectory(), truth);
-  summary["pose"] = belief.source();
+  const TrajectoryError error = compareTrajectories(mapping.trajectory(), truth);
+  summary["pose"] = parameters_.run.pose;
   summary["pose_error_rms_m"] = rounded(error.rms_m, 1e4);
   summary["pose_error_worst_m"] = rounded(error.max_m, 1e4);
-  summary["loops"] = belief.loops();
-  summary["corrections"] = belief.corrections();
-  if (belief.remembered() > 0) summary["found_in_memory"] = belief.slam()->isInMemory();
+  summary["loops"] = slam ? slam->slam().loops().size() : 0;
+  summary["corrections"] = slam ? slam->corrections() : 0;
+  if (slam && slam->remembered() > 0) {
+    summary["found_in_memory"] = slam->slam().isInMemory();
+  }
   summary["scans"] = scans();
   summary["scan_us_median"] = rounded(quantile(work_us_, 0.5), 10.0);
   summary["scan_us_p99"] = rounded(quantile(work_us_, 0.99), 10.0);
@@ -151,34 +148,35 @@ nlohmann::ordered_json ExplorationRecord::summary(const Simulation& simulation,
 }
 
 MapProducts ExplorationRecord::products(const Simulation& simulation,
-                                        const Explorer& explorer) const {
+                                        const ExplorationSession& session) const {
+  const LineMap& line_map = session.mapping().lineMap();
   MapProducts products;
   products.title = simulation.world().name;
-  products.lines = explorer.lineMap().lines();
-  products.poly_lines = explorer.lineMap().polyLines();
-  products.arcs = explorer.lineMap().arcs();
-  products.trajectory = believed_way_;
+  products.lines = line_map.lines();
+  products.poly_lines = line_map.polyLines();
+  products.arcs = line_map.arcs();
+  products.trajectory = session.mapping().trajectory();
   products.grid = grid_.grid();
   products.origin = origin_;
   return products;
 }
 
-void ExplorationRecord::write(const Simulation& simulation, const Explorer& explorer,
-                              const Belief& belief, const End& end) {
+void ExplorationRecord::write(const Simulation& simulation, const ExplorationSession& session,
+                              const SlamLocaliser* slam, const End& end) {
   look(simulation.T_map_robot(), simulation.time(), simulation.distance());
   withdrawSummary(folder_);
   rawlog_.commit();
   writeTrajectory(simulation);
-  writePoses(belief);
+  writePoses(session.mapping());
   writeCoverage();
-  MapProducts all = products(simulation, explorer);
+  MapProducts all = products(simulation, session);
   all.beside = {kPoses};
   all.replay = packedReplay(simulation, all.lines);
-  if (const Slam* slam = belief.slam()) {
-    all.graph = slam->keyFrames().graph;
-    all.memory = packedMemory({slam->memory(), origin_});
+  if (slam) {
+    all.graph = slam->slam().keyFrames().graph;
+    all.memory = packedMemory({slam->slam().memory(), origin_});
   }
-  all.summary = summary(simulation, explorer, belief, end);
+  all.summary = summary(simulation, session.mapping(), slam, end);
   writeMapFolder(folder_, all);
 }
 

@@ -5,20 +5,20 @@
 #include <string>
 #include <vector>
 
-#include "belief.hpp"
 #include "cca_mrpt/io/map_products.hpp"
 #include "cca_mrpt/io/parameters.hpp"
 #include "cca_mrpt/io/rawlog_writer.hpp"
 #include "cca_mrpt/io/replay.hpp"
 #include "cca_mrpt/io/scan_grid.hpp"
-#include "cca_mrpt/navigation/explorer.hpp"
+#include "cca_mrpt/session/exploration_session.hpp"
 #include "cca_mrpt/simulation/coverage.hpp"
 #include "cca_mrpt/simulation/simulation.hpp"
+#include "cca_mrpt/slam/slam_localiser.hpp"
 
 namespace cca::apps {
 
 /// What is kept of a simulated exploration for the files of its folder.
-class ExplorationRecord {
+class ExplorationRecord : public MapRecorder {
  public:
   /// How a run ended.
   struct End {
@@ -46,17 +46,20 @@ class ExplorationRecord {
     Pose2 T_map_robot, T_odom_robot;  ///< the truth, and what the wheels say
     Observation believed;             ///< what the explorer was given
     std::optional<Eigen::Vector2d> goal;
-    double work_us;  ///< of the explorer
+    double work_us;  ///< to localise and decide
   };
   void add(const Cycle& cycle);
 
-  /// Takes a correction of the past.
-  /// @param remembered  scans of it that are of an earlier drive, the first ones.
-  void correct(const PastScans& past, std::size_t remembered);
+  /// us; of the scan of the next cycle that is added.
+  void addMappingTime(double work_us) { mapping_us_ += work_us; }
+
+  void restart() override;
+  void record(const MappedScan& mapped, const LineMap& map) override;
 
   /// Writes every file of the folder. @throws std::runtime_error naming the file.
-  void write(const Simulation& simulation, const Explorer& explorer, const Belief& belief,
-             const End& end);
+  /// @param slam  where the poses are line SLAM's; else null.
+  void write(const Simulation& simulation, const ExplorationSession& session,
+             const SlamLocaliser* slam, const End& end);
 
   long scans() const { return scans_; }
   int goals() const { return goals_; }
@@ -64,7 +67,7 @@ class ExplorationRecord {
   Coverage& coverage() { return coverage_; }
   Replay& replay() { return replay_; }
   /// What the map's files are made from, as it stands.
-  MapProducts products(const Simulation& simulation, const Explorer& explorer) const;
+  MapProducts products(const Simulation& simulation, const ExplorationSession& session) const;
 
  private:
   static constexpr const char *kLog = "run.rawlog", *kTrajectory = "trajectory.csv",
@@ -74,24 +77,25 @@ class ExplorationRecord {
   };
   void look(const Pose2& T_map_robot, double time, double distance);
   void writeTrajectory(const Simulation& simulation) const;
-  void writePoses(const Belief& belief) const;
+  void writePoses(const MappingSession& mapping) const;
   void writeCoverage();
   std::string packedReplay(const Simulation& simulation, const std::vector<MapLine>& lines);
-  nlohmann::ordered_json summary(const Simulation& simulation, const Explorer& explorer,
-                                 const Belief& belief, const End& end);
+  nlohmann::ordered_json summary(const Simulation& simulation, const MappingSession& mapping,
+                                 const SlamLocaliser* slam, const End& end);
 
   std::string folder_;
   Parameters parameters_;
   Eigen::Vector2d origin_;
   RawlogWriter rawlog_;
+  Eigen::Vector2d start_;  ///< m
   ScanGrid grid_;
   Coverage coverage_;
   Replay replay_;
   std::vector<Look> looks_;
-  std::vector<Pose2> believed_way_;
   std::vector<TimedPose> truth_;  ///< of each scan
   std::vector<double> work_us_;
-  std::optional<Pose2> last_look_, last_insertion_;
+  double mapping_us_ = 0.0;
+  std::optional<Pose2> last_look_;
   std::optional<Eigen::Vector2d> goal_;
   int goals_ = 0;
   long scans_ = 0;

@@ -10,25 +10,18 @@
 #include <thread>
 #include <vector>
 
-#include "background_work.hpp"
-#include "belief.hpp"
 #include "cca_mrpt/io/atomic_file.hpp"
 #include "cca_mrpt/io/late_library.hpp"
 #include "cca_mrpt/io/local_frame.hpp"
 #include "cca_mrpt/io/map_products.hpp"
 #include "cca_mrpt/io/memory_file.hpp"
-#include "cca_mrpt/navigation/explorer.hpp"
 #include "cca_mrpt/simulation/simulation.hpp"
 #include "commands.hpp"
-#include "contradiction.hpp"
-#include "exploration_record.hpp"
+#include "exploration_run.hpp"
 #include "exploration_window.hpp"
 #include "interruption.hpp"
-#include "moved.hpp"
 #include "parameter_options.hpp"
 #include "progress.hpp"
-#include "replay_moment.hpp"
-#include "tour_left.hpp"
 #include "within.hpp"
 #include "world_name.hpp"
 
@@ -39,8 +32,6 @@ namespace {
 namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 
-/// A robot that has not found its place on so much way [m] is not exploring any more.
-constexpr double kLongestLost = 30.0;
 constexpr double kSmallestView = 90.0, kWidestSpacing = 5.0;  // deg
 
 struct ExploreOptions {
@@ -100,104 +91,6 @@ std::string chooseFolder(const ExploreOptions& options, const std::string& world
   return folder;
 }
 
-/// "91.3 % seen, ", or nothing where it is not known.
-std::string share(const std::optional<double>& seen) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.1f %% seen, ", 100.0 * seen.value_or(0.0));
-  return seen ? text : "";
-}
-
-/// How far the robot still has to go, as far as it knows: to each frontier.
-double metresLeft(const Simulation& simulation, const Explorer& explorer) {
-  std::vector<Eigen::Vector2d> frontier;
-  for (const Cell& cell : explorer.planner().place().frontierCells().cells()) {
-    frontier.push_back(explorer.grid().centreOf(cell));
-  }
-  return tourLeft(simulation.T_map_robot().position(), frontier);
-}
-
-void showProgress(Progress& progress, const Simulation& simulation, const Explorer& explorer,
-                  ExplorationRecord& record, const Action& action, Clock::time_point begin) {
-  char detail[160], goal[40] = "none";
-  if (action.goal)
-    std::snprintf(goal, sizeof goal, "%.1f, %.1f", record.origin().x() + action.goal->x(),
-                  record.origin().y() + action.goal->y());
-  const double driven = simulation.distance(), left = metresLeft(simulation, explorer);
-  std::snprintf(detail, sizeof detail,
-                "%s%.0f m driven, %.0f m to go, %.0f s simulated, goal %s, %.0f scans/s",
-                share(record.coverage().sofar()).c_str(), driven, left, simulation.time(), goal,
-                static_cast<double>(record.scans()) / std::max(secondsSince(begin), 1e-3));
-  progress.show(driven + left > 0.0 ? driven / (driven + left) : 0.0, detail);
-}
-
-void correctMap(const PastScans& past, std::size_t remembered, Explorer& explorer,
-                ExplorationRecord& record) {
-  explorer.correctMap(past);
-  record.correct(past, remembered);
-}
-
-// The line map and the files are kept beside the drive, on the second core: neither feeds back.
-ExplorationRecord::End drive(Simulation& simulation, Explorer& explorer, ExplorationRecord& record,
-                             Belief& belief, const RunParameters& run,
-                             const Interruption& interruption, Progress* progress,
-                             ExplorationWindow* window) {
-  const auto begin = Clock::now();
-  double placed_at = 0.0;  // m of way
-  std::optional<Pose2> last_moment;
-  BackgroundWork beside;
-  while (!interruption.requested() && simulation.time() < run.longest_time) {
-    Observation observation = simulation.observe();
-    const auto start = Clock::now();
-    if (belief.replacePose(observation, simulation.T_odom_robot())) {
-      explorer.correctNavigation(belief.past());
-      beside.add(
-          [&, past = belief.past()] { correctMap(past, belief.remembered(), explorer, record); });
-    }
-    const Action action = explorer.navigate(observation);
-    ExplorationRecord::Cycle cycle{
-        simulation.time(),         simulation.distance(), simulation.T_map_robot(),
-        simulation.T_odom_robot(), observation,           action.goal,
-        1e6 * secondsSince(start)};
-    std::optional<ReplayMoment> moment;
-    if (keepIfMoved(last_moment, observation.T_map_robot) ||
-        action.status == ExplorationStatus::kFinished) {
-      moment = momentOf(simulation, explorer, observation, action);
-    }
-    beside.add([&, cycle = std::move(cycle), moment = std::move(moment)]() mutable {
-      const auto map_start = Clock::now();
-      if (cycle.believed.is_placed) explorer.map(cycle.believed.scan);
-      cycle.work_us += 1e6 * secondsSince(map_start);
-      record.add(cycle);
-      if (moment) record.replay().add(*moment, cycle.believed.scan, explorer.lineMap());
-    });
-    if (observation.is_placed) placed_at = simulation.distance();
-    if (simulation.distance() - placed_at > kLongestLost) {
-      beside.wait();
-      return {false,
-              "the robot has not known its place for " +
-                  std::to_string(static_cast<int>(kLongestLost)) + " m",
-              0.0};
-    }
-    if (action.status == ExplorationStatus::kFinished) {
-      beside.wait();
-      const Plan& plan = explorer.planner().plan();
-      return {true, action.reason, 0.0, plan.unreached, explorer.leavesMuch(), plan.gave_up};
-    }
-    simulation.drive(action.velocity, run.control_period);
-    if (window && window->isDue()) {
-      beside.wait();
-      window->show(record.products(simulation, explorer), simulation, observation, action);
-    }
-    if (progress && progress->isDue()) {
-      beside.wait();
-      showProgress(*progress, simulation, explorer, record, action, begin);
-    }
-  }
-  beside.wait();
-  return {false, interruption.requested() ? "interrupted" : "the longest simulated time is over",
-          0.0};
-}
-
 /// What can be seen of a large world takes longer to work out than the robot drives: nobody who
 /// wants his map now has to wait for it.
 void awaitCoverage(Coverage& coverage, const Interruption& interruption) {
@@ -205,27 +98,6 @@ void awaitCoverage(Coverage& coverage, const Interruption& interruption) {
     if (interruption.requested()) return coverage.giveUp();
     std::this_thread::sleep_for(std::chrono::milliseconds(10));
   }
-}
-
-/// What a run that ended by itself has not done well; empty where there is nothing.
-std::string shortcomings(const Simulation& simulation, const Explorer& explorer,
-                         const ExplorationRecord::End& end) {
-  std::string text;
-  char part[80];
-  const auto tell = [&text](const std::string& what) {
-    text += (text.empty() || what.empty() ? "" : ", ") + what;
-  };
-  if (simulation.collisions() > 0) {
-    std::snprintf(part, sizeof part, "%d contacts with what stands", simulation.collisions());
-    tell(part);
-  }
-  if (end.gave_up) tell(end.reason);
-  if (end.leaves_much) {
-    std::snprintf(part, sizeof part, "%.1f m^2 in view that no way was found to", end.unreached);
-    tell(part);
-  }
-  tell(contradiction(explorer.agreement()));
-  return text;
 }
 
 std::unique_ptr<ExplorationWindow> openWindow(const World& world) {
@@ -259,13 +131,23 @@ void requireSlam(const ExploreOptions& options, const RunParameters& run) {
 
 /// Where no place of the earlier map was found, that is told; the run's own memory does not take
 /// the place of the one in its folder, which may be that map's.
-void tellOfMemory(const ExploreOptions& options, const Belief& belief, const std::string& folder) {
-  if (belief.remembered() == 0 || belief.slam()->isInMemory()) return;
+void tellOfMemory(const ExploreOptions& options, const ExplorationRun& run,
+                  const std::string& folder) {
+  if (run.isInMemory()) return;
   std::fprintf(stderr, "cca-mrpt: no place of %s was found: this is the map of this run alone\n",
                options.resume.c_str());
   const std::string kept = keepMemory(folder);
   if (kept.empty()) return;
   std::fprintf(stderr, "cca-mrpt: the %s that was there is kept: %s\n", kMemoryFile, kept.c_str());
+}
+
+void report(const Simulation& simulation, ExplorationRun& run, const std::string& folder) {
+  std::printf(
+      "%s: %s. %s%.1f m driven in %.0f s, %d collisions, %.1f s of work\n"
+      "picture  %s/map.png\nmap      %s/lines.csv\n",
+      simulation.world().name.c_str(), run.end().reason.c_str(),
+      seenText(run.record().coverage().sofar()).c_str(), simulation.distance(), simulation.time(),
+      simulation.collisions(), run.end().wall_s, folder.c_str(), folder.c_str());
 }
 
 void explore(const ExploreOptions& options, const Parameters& parameters) {
@@ -280,34 +162,24 @@ void explore(const ExploreOptions& options, const Parameters& parameters) {
   if (options.gui) window = openWindow(simulation.world());
   const std::string folder = chooseFolder(options, simulation.world().name);
   const FolderLock lock = prepareMapFolder(folder, options.force, ExplorationRecord::files());
-  Explorer explorer(parameters.mapping, parameters.robot, parameters.exploration);
-  ExplorationRecord record(simulation, scene.origin, parameters, folder);
-  Belief belief(parameters, simulation.T_map_robot());
-  if (memory) belief.remember(*memory);
+  ExplorationRun run(simulation, scene.origin, parameters, folder);
+  if (memory) run.remember(*memory);
   std::unique_ptr<Progress> progress;
   if (!options.quiet) progress = std::make_unique<Progress>("exploring");
   const Interruption interruption;
-  auto end = drive(simulation, explorer, record, belief, parameters.run, interruption,
-                   progress.get(), window.get());
+  run.drive(interruption, progress.get(), window.get());
   progress.reset();
   if (interruption.requested()) tellOfSaving();
-  if (belief.finish()) correctMap(belief.past(), belief.remembered(), explorer, record);
-  tellOfMemory(options, belief, folder);
-  awaitCoverage(record.coverage(), interruption);
-  end.wall_s = secondsSince(start);
-  record.write(simulation, explorer, belief, end);
-  if (!options.quiet) {
-    std::printf(
-        "%s: %s. %s%.1f m driven in %.0f s, %d collisions, %.1f s of work\n"
-        "picture  %s/map.png\nmap      %s/lines.csv\n",
-        simulation.world().name.c_str(), end.reason.c_str(),
-        share(record.coverage().sofar()).c_str(), simulation.distance(), simulation.time(),
-        simulation.collisions(), end.wall_s, folder.c_str(), folder.c_str());
+  run.finish();
+  tellOfMemory(options, run, folder);
+  awaitCoverage(run.record().coverage(), interruption);
+  run.end().wall_s = secondsSince(start);
+  run.record().write(simulation, run.session(), run.slam(), run.end());
+  if (!options.quiet) report(simulation, run, folder);
+  if (!run.end().finished) {
+    throw std::runtime_error(run.end().reason + "; what was mapped so far is in " + folder);
   }
-  if (!end.finished) {
-    throw std::runtime_error(end.reason + "; what was mapped so far is in " + folder);
-  }
-  const std::string shortcoming = shortcomings(simulation, explorer, end);
+  const std::string shortcoming = run.shortcomings();
   if (!shortcoming.empty()) throw Shortcoming(shortcoming + "; the map is in " + folder);
 }
 

@@ -25,14 +25,17 @@ struct MapOptions {
 };
 
 /// Where nobody says where poses come from: the log's own where somebody corrected them.
-std::string chosenPose(const MapOptions& options, const LocalLog& first) {
+PoseSource chosenPose(const MapOptions& options, const LocalLog& first) {
   const bool is_one = options.logs.size() == 1 && options.resume.empty();
-  if (options.pose.empty()) return is_one && first.beginsCorrected() ? "log" : "slam";
-  if (!is_one && options.pose != "slam") {
+  if (options.pose.empty()) {
+    return is_one && first.beginsCorrected() ? PoseSource::kLog : PoseSource::kSlam;
+  }
+  const PoseSource pose = poseSource(options.pose);
+  if (!is_one && pose != PoseSource::kSlam) {
     throw std::runtime_error("--pose " + options.pose +
                              ": several logs, and logs with --resume, are joined by --pose slam");
   }
-  return options.pose;
+  return pose;
 }
 
 void report(const MapOptions& options, const MapProducts& products, double seconds) {
@@ -50,19 +53,20 @@ void report(const MapOptions& options, const MapProducts& products, double secon
               options.out.c_str());
 }
 
-MappedLogs mapLogs(const MapOptions& options, std::unique_ptr<LocalLog> first,
-                   const Parameters& parameters, const Interruption& interruption) {
+std::unique_ptr<MappedLogs> mapLogs(const MapOptions& options, std::unique_ptr<LocalLog> first,
+                                    const Parameters& parameters,
+                                    const Interruption& interruption) {
   LogsToMap logs;
   logs.paths = options.logs;
   logs.pose = chosenPose(options, *first);
   logs.resumed = options.resume;
   if (!options.resume.empty()) logs.memory = loadMemory(options.resume);
-  MappedLogs mapped(logs, *first, parameters.mapping);
-  for (std::size_t k = 0; k < options.logs.size() && !mapped.isInterrupted(); ++k) {
+  auto mapped = std::make_unique<MappedLogs>(logs, *first, parameters);
+  for (std::size_t k = 0; k < options.logs.size() && !mapped->isInterrupted(); ++k) {
     auto log = k == 0 ? std::move(first) : std::make_unique<LocalLog>(openLog(options.logs[k]));
-    mapped.take(options.logs[k], *log, parameters.icp, interruption);
+    mapped->take(options.logs[k], *log, interruption);
   }
-  mapped.finish();
+  mapped->finish();
   return mapped;
 }
 
@@ -74,7 +78,7 @@ void makeMap(const MapOptions& options, const Parameters& parameters) {
   std::error_code unknown;
   const bool is_new = !std::filesystem::exists(options.out, unknown);
   const FolderLock folder = prepareMapFolder(options.out, options.force);
-  const MappedLogs mapped = [&] {
+  const std::unique_ptr<const MappedLogs> mapped = [&] {
     try {
       return mapLogs(options, std::move(log), parameters, interruption);
     } catch (...) {  // a pose that the log lacks: nothing remains
@@ -83,16 +87,16 @@ void makeMap(const MapOptions& options, const Parameters& parameters) {
       throw;
     }
   }();
-  tellWarnings(options.logs.front(), mapped.warnings());
-  if (mapped.isInterrupted()) tellOfSaving();
-  MapProducts map = mapped.products(parameters);
+  tellWarnings(options.logs.front(), mapped->warnings());
+  if (mapped->isInterrupted()) tellOfSaving();
+  MapProducts map = mapped->products();
   const std::chrono::duration<double> mapping = std::chrono::steady_clock::now() - begin;
   map.summary["mapping_s"] = mapping.count();
   writeMapFolder(options.out, map);
   const std::chrono::duration<double> all = std::chrono::steady_clock::now() - begin;
   if (!options.quiet) report(options, map, all.count());
-  if (mapped.isInterrupted()) {
-    throw std::runtime_error("interrupted after " + std::to_string(mapped.scans()) +
+  if (mapped->isInterrupted()) {
+    throw std::runtime_error("interrupted after " + std::to_string(mapped->scans()) +
                              " scans; the map so far is in " + options.out);
   }
 }

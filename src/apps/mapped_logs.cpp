@@ -6,9 +6,9 @@
 #include <filesystem>
 #include <stdexcept>
 
-#include "cca_mrpt/io/pose_source.hpp"
 #include "cca_mrpt/io/stray_places.hpp"
 #include "cca_mrpt/io/trajectory_error.hpp"
+#include "cca_mrpt/session/earlier_drive.hpp"
 #include "contradiction.hpp"
 #include "moved.hpp"
 #include "on_all_cores.hpp"
@@ -38,157 +38,121 @@ double pathLength(const std::vector<Pose2>& trajectory) {
 
 }  // namespace
 
-MappedLogs::MappedLogs(const LogsToMap& logs, const LocalLog& first, const CcaParameters& mapping)
+MappedLogs::MappedLogs(const LogsToMap& logs, const LocalLog& first, const Parameters& parameters)
     : logs_(logs),
-      map_(mapping),
-      grid_(first.start()),
+      parameters_(parameters),
+      start_(first.start()),
       origin_(first.origin()),
-      replay_(fileName(logs.paths.front())),
-      drawing_(std::make_unique<BackgroundWork>()) {}
+      background_(std::make_unique<BackgroundWork>()) {
+  auto localiser = makeLocaliser(logs_.pose, parameters_.icp);
+  slam_ = dynamic_cast<SlamLocaliser*>(localiser.get());
+  MappingSession::Settings settings;
+  settings.mapping = parameters_.mapping;
+  settings.maps_at_the_end = true;
+  session_ = std::make_unique<MappingSession>(
+      std::move(localiser), settings, this,
+      [this](std::function<void()> work) { background_->add(std::move(work)); });
+  if (logs_.memory) rememberDrive(logs_.memory->memory, *slam_, *session_);
+  MappedLogs::restart();
+}
 
-void MappedLogs::take(const std::string& path, LocalLog& log, const IcpParameters& icp,
+void MappedLogs::take(const std::string& path, LocalLog& log,
                       const Interruption& interruption) try {
   log.moveTo(origin_);
-  std::string of_poses;
-  if (logs_.pose == "slam") {
-    locateBySlam(log, interruption);
-  } else {
-    of_poses = locateScanByScan(log, icp, interruption);
+  Progress progress(slam_ ? "locate" : "map");
+  // A drive begins where its log does, for then its errors can be told; a second one anywhere.
+  if (slam_ && scans() > 0) slam_->startAnywhere();
+  while (!interrupted_) {
+    std::optional<LogRecord> record = log.next();
+    if (!record) break;
+    beams_ += record->scan.size();
+    unguided_ += !record->odometry;
+    const Telling told{record->has_time ? record->time : 0.0, referencePose(*record)};
+    background_->add([this, told] { told_.push_back(told); });
+    session_->add(measurementOf(std::move(*record), logs_.pose));
+    progress.show(
+        log.progress(),
+        std::to_string(scans()) + " scans" +
+            (slam_ ? ", " + std::to_string(slam_->slam().loops().size()) + " loops closed" : ""));
+    interrupted_ = interruption.requested();
   }
   warn(log.warnings());
-  warn(of_poses);
 } catch (const std::runtime_error& error) {
   throw std::runtime_error(path + ": " + error.what());
 }
 
-std::string MappedLogs::locateScanByScan(LocalLog& log, const IcpParameters& icp,
-                                         const Interruption& interruption) {
-  PoseSource poses(poseKind(logs_.pose), icp);
-  Progress progress("map");
-  while (auto record = log.next()) {
-    const Pose2 T_map_robot = poses.place(*record);
-    insert(*record, T_map_robot);
-    progress.show(log.progress(), std::to_string(trajectory_.size()) + " scans");
-    interrupted_ = interruption.requested();
-    if (interrupted_) break;
-  }
-  return poses.warnings();
-}
-
-/// Line SLAM: all logs are gone through before the first line is drawn. It begins where the first
-/// log does, for then its errors can be told; a second one may begin anywhere.
-void MappedLogs::locateBySlam(LocalLog& log, const Interruption& interruption) {
-  Progress progress("locate");
-  if (slam_) slam_->startAnywhere();
-  while (auto record = log.next()) {
-    if (!slam_) {
-      slam_.emplace(referencePose(*record).value_or(logPose(*record)));
-      if (logs_.memory) slam_->remember(logs_.memory->memory);
-    }
-    slam_->step(record->scan, record->T_robot_sensor, record->odometry);
-    records_.push_back(std::move(*record));
-    progress.show(log.progress(), std::to_string(records_.size()) + " scans, " +
-                                      std::to_string(slam_->loops().size()) + " loops closed");
-    interrupted_ = interruption.requested();
-    if (interrupted_) break;
-  }
-}
-
 void MappedLogs::finish() {
-  if (slam_) {
-    if (!interrupted_) slam_->finish(doOnAllCores);
-    const std::vector<bool> is_placed = slam_->isPlaced();
-    const std::vector<Pose2> poses = slam_->trajectory();
-    const auto remembered = static_cast<std::size_t>(slam_->remembered());
-    if (remembered > 0 && slam_->isInMemory()) insertMemory(poses);
-    for (std::size_t k = 0; k < records_.size(); ++k) {
-      const Pose2& T_map_robot = poses[remembered + k];
-      records_[k].scan.T_map_sensor = T_map_robot * records_[k].T_robot_sensor;
-      insert(records_[k], T_map_robot, is_placed[remembered + k]);
-    }
-    warn(tellOfSlam({is_placed.begin() + slam_->remembered(), is_placed.end()}));
+  if (interrupted_) {
+    session_->mapAsItIs();
+  } else {
+    session_->finish(doOnAllCores);
   }
-  drawing_->wait();
-  drawing_.reset();
-  warn(straysTold());
-  warn(contradiction(agreement_));
+  background_->wait();
+  if (logs_.memory && slam_->slam().isInMemory()) origin_ = logs_.memory->origin;
+  warn(withoutOdometry());
+  if (slam_) warn(slamWarnings());
+  warn(strayWarning());
+  warn(contradiction(session_->agreement()));
 }
 
-/// The map of the earlier drives, in whose frame this one has been found.
-void MappedLogs::insertMemory(const std::vector<Pose2>& T_map_robot) {
-  origin_ = logs_.memory->origin;
-  const auto& keys = logs_.memory->memory.scans;
-  for (std::size_t k = 0; k < keys.size(); ++k) {
-    Scan scan = keys[k].scan;
-    scan.T_map_sensor = T_map_robot[k] * keys[k].T_robot_sensor;
-    draw(scan);
-  }
+void MappedLogs::restart() {
+  grid_ = ScanGrid(start_);
+  replay_ = Replay(fileName(logs_.paths.front()));
+  last_moment_.reset();
+  distance_ = 0.0;
 }
 
-void MappedLogs::draw(const Scan& scan) {
-  drawing_->add([this, scan] {
-    agreement_.add(compareWithMap(scan, map_.walls()));
-    map_.insert(scan);
-  });
-  grid_.insert(scan);
-}
-
-void MappedLogs::addMoment(const LogRecord& record, const Pose2& T_map_robot) {
+void MappedLogs::record(const MappedScan& mapped, const LineMap& map) {
+  grid_.insert(mapped.scan);
+  if (mapped.is_of_earlier_drive) return;
   const std::optional<Pose2> last = last_moment_;
-  if (!keepIfMoved(last_moment_, T_map_robot)) return;
-  const double step = last ? (T_map_robot.position() - last->position()).norm() : 0.0;
+  if (!keepIfMoved(last_moment_, mapped.T_map_robot)) return;
+  const double step = last ? (mapped.T_map_robot.position() - last->position()).norm() : 0.0;
   if (step < kLongestStep) distance_ += step;
   ReplayMoment moment;
-  moment.time = record.time;
+  moment.time = told_[mapped.number].time;
   moment.distance = distance_;
-  moment.T_map_robot = T_map_robot;
-  moment.truth = referencePose(record);
-  drawing_->add([this, moment, scan = record.scan] { replay_.add(moment, scan, map_); });
+  moment.T_map_robot = mapped.T_map_robot;
+  moment.truth = told_[mapped.number].reference;
+  replay_.add(moment, mapped.scan, map);
 }
 
-void MappedLogs::insert(const LogRecord& record, const Pose2& T_map_robot, bool is_placed) {
-  if (is_placed) draw(record.scan);
-  unplaced_ += !is_placed;
-  beams_ += record.scan.size();
-  trajectory_.push_back(T_map_robot);
-  times_.push_back(record.has_time ? record.time : 0.0);
-  addMoment(record, T_map_robot);
-  if (const auto reference = referencePose(record)) {
-    judged_.push_back(T_map_robot);
-    reference_.push_back(*reference);
+/// Scans that were localised by the laser alone, though the wheels are expected to tell.
+std::string MappedLogs::withoutOdometry() const {
+  if (unguided_ == 0 || (logs_.pose != PoseSource::kSlam && logs_.pose != PoseSource::kIcp)) {
+    return "";
   }
+  return std::to_string(unguided_) + " scan(s) without odometry, located by the laser alone";
 }
 
 /// What SLAM had to do without.
-std::string MappedLogs::tellOfSlam(const std::vector<bool>& is_placed) const {
-  std::string told;
-  const auto tell = [&](const std::string& more) { told += (told.empty() ? "" : "; ") + more; };
-  if (!slam_->isInMemory()) {
-    tell("no place of " + logs_.resumed + " was found: this is the map of the log alone");
+std::string MappedLogs::slamWarnings() const {
+  std::string warnings;
+  if (!slam_->slam().isInMemory()) {
+    warnings = "no place of " + logs_.resumed + " was found: this is the map of the log alone";
   }
-  if (unplaced_ > 0) {
-    const auto first = std::find(is_placed.begin(), is_placed.end(), false) - is_placed.begin();
-    tell("the place of " + std::to_string(unplaced_) +
-         " scan(s) is not known, and they are in no map; the first is number " +
-         std::to_string(first));
+  const std::vector<bool>& known = session_->isLocalised();
+  const auto unknown = std::count(known.begin(), known.end(), false);
+  if (unknown > 0) {
+    const auto first = std::find(known.begin(), known.end(), false) - known.begin();
+    warnings += (warnings.empty() ? "" : "; ") + std::string("the place of ") +
+                std::to_string(unknown) +
+                " scan(s) is not known, and they are in no map; the first is number " +
+                std::to_string(first);
   }
-  const auto without = std::count_if(records_.begin(), records_.end(),
-                                     [](const LogRecord& record) { return !record.odometry; });
-  if (without > 0) {
-    tell(std::to_string(without) + " scan(s) without odometry, located by the laser alone");
-  }
-  return told;
+  return warnings;
 }
 
 /// "1 scan(s) far from all others, the first is number 12 at 1e+07, 3.2 m"; empty where there is
 /// none.
-std::string MappedLogs::straysTold() const {
-  const std::vector<bool> stray = findStrays(trajectory_);
+std::string MappedLogs::strayWarning() const {
+  const std::vector<Pose2>& trajectory = session_->trajectory();
+  const std::vector<bool> stray = findStrays(trajectory);
   const auto count = std::count(stray.begin(), stray.end(), true);
   if (count == 0) return "";
   const auto first =
       static_cast<std::size_t>(std::find(stray.begin(), stray.end(), true) - stray.begin());
-  const Eigen::Vector2d place = origin_ + trajectory_[first].position();
+  const Eigen::Vector2d place = origin_ + trajectory[first].position();
   char text[160];
   std::snprintf(text, sizeof text,
                 "%td scan(s) far from all others, the first is number %zu at %.9g, %.9g m", count,
@@ -201,14 +165,14 @@ void MappedLogs::warn(const std::string& warning) {
   warnings_ += warning;
 }
 
-MapProducts MappedLogs::products(const Parameters& parameters) const {
+MapProducts MappedLogs::products() const {
   MapProducts products;
   products.title = fileName(logs_.paths.front());
-  products.lines = map_.lines();
-  products.poly_lines = map_.polyLines();
-  products.arcs = map_.arcs();
-  products.trajectory = trajectory_;
-  products.times = times_;
+  products.lines = session_->lineMap().lines();
+  products.poly_lines = session_->lineMap().polyLines();
+  products.arcs = session_->lineMap().arcs();
+  products.trajectory = session_->trajectory();
+  products.times = session_->times();
   products.grid = grid_.grid();
   products.origin = origin_;
   Replay replay = replay_;
@@ -222,35 +186,46 @@ MapProducts MappedLogs::products(const Parameters& parameters) const {
     summary["logs"] = logs_.paths;
   }
   summary["finished"] = !interrupted_;
-  summary["pose"] = logs_.pose;
-  summary["scans"] = trajectory_.size();
+  summary["pose"] = nameOf(logs_.pose);
+  summary["scans"] = scans();
   summary["beams"] = beams_;
-  summary["distance_m"] = pathLength(trajectory_);
-  summary["agreement"] = agreement_.overall();
+  summary["distance_m"] = pathLength(products.trajectory);
+  summary["agreement"] = session_->agreement().overall();
   if (slam_) {
-    products.graph = slam_->keyFrames().graph;
-    products.memory = packedMemory({slam_->memory(), origin_});
+    const Slam& slam = slam_->slam();
+    const std::vector<bool>& known = session_->isLocalised();
+    products.graph = slam.keyFrames().graph;
+    products.memory = packedMemory({slam.memory(), origin_});
     summary["key_frames"] = products.graph.size();
-    summary["loops"] = slam_->loops().size();
-    summary["scans_without_place"] = unplaced_;
+    summary["loops"] = slam.loops().size();
+    summary["scans_without_place"] = std::count(known.begin(), known.end(), false);
     if (logs_.memory) {
       summary["resumed"] = logs_.resumed;
-      summary["found_in_memory"] = slam_->isInMemory();
+      summary["found_in_memory"] = slam.isInMemory();
     }
   }
   if (!warnings_.empty()) summary["warnings"] = warnings_;
   std::vector<std::string> used{"mapping"};
-  if (logs_.pose == "icp") used.push_back("icp");
-  summary["parameters"] = parametersJson(parameters, used);
+  if (logs_.pose == PoseSource::kIcp) used.push_back("icp");
+  summary["parameters"] = parametersJson(parameters_, used);
   // Poses taken from the log are their own reference, and would be called perfect.
-  if (logs_.pose != "log" && logs_.pose != "truth" && !reference_.empty()) {
-    const TrajectoryError error = compareTrajectories(judged_, reference_);
-    summary["pose_error"] = {{"rms_m", error.rms_m},
-                             {"max_m", error.max_m},
-                             {"rms_deg", error.rms_deg},
-                             {"at_end_m", error.at_end_m}};
-  }
+  if (logs_.pose != PoseSource::kLog && logs_.pose != PoseSource::kTruth) addPoseError(summary);
   return products;
+}
+
+void MappedLogs::addPoseError(nlohmann::ordered_json& summary) const {
+  std::vector<Pose2> judged, reference;
+  for (std::size_t k = 0; k < told_.size(); ++k) {
+    if (!told_[k].reference) continue;
+    judged.push_back(session_->trajectory()[k]);
+    reference.push_back(*told_[k].reference);
+  }
+  if (reference.empty()) return;
+  const TrajectoryError error = compareTrajectories(judged, reference);
+  summary["pose_error"] = {{"rms_m", error.rms_m},
+                           {"max_m", error.max_m},
+                           {"rms_deg", error.rms_deg},
+                           {"at_end_m", error.at_end_m}};
 }
 
 }  // namespace cca::apps

@@ -11,10 +11,11 @@
 #include "cca_mrpt/io/map_products.hpp"
 #include "cca_mrpt/io/memory_file.hpp"
 #include "cca_mrpt/io/parameters.hpp"
+#include "cca_mrpt/io/pose_source.hpp"
 #include "cca_mrpt/io/replay.hpp"
 #include "cca_mrpt/io/scan_grid.hpp"
-#include "cca_mrpt/mapping/line_map.hpp"
-#include "cca_mrpt/mapping/scan_agreement.hpp"
+#include "cca_mrpt/session/mapping_session.hpp"
+#include "cca_mrpt/slam/slam_localiser.hpp"
 #include "interruption.hpp"
 
 namespace cca::apps {
@@ -22,61 +23,59 @@ namespace cca::apps {
 /// What `map` is asked for.
 struct LogsToMap {
   std::vector<std::string> paths;
-  std::string pose;                    ///< see poseKind()
+  PoseSource pose;
   std::optional<StoredMemory> memory;  ///< of earlier drives
   std::string resumed;                 ///< the folder that it is from
 };
 
-/// What is kept of logs while they are mapped. All of it stands in one frame.
-class MappedLogs {
+/// Takes logs through a mapping session, and keeps what goes into the map's folder. All of it
+/// stands in one frame.
+class MappedLogs : public MapRecorder {
  public:
   /// @param first  of the logs, opened; it says where the frame lies.
-  MappedLogs(const LogsToMap& logs, const LocalLog& first, const CcaParameters& mapping);
+  MappedLogs(const LogsToMap& logs, const LocalLog& first, const Parameters& parameters);
 
   /// Goes through a log. @throws std::runtime_error naming the log.
-  void take(const std::string& path, LocalLog& log, const IcpParameters& icp,
-            const Interruption& interruption);
+  void take(const std::string& path, LocalLog& log, const Interruption& interruption);
   /// Works out what all logs together tell.
   void finish();
 
-  /// @param parameters  what is written to summary.json of them.
-  MapProducts products(const Parameters& parameters) const;
+  MapProducts products() const;
   const std::string& warnings() const { return warnings_; }
-  std::size_t scans() const { return trajectory_.size(); }
+  std::size_t scans() const { return session_->trajectory().size(); }
   bool isInterrupted() const { return interrupted_; }
 
  private:
-  void addMoment(const LogRecord& record, const Pose2& T_map_robot);
-  /// @param record  its scan at the place where it belongs in the map.
-  void insert(const LogRecord& record, const Pose2& T_map_robot, bool is_placed = true);
-  void draw(const Scan& scan);
-  void insertMemory(const std::vector<Pose2>& T_map_robot);
-  std::string locateScanByScan(LocalLog& log, const IcpParameters& icp,
-                               const Interruption& interruption);
-  void locateBySlam(LocalLog& log, const Interruption& interruption);
-  std::string tellOfSlam(const std::vector<bool>& is_placed) const;
-  std::string straysTold() const;
+  /// What a log tells of a scan beside what is mapped.
+  struct Telling {
+    double time;  ///< s
+    std::optional<Pose2> reference;
+  };
+  void restart() override;
+  void record(const MappedScan& mapped, const LineMap& map) override;
+  std::string withoutOdometry() const;
+  std::string slamWarnings() const;
+  std::string strayWarning() const;
   void warn(const std::string& warning);
+  void addPoseError(nlohmann::ordered_json& summary) const;
 
   LogsToMap logs_;
-  LineMap map_;
-  ScanAgreement agreement_;
+  Parameters parameters_;
+  SlamLocaliser* slam_ = nullptr;  ///< the session's, where the poses are line SLAM's
+  std::unique_ptr<MappingSession> session_;
+  Eigen::Vector2d start_;                 ///< m: about where the logs begin
+  Eigen::Vector2d origin_;                ///< m, of the frame that all this stands in
+  std::size_t beams_ = 0, unguided_ = 0;  ///< of all scans; scans without odometry
+  std::string warnings_;                  ///< what could not be read, or was missed
+  bool interrupted_ = false;
+  // What background_ alone changes until finish().
+  std::vector<Telling> told_;  ///< of each scan
   ScanGrid grid_;
-  Eigen::Vector2d origin_;  ///< m, of the frame that all this stands in
-  std::optional<Slam> slam_;
-  std::vector<LogRecord> records_;  ///< that wait for SLAM's last word
-  std::vector<Pose2> trajectory_;
-  std::vector<double> times_;              ///< s, of each scan
-  std::vector<Pose2> judged_, reference_;  ///< poses for which a reference is known, and these
   Replay replay_;
   std::optional<Pose2> last_moment_;
   double distance_ = 0.0;  ///< m, up to the last moment
-  std::size_t beams_ = 0;
-  std::size_t unplaced_ = 0;  ///< scans that nobody knows the place of, and that are in no map
-  std::string warnings_;      ///< what could not be read, or was missed
-  bool interrupted_ = false;
-  /// Draws lines and the replay while the log is read on; until finish().
-  std::unique_ptr<BackgroundWork> drawing_;
+  /// Maps while the log is read on; until finish().
+  std::unique_ptr<BackgroundWork> background_;
 };
 
 }  // namespace cca::apps

@@ -6,10 +6,10 @@
 #include <string>
 #include <vector>
 
+#include "cca_mrpt/io/grid_recorder.hpp"
 #include "cca_mrpt/io/map_products.hpp"
 #include "cca_mrpt/io/memory_file.hpp"
-#include "cca_mrpt/io/scan_grid.hpp"
-#include "cca_mrpt/mapping/line_map.hpp"
+#include "cca_mrpt/session/earlier_drive.hpp"
 #include "commands.hpp"
 #include "on_all_cores.hpp"
 #include "parameter_options.hpp"
@@ -23,42 +23,47 @@ struct MergeOptions {
   bool force = false, quiet = false;
 };
 
-/// Each map in the frame of the first; the parts of the others begin as they were.
-Slam joined(const MergeOptions& options, const std::vector<StoredMemory>& stored) {
-  Slam slam;
-  std::vector<int> first_of;  // frame of each map
-  for (const StoredMemory& map : stored) {
-    first_of.push_back(slam.remembered());
-    slam.remember(map.memory);
+/// Maps joined in the frame of the first.
+struct Merged {
+  explicit Merged(const CcaParameters& mapping) {
+    auto localiser = std::make_unique<SlamLocaliser>();
+    slam = localiser.get();
+    MappingSession::Settings settings;
+    settings.mapping = mapping;
+    settings.maps_at_the_end = true;
+    session = std::make_unique<MappingSession>(std::move(localiser), settings, &grid);
   }
-  slam.finish(doOnAllCores);
-  const std::vector<bool> is_placed = slam.isPlaced();
+  GridRecorder grid;
+  SlamLocaliser* slam;
+  std::unique_ptr<MappingSession> session;
+};
+
+/// The parts of all maps but the first begin as they were, and look for their place in it.
+void join(const MergeOptions& options, const std::vector<StoredMemory>& stored, Merged& merged) {
+  std::vector<std::size_t> first_of;  // scan of each map
+  for (const StoredMemory& map : stored) {
+    first_of.push_back(merged.slam->remembered());
+    rememberDrive(map.memory, *merged.slam, *merged.session);
+  }
+  merged.session->finish(doOnAllCores);
+  const std::vector<bool> is_localised = merged.slam->isLocalised();
   for (std::size_t k = 1; k < stored.size(); ++k) {
-    if (is_placed[static_cast<std::size_t>(first_of[k])]) continue;
+    if (is_localised[first_of[k]]) continue;
     throw std::runtime_error(options.maps[k] + ": no place of it was found in " +
                              options.maps.front() + "; nothing was written");
   }
-  return slam;
 }
 
-MapProducts productsOf(const Slam& slam, const Eigen::Vector2d& origin, const MergeOptions& options,
-                       const Parameters& parameters) {
+MapProducts productsOf(const Merged& merged, const Eigen::Vector2d& origin,
+                       const MergeOptions& options, const Parameters& parameters) {
   MapProducts products;
-  const SlamMemory memory = slam.memory();
-  LineMap map(parameters.mapping);
-  ScanGrid grid(memory.graph.size() > 0 ? memory.graph.pose(0).position()
-                                        : Eigen::Vector2d(Eigen::Vector2d::Zero()));
-  for (int k = 0; k < memory.graph.size(); ++k) {
-    Scan scan = memory.scans[static_cast<std::size_t>(k)].scan;
-    scan.T_map_sensor = memory.graph.pose(k);
-    map.insert(scan);
-    grid.insert(scan);
-  }
+  const SlamMemory memory = merged.slam->slam().memory();
+  const LineMap& map = merged.session->lineMap();
   products.title = std::filesystem::path(options.out).filename().string();
   products.lines = map.lines();
   products.poly_lines = map.polyLines();
   products.arcs = map.arcs();
-  products.grid = grid.grid();
+  products.grid = merged.grid.grid().grid();
   products.origin = origin;
   products.graph = memory.graph;
   products.memory = packedMemory({memory, origin});
@@ -66,7 +71,7 @@ MapProducts productsOf(const Slam& slam, const Eigen::Vector2d& origin, const Me
   products.summary["maps"] = options.maps;
   products.summary["finished"] = true;
   products.summary["key_frames"] = memory.graph.size();
-  products.summary["loops"] = slam.loops().size();
+  products.summary["loops"] = merged.slam->slam().loops().size();
   products.summary["parameters"] = parametersJson(parameters, {"mapping"});
   return products;
 }
@@ -74,14 +79,15 @@ MapProducts productsOf(const Slam& slam, const Eigen::Vector2d& origin, const Me
 void merge(const MergeOptions& options, const Parameters& parameters) {
   std::vector<StoredMemory> stored;
   for (const std::string& map : options.maps) stored.push_back(loadMemory(map));
-  const Slam slam = joined(options, stored);
+  Merged merged(parameters.mapping);
+  join(options, stored, merged);
   const FolderLock folder = prepareMapFolder(options.out, options.force);
-  const MapProducts products = productsOf(slam, stored.front().origin, options, parameters);
+  const MapProducts products = productsOf(merged, stored.front().origin, options, parameters);
   writeMapFolder(options.out, products);
   if (options.quiet) return;
   std::printf("%zu lines from %zu maps, %d key frames, %zu loops between and within them\n",
               products.lines.size(), options.maps.size(), products.graph.size(),
-              slam.loops().size());
+              merged.slam->slam().loops().size());
   std::printf("%s holds the map: map.png to look at, lines.csv and others to use\n",
               options.out.c_str());
 }

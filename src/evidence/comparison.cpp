@@ -64,7 +64,7 @@ std::vector<Trial> run(const Contender& contender, const std::vector<LabelledSca
   return trials;
 }
 
-std::optional<Estimate> summarise(const std::vector<Trial>& trials, const Figure& figure) {
+std::optional<BootstrapEstimate> summarise(const std::vector<Trial>& trials, const Figure& figure) {
   std::vector<double> values;
   for (const Trial& trial : trials) {
     if (const auto value = figure.of(trial)) values.push_back(*value);
@@ -73,8 +73,8 @@ std::optional<Estimate> summarise(const std::vector<Trial>& trials, const Figure
   return figure.is_median ? bootstrapMedian(values) : bootstrapMean(values);
 }
 
-std::optional<Estimate> f1Difference(const std::vector<Trial>& theirs,
-                                     const std::vector<Trial>& ours) {
+std::optional<BootstrapEstimate> f1Difference(const std::vector<Trial>& theirs,
+                                              const std::vector<Trial>& ours) {
   std::vector<double> differences;
   for (std::size_t k = 0; k < theirs.size(); ++k) {
     if (!theirs[k].score.f1 || !ours[k].score.f1) continue;
@@ -84,8 +84,8 @@ std::optional<Estimate> f1Difference(const std::vector<Trial>& theirs,
   return bootstrapMean(differences);
 }
 
-std::optional<Estimate> lateralDifference(const std::vector<Trial>& theirs,
-                                          const std::vector<Trial>& ours) {
+std::optional<BootstrapEstimate> lateralDifference(const std::vector<Trial>& theirs,
+                                                   const std::vector<Trial>& ours) {
   std::vector<double> differences;
   for (std::size_t k = 0; k < theirs.size(); ++k) {
     for (const EdgeMatch& a : theirs[k].score.matches) {

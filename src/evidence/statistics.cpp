@@ -18,7 +18,8 @@ double mean(std::vector<double> values) {
 }
 
 template <class Statistic>
-Estimate bootstrap(const std::vector<double>& values, std::uint64_t seed, Statistic statistic) {
+BootstrapEstimate bootstrap(const std::vector<double>& values, std::uint64_t seed,
+                            Statistic statistic) {
   if (values.empty()) return {};
   const int last = static_cast<int>(values.size()) - 1;
   Random random(seed);
@@ -44,11 +45,11 @@ double quantile(std::vector<double> values, double q) {
 
 double median(std::vector<double> values) { return quantile(std::move(values), 0.5); }
 
-Estimate bootstrapMean(const std::vector<double>& values, std::uint64_t seed) {
+BootstrapEstimate bootstrapMean(const std::vector<double>& values, std::uint64_t seed) {
   return bootstrap(values, seed, mean);
 }
 
-Estimate bootstrapMedian(const std::vector<double>& values, std::uint64_t seed) {
+BootstrapEstimate bootstrapMedian(const std::vector<double>& values, std::uint64_t seed) {
   return bootstrap(values, seed, median);
 }
 

@@ -3,11 +3,11 @@
 
 #include <optional>
 
-#include "cca_mrpt/io/icp_localizer.hpp"
+#include "cca_mrpt/io/icp_localiser.hpp"
 
 namespace cca {
 
-/// MRPT's side of IcpLocalizer, behind lateFunction().
+/// MRPT's side of IcpLocaliser, behind lateFunction().
 class IcpMatcher {
  public:
   virtual ~IcpMatcher() = default;

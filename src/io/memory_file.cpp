@@ -152,12 +152,4 @@ SlamMemory seenFrom(const Eigen::Vector2d& p_origin, StoredMemory stored) {
   return std::move(stored.memory);
 }
 
-void remember(const SlamMemory& memory, PastScans& past) {
-  for (int k = 0; k < memory.graph.size(); ++k) {
-    KeyScan key = memory.scans[static_cast<std::size_t>(k)];
-    key.scan.T_map_sensor = memory.graph.pose(k);
-    past.add(key.scan, memory.graph.pose(k) * key.T_robot_sensor.inverse(), false);
-  }
-}
-
 }  // namespace cca

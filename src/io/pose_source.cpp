@@ -1,62 +1,74 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "cca_mrpt/io/pose_source.hpp"
 
-#include <cassert>
 #include <stdexcept>
+
+#include "cca_mrpt/localisation/given_poses.hpp"
+#include "cca_mrpt/localisation/wheel_odometry.hpp"
+#include "cca_mrpt/slam/slam_localiser.hpp"
 
 namespace cca {
 namespace {
 
-Pose2 needed(const std::optional<Pose2>& pose, const char* what) {
-  if (!pose) throw std::runtime_error(std::string("the log holds no ") + what);
-  return *pose;
+void require(bool is_there, const char* what) {
+  if (!is_there) throw std::runtime_error(std::string("the log holds no ") + what);
 }
 
 }  // namespace
 
-Pose2 logPose(const LogRecord& record) {
-  return record.scan.T_map_sensor * record.T_robot_sensor.inverse();
+const char* nameOf(PoseSource source) {
+  for (const auto& [name, named] : kPoseSourceNames) {
+    if (named == source) return name;
+  }
+  return "";
 }
 
-PoseKind poseKind(const std::string& name) {
-  if (name == "log") return PoseKind::kLog;
-  if (name == "odometry") return PoseKind::kOdometry;
-  if (name == "icp") return PoseKind::kIcp;
-  if (name == "truth") return PoseKind::kTruth;
-  if (name == "slam") return PoseKind::kSlam;
-  throw std::runtime_error("pose source '" + name + "': one of log, slam, odometry, icp, truth");
+PoseSource poseSource(const std::string& name) {
+  std::string allowed;
+  for (const auto& [known, source] : kPoseSourceNames) {
+    if (name == known) return source;
+    allowed += (allowed.empty() ? "" : ", ") + std::string(known);
+  }
+  throw std::runtime_error("pose source '" + name + "': one of " + allowed);
+}
+
+std::unique_ptr<Localiser> makeLocaliser(PoseSource source, const IcpParameters& icp) {
+  switch (source) {
+    case PoseSource::kOdometry:
+      return std::make_unique<WheelOdometry>();
+    case PoseSource::kIcp:
+      return std::make_unique<IcpLocaliser>(icp);
+    case PoseSource::kSlam:
+      return std::make_unique<SlamLocaliser>();
+    default:
+      return std::make_unique<GivenPoses>();
+  }
+}
+
+Pose2 logPose(const LogRecord& record) {
+  return record.scan.T_map_sensor * record.T_robot_sensor.inverse();
 }
 
 std::optional<Pose2> referencePose(const LogRecord& record) {
   return record.truth ? record.truth : record.corrected;
 }
 
-Pose2 PoseSource::locate(const LogRecord& record) {
-  if (kind_ == PoseKind::kLog) return logPose(record);
-  assert(kind_ != PoseKind::kSlam);
-  if (kind_ == PoseKind::kTruth) return needed(record.truth, "true poses");
-  // Errors can be told only where the first pose is the reference's.
-  const Pose2 start = referencePose(record).value_or(logPose(record));
-  if (kind_ == PoseKind::kOdometry) {
-    const Pose2 T_odom_robot = needed(record.odometry, "odometry");
-    if (!T_map_odom_) T_map_odom_ = start * T_odom_robot.inverse();
-    return *T_map_odom_ * T_odom_robot;
+Measurement measurementOf(LogRecord record, PoseSource source) {
+  if (source == PoseSource::kTruth) require(record.truth.has_value(), "true poses");
+  if (source == PoseSource::kOdometry) require(record.odometry.has_value(), "odometry");
+  Measurement measurement;
+  measurement.T_robot_sensor = record.T_robot_sensor;
+  measurement.T_odom_robot = record.odometry;
+  measurement.time = record.has_time ? record.time : 0.0;
+  if (source == PoseSource::kLog) {
+    measurement.T_map_robot = logPose(record);
+  } else {
+    // Errors can be told only where the first pose is the reference's.
+    measurement.T_map_robot = referencePose(record).value_or(logPose(record));
+    record.scan.T_map_sensor = *measurement.T_map_robot * record.T_robot_sensor;
   }
-  if (!localizer_) localizer_.emplace(start, icp_);
-  unguided_ += !record.odometry;
-  return localizer_->locate(record.scan, record.T_robot_sensor, record.odometry);
-}
-
-Pose2 PoseSource::place(LogRecord& record) {
-  const Pose2 T_map_robot = locate(record);
-  if (kind_ != PoseKind::kLog) record.scan.T_map_sensor = T_map_robot * record.T_robot_sensor;
-  return T_map_robot;
-}
-
-std::string PoseSource::warnings() const {
-  if (unguided_ == 0) return "";
-  return std::to_string(unguided_) +
-         " scan(s) without odometry, which ICP looked for where the one before was";
+  measurement.scan = std::move(record.scan);
+  return measurement;
 }
 
 }  // namespace cca

@@ -69,37 +69,18 @@ const char* nameOf(ExplorationStatus status) {
   return kNames[static_cast<int>(status)];
 }
 
-Explorer::Explorer(const CcaParameters& mapping, const RobotParameters& robot,
-                   const ExplorerParameters& parameters)
+Explorer::Explorer(const RobotParameters& robot, const ExplorerParameters& parameters)
     : parameters_(parameters),
       robot_(robot),
-      mapping_(mapping),
-      line_map_(mapping),
       planner_(parameters, robot.leastClearance()),
       tangent_bug_(robot),
       progress_(robot) {}
 
-Action Explorer::step(const Observation& observation) {
-  if (observation.is_placed) map(observation.scan);
-  return navigate(observation);
-}
-
-void Explorer::map(const Scan& scan) {
-  agreement_.add(compareWithMap(scan, line_map_.walls()));
-  line_map_.insert(scan);
-}
-
-void Explorer::addBeside(const Scan& scan, const Pose2& T_map_robot) {
-  map(scan);
+void Explorer::observe(const Scan& scan, const Pose2& T_map_robot) {
   planner_.place().observe(scan, T_map_robot.position());
 }
 
-void Explorer::correctMap(const PastScans& past) {
-  line_map_ = LineMap(mapping_);
-  for (const auto& kept : past.kept()) line_map_.insert(kept.scan);
-}
-
-void Explorer::correctNavigation(const PastScans& past) {
+void Explorer::correct(const PastScans& past) {
   planner_.correct(past);
   T_drive_map_ = T_drive_map_ * past.correctionHere().inverse();
   if (T_map_start_) T_map_start_ = past.correctionAt(T_map_start_->position()) * *T_map_start_;
@@ -113,7 +94,7 @@ void Explorer::changeMotion(const RobotParameters& robot) {
   tangent_bug_.changeMotion(robot_);
 }
 
-Action Explorer::navigate(const Observation& observation) {
+Action Explorer::step(const Observation& observation) {
   Action action = decide(observation);
   outcome_.reset();
   // What others command is not known, nor what it would show of the base.
@@ -135,15 +116,15 @@ Action Explorer::decide(const Observation& observation) {
     return {{}, {}, ExplorationStatus::kExploring, "waiting for a pose that is a number"};
   }
   if (!T_map_start_) T_map_start_ = observation.T_map_robot;
-  if (observation.is_placed && !observation.hazards.empty()) {
+  if (observation.is_localised && !observation.hazards.empty()) {
     planner_.place().heed(observation.hazards);
   }
   if (is_paused_) {
-    if (observation.is_placed) planner_.place().observe(observation.scan, robot);
+    if (observation.is_localised) planner_.place().observe(observation.scan, robot);
     excuse(observation.time);
     return {{}, {}, ExplorationStatus::kPaused, "paused"};
   }
-  if (leaves_driving_ && !observation.is_placed) {
+  if (leaves_driving_ && !observation.is_localised) {
     excuse(observation.time);
     return {{}, {}, ExplorationStatus::kExploring, "waiting until the pose is known again"};
   }
@@ -154,8 +135,8 @@ Action Explorer::decide(const Observation& observation) {
 
 Action Explorer::explore(const Observation& observation) {
   heedOutcome(observation.T_map_robot.position());
-  const Plan& plan =
-      planner_.update(observation.scan, observation.T_map_robot.position(), observation.is_placed);
+  const Plan& plan = planner_.update(observation.scan, observation.T_map_robot.position(),
+                                     observation.is_localised);
   if (plan.isFinished()) {
     why_finished_ = plan.reason;
     if (parameters_.return_to_start) {
@@ -249,7 +230,7 @@ Action Explorer::lookAround(const Observation& observation) {
 Action Explorer::goHome(const Observation& observation) {
   const Eigen::Vector2d robot = observation.T_map_robot.position(),
                         start = T_map_start_->position();
-  if (observation.is_placed) planner_.place().observe(observation.scan, robot);
+  if (observation.is_localised) planner_.place().observe(observation.scan, robot);
   const std::string why = why_finished_.empty() ? "called back" : why_finished_;
   const bool is_back = leaves_driving_ && outcome_ == DriveOutcome::kReached;
   if ((robot - start).norm() < kHome || is_back)

@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kEveryDistance = 0.2, kEveryTurn = M_PI / 18.0;  // m, rad, between kept scans
 
-void keep(std::vector<PastScans::Kept>& kept, const PastScans::Kept& candidate) {
+bool keep(std::vector<PastScans::Kept>& kept, const PastScans::Kept& candidate) {
   const auto last = std::find_if(kept.rbegin(), kept.rend(), [&candidate](const auto& other) {
     return other.sensor == candidate.sensor;
   });
@@ -21,22 +21,23 @@ void keep(std::vector<PastScans::Kept>& kept, const PastScans::Kept& candidate) 
     const Pose2 &here = candidate.T_map_robot, &there = last->T_map_robot;
     if ((here.position() - there.position()).norm() < kEveryDistance &&
         std::abs(wrapAngle(here.theta - there.theta)) < kEveryTurn) {
-      return;
+      return false;
     }
   }
   kept.push_back(candidate);
+  return true;
 }
 
 }  // namespace
 
-void PastScans::add(const Scan& scan, const Pose2& T_map_robot, bool is_placed) {
+bool PastScans::add(const Scan& scan, const Pose2& T_map_robot, bool is_placed) {
   const std::size_t step = steps_++;
-  keep(is_placed ? kept_ : unplaced_, {step, scan, T_map_robot, T_map_robot, is_placed});
+  return keep(is_placed ? kept_ : unplaced_, {step, scan, T_map_robot, T_map_robot, is_placed});
 }
 
-void PastScans::addBeside(std::size_t step, const Scan& scan, const Pose2& T_map_robot,
+bool PastScans::addBeside(std::size_t step, const Scan& scan, const Pose2& T_map_robot,
                           std::size_t sensor) {
-  keep(kept_, {step, scan, T_map_robot, T_map_robot, true, sensor});
+  return keep(kept_, {step, scan, T_map_robot, T_map_robot, true, sensor});
 }
 
 void PastScans::correct(const std::vector<Pose2>& T_map_robot, const std::vector<bool>& is_placed) {

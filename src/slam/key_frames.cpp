@@ -124,10 +124,6 @@ std::optional<GraphEdge> matchEdge(const KeyFrames& frames, int from, int to,
   return edge;
 }
 
-void doInTurn(int count, const std::function<void(int)>& task) {
-  for (int k = 0; k < count; ++k) task(k);
-}
-
 namespace {
 
 /// What two frames say of each other, until they have moved.

@@ -19,12 +19,14 @@ check() {
 check geometry geometry
 check motion 'geometry|motion'
 check sensing 'geometry|sensing'
+check localisation 'geometry|sensing|localisation'
 check mapping 'geometry|sensing|mapping'
-check slam 'geometry|sensing|mapping|slam'
+check slam 'geometry|sensing|mapping|localisation|slam'
 check navigation/place 'geometry|sensing|navigation/place'
 check navigation/goals 'geometry|sensing|navigation/place|navigation/goals'
 check navigation/drive 'geometry|motion|sensing|navigation/place|navigation/drive|navigation/drive/tangent_bug'
-check navigation 'geometry|motion|sensing|mapping|navigation|navigation/[a-z_/]+'
+check navigation 'geometry|motion|sensing|navigation|navigation/[a-z_/]+'
+check session 'geometry|motion|sensing|mapping|localisation|slam|navigation|session'
 check baselines 'geometry|sensing|mapping|baselines'
 [ $failed -eq 0 ] && echo "layers: clean"
 exit $failed

@@ -18,7 +18,7 @@ TEST(Quantile, InterpolatesBetweenRanks) {
 }
 
 TEST(BootstrapMean, OfOneValueHasNoWidth) {
-  const Estimate e = bootstrapMean({3.0});
+  const BootstrapEstimate e = bootstrapMean({3.0});
   EXPECT_DOUBLE_EQ(e.low, 3.0);
   EXPECT_DOUBLE_EQ(e.high, 3.0);
 }
@@ -32,7 +32,7 @@ TEST(BootstrapMean, IntervalsHoldTheTrueMeanAsOftenAsTheyClaim) {
   for (int sample = 0; sample < 200; ++sample) {
     std::vector<double> values;
     for (int i = 0; i < 50; ++i) values.push_back(2.0 + random.normal());
-    const Estimate e = bootstrapMean(values, 7);
+    const BootstrapEstimate e = bootstrapMean(values, 7);
     held += e.low <= 2.0 && 2.0 <= e.high;
   }
   EXPECT_GE(held, 180);

@@ -50,16 +50,16 @@ std::vector<Trial> run(const Contender& contender, const std::vector<LabelledSca
 
 /// Mean (or median) and 95 % interval of a figure over the trials that have it; nothing where none
 /// has.
-std::optional<Estimate> summarise(const std::vector<Trial>& trials, const Figure& figure);
+std::optional<BootstrapEstimate> summarise(const std::vector<Trial>& trials, const Figure& figure);
 
 /// Theirs minus ours, scan by scan: what the scans have in common drops out, so that the intervals
 /// are narrower than those of the two means. Nothing where no scan has both.
-std::optional<Estimate> f1Difference(const std::vector<Trial>& theirs,
-                                     const std::vector<Trial>& ours);
+std::optional<BootstrapEstimate> f1Difference(const std::vector<Trial>& theirs,
+                                              const std::vector<Trial>& ours);
 /// Lateral error [m], theirs minus ours, on the edges that both have found: the mean error over
 /// one's own matches flatters whoever finds only the long and easy ones.
-std::optional<Estimate> lateralDifference(const std::vector<Trial>& theirs,
-                                          const std::vector<Trial>& ours);
+std::optional<BootstrapEstimate> lateralDifference(const std::vector<Trial>& theirs,
+                                                   const std::vector<Trial>& ours);
 
 /// The best of `draws` random sets of parameters for a baseline, by mean F1 over the scans; the
 /// recommended and the tuned set stand for election too.

@@ -4,7 +4,6 @@
 #include <Eigen/Core>
 #include <string>
 
-#include "cca_mrpt/sensing/past_scans.hpp"
 #include "cca_mrpt/slam/slam.hpp"
 
 namespace cca {
@@ -29,8 +28,5 @@ StoredMemory loadMemory(const std::string& path);
 
 /// What it remembers, in a frame whose origin lies at p_origin (m, map frame).
 SlamMemory seenFrom(const Eigen::Vector2d& p_origin, StoredMemory stored);
-
-/// Adds the scans of its key frames to a past that has none of its own yet.
-void remember(const SlamMemory& memory, PastScans& past);
 
 }  // namespace cca

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "cca_mrpt/io/icp_localizer.hpp"
+#include "cca_mrpt/io/icp_localiser.hpp"
 #include "cca_mrpt/mapping/parameters.hpp"
 #include "cca_mrpt/motion/robot.hpp"
 #include "cca_mrpt/navigation/explorer.hpp"

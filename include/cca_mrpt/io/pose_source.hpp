@@ -4,50 +4,43 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 
-#include "cca_mrpt/io/icp_localizer.hpp"
+#include "cca_mrpt/io/icp_localiser.hpp"
 #include "cca_mrpt/io/log_reader.hpp"
+#include "cca_mrpt/localisation/localiser.hpp"
 
 namespace cca {
 
 /// Where the poses of a map come from.
-enum class PoseKind {
+enum class PoseSource {
   kLog,       ///< corrected poses where the log has them, else its odometry
   kOdometry,  ///< the wheels alone
   kIcp,       ///< MRPT's ICP-SLAM, started from the odometry
   kTruth,     ///< of a simulation
-  kSlam,      ///< line SLAM over the whole log (cca::Slam): no PoseSource gives it scan by scan
+  kSlam,      ///< line SLAM
 };
 
-/// @throws std::runtime_error telling what is allowed: log, slam, odometry, icp, truth.
-PoseKind poseKind(const std::string& name);
+/// As people name them.
+inline constexpr std::pair<const char*, PoseSource> kPoseSourceNames[] = {
+    {"log", PoseSource::kLog},
+    {"odometry", PoseSource::kOdometry},
+    {"icp", PoseSource::kIcp},
+    {"truth", PoseSource::kTruth},
+    {"slam", PoseSource::kSlam}};
+const char* nameOf(PoseSource source);
 
-/// Gives every scan of a log its pose.
-class PoseSource {
- public:
-  /// @param kind  any but kSlam.
-  explicit PoseSource(PoseKind kind, const IcpParameters& icp = {}) : kind_(kind), icp_(icp) {}
+/// @throws std::runtime_error telling what is allowed: one of kPoseSourceNames.
+PoseSource poseSource(const std::string& name);
 
-  /// @return  T_map_robot; odometry and ICP start where the log's own poses do. Where a scan has no
-  ///          odometry, ICP takes it that the robot has stood still.
-  /// @throws std::runtime_error where the log does not hold what is asked for.
-  Pose2 locate(const LogRecord& record);
+/// The localiser of a source; for given poses, the log's or the truth, one that believes them.
+std::unique_ptr<Localiser> makeLocaliser(PoseSource source, const IcpParameters& icp = {});
 
-  /// locate(), and puts the scan there. A pose of the log's leaves the scan where the log has it,
-  /// to the bit: so does who maps the same scans as they are played.
-  /// @return  T_map_robot.
-  Pose2 place(LogRecord& record);
-
-  /// What had to be done without, for people; empty where all was well.
-  std::string warnings() const;
-
- private:
-  PoseKind kind_;
-  IcpParameters icp_;
-  std::optional<Pose2> T_map_odom_;
-  std::optional<IcpLocalizer> localizer_;
-  std::size_t unguided_ = 0;  ///< scans that ICP had no odometry for
-};
+/// What a localiser of that source is given of a log's scan: the pose that is asked for, or the one
+/// that a drive begins at and is judged by. A pose of the log's leaves the scan where the log has
+/// it, to the bit: so does who maps the same scans as they are played.
+/// @throws std::runtime_error where the log does not hold what the source needs.
+Measurement measurementOf(LogRecord record, PoseSource source);
 
 /// T_map_robot of the scan as the log has it: corrected, else its odometry.
 Pose2 logPose(const LogRecord& record);

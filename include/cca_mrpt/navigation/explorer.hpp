@@ -7,8 +7,6 @@
 #include <utility>
 #include <vector>
 
-#include "cca_mrpt/mapping/line_map.hpp"
-#include "cca_mrpt/mapping/scan_agreement.hpp"
 #include "cca_mrpt/navigation/drive/progress.hpp"
 #include "cca_mrpt/navigation/drive/tangent_bug/tangent_bug.hpp"
 #include "cca_mrpt/navigation/goals/global_planner.hpp"
@@ -25,7 +23,7 @@ struct Observation {
   double time = 0.0;  ///< s, never falling
   /// Whether T_map_robot is known. Where it is not, the robot drives on by its wheels and what it
   /// sees, and nothing is added to the map.
-  bool is_placed = true;
+  bool is_localised = true;
   /// m, map frame: what other sensors see of what the laser may see, too (other lasers). The robot
   /// does not drive into it.
   std::vector<Eigen::Vector2d> seen_elsewhere{};
@@ -80,33 +78,26 @@ void describe(ExplorerParameters& p, Field&& field) {
   field("return_to_start", p.return_to_start, "drive back to where it began when all is explored");
 }
 
-/// The one door into mapping and navigation: the simulator's loop and the ROS callback both walk
-/// through it. Scan -> line map; scan -> exploration grid -> goal -> Tangent Bug -> velocity.
+/// From what the robot knows at a moment to a velocity: scan -> exploration grid -> goal -> Tangent
+/// Bug -> velocity. It does not map: see ExplorationSession.
 ///
 /// It ends by itself: each goal has its time, a goal that is not reached in time or proves
 /// unreachable is set aside, and a place of finite size has finitely many goals.
 class Explorer {
  public:
-  Explorer(const CcaParameters& mapping, const RobotParameters& robot,
-           const ExplorerParameters& parameters);
+  Explorer(const RobotParameters& robot, const ExplorerParameters& parameters);
 
-  /// Maps and navigates: all that is to be done with an observation.
+  /// Takes what is observed, and decides.
   Action step(const Observation& observation);
-
-  /// The two halves of step(). They share nothing: a caller with two cores may run them side by
-  /// side, as long as every scan is mapped, in order, before lineMap() is looked at.
-  void map(const Scan& scan);
-  Action navigate(const Observation& observation);
 
   /// Takes a scan of another laser than the one that the robot drives by: it adds to all that is
   /// known. @param scan  at scan.T_map_sensor. @param T_map_robot  at its time.
-  void addBeside(const Scan& scan, const Pose2& T_map_robot);
+  void observe(const Scan& scan, const Pose2& T_map_robot);
 
-  /// Take a correction of the past, of which the next observation knows already: the two halves of
-  /// it, as above. The map and all that is remembered of places is made anew or moves along; the
-  /// robot drives on as it did. Cost: that of the scans.
-  void correctMap(const PastScans& past);
-  void correctNavigation(const PastScans& past);
+  /// Takes a correction of the past, of which the next observation knows already. All that is
+  /// remembered of places is made anew or moves along; the robot drives on as it did. Cost: that of
+  /// the scans.
+  void correct(const PastScans& past);
 
   /// Somebody else drives to the goals of the actions, whose velocities are zero: a navigation that
   /// knows of footprints that are no discs. Without an outcome, a goal has its time as any other.
@@ -120,7 +111,7 @@ class Explorer {
   /// What the odometry has shown is learned anew where accelerations or latency change.
   void changeMotion(const RobotParameters& robot);
 
-  /// While paused it maps, and stands still.
+  /// While paused it observes, and stands still.
   void pause(bool paused) { is_paused_ = paused; }
   /// Gives up exploring and drives back to where it began.
   void returnToStart() { is_returning_ = true; }
@@ -129,9 +120,6 @@ class Explorer {
 
   /// What the odometry has shown of how the base obeys.
   const ShownMotion& shownMotion() const { return tangent_bug_.motion().shown(); }
-  const LineMap& lineMap() const { return line_map_; }
-  /// How far the scans agree with the line map that the earlier ones made.
-  const ScanAgreement& agreement() const { return agreement_; }
   const ExplorationGrid& grid() const { return planner_.place().grid(); }
   const GlobalPlanner& planner() const { return planner_; }
   /// Whether it has finished although much is in view that no way leads to: places where the robot
@@ -151,9 +139,6 @@ class Explorer {
 
   ExplorerParameters parameters_;
   RobotParameters robot_;
-  CcaParameters mapping_;
-  LineMap line_map_;
-  ScanAgreement agreement_;
   GlobalPlanner planner_;
   /// The frame that the local planner drives in: where the map is corrected, the robot goes on
   /// smoothly in it.

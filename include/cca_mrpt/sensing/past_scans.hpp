@@ -25,12 +25,14 @@ class PastScans {
   /// Takes the next scan, and keeps it where the robot has moved 20 cm or 10 degrees since the last
   /// one that was kept.
   /// @param is_placed  whether the pose is known: otherwise it is kept until a correction tells it.
-  void add(const Scan& scan, const Pose2& T_map_robot, bool is_placed = true);
+  /// @return  whether it was kept.
+  bool add(const Scan& scan, const Pose2& T_map_robot, bool is_placed = true);
 
   /// Takes a scan of another laser (1, 2, ...) from about the time of the scan with the number
   /// `step`, with which it goes where that is corrected; kept by the same rule.
   /// @param step  not below that of any scan taken before. @param T_map_robot  at that step.
-  void addBeside(std::size_t step, const Scan& scan, const Pose2& T_map_robot, std::size_t sensor);
+  /// @return  whether it was kept.
+  bool addBeside(std::size_t step, const Scan& scan, const Pose2& T_map_robot, std::size_t sensor);
 
   /// @param T_map_robot  of all scans taken so far, in their order, as believed now.
   /// @param is_placed    of each of them, whether that is known.

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <functional>
 #include <optional>
 #include <vector>
 
+#include "cca_mrpt/localisation/localiser.hpp"
 #include "cca_mrpt/slam/pose_graph.hpp"
 #include "cca_mrpt/slam/scan_surface.hpp"
 #include "cca_mrpt/slam/surface_matching.hpp"
@@ -39,12 +39,6 @@ std::vector<int> framesInView(const KeyFrames& frames, int anchor, const Pose2& 
 /// common.
 std::optional<GraphEdge> matchEdge(const KeyFrames& frames, int from, int to,
                                    const MatchScale& scale);
-
-/// Does task(0) to task(count - 1), each once, in any order and at the same time as it likes;
-/// returns when all are done. Who has threads says how.
-using DoAll = std::function<void(int count, const std::function<void(int)>& task)>;
-/// One after another.
-void doInTurn(int count, const std::function<void(int)>& task);
 
 /// All frames and the scans between them made to agree: pairs of frames that see the same place are
 /// matched anew where they stand, and all poses solved for at once; and again, the reach shrinking

@@ -62,6 +62,9 @@ class Slam {
   explicit Slam(const Pose2& T_map_start = {}, Matcher matcher = matchSurface)
       : T_map_start_(T_map_start), matcher_(matcher) {}
 
+  /// Lets the map begin with the robot there. To be called before the first scan.
+  void startAt(const Pose2& T_map_start) { T_map_start_ = T_map_start; }
+
   /// @param scan            T_map_sensor is not used.
   /// @param T_odom_robot    in any frame that stays; nothing: the robot goes on as it went.
   SlamPose step(const Scan& scan, const Pose2& T_robot_sensor,

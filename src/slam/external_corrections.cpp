@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "cca_mrpt/slam/outer_corrections.hpp"
+#include "cca_mrpt/slam/external_corrections.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -35,41 +35,45 @@ double wayOf(const Pose2& step) { return step.position().norm() + kTurnWay * std
 
 }  // namespace
 
-bool OuterCorrections::add(const Scan& scan, const Pose2& T_map_robot, const Pose2& T_odom_robot,
-                           double time) {
-  if (last_) past_.add(*last_, steps_.back().T_map_odom * steps_.back().T_odom_robot);
-  Step now{time, 0.0, T_odom_robot, T_map_robot * T_odom_robot.inverse()};
-  bool is_corrected = false;
+Estimate ExternalCorrections::update(const Measurement& measurement, const PastScans& past) {
+  Estimate estimate;
+  estimate.is_known = measurement.T_map_robot.has_value();
+  if (estimate.is_known) {
+    estimate.T_map_robot = *measurement.T_map_robot;
+    estimate.T_map_sensor = measurement.scan.T_map_sensor;
+  }
+  const Pose2 T_map_odom_before = steps_.empty() ? Pose2{} : steps_.back().T_map_odom;
+  const Pose2 T_odom_robot =
+      measurement.T_odom_robot.value_or(T_map_odom_before.inverse() * estimate.T_map_robot);
+  Step now{measurement.time, 0.0, T_odom_robot, T_map_odom_before};
+  if (estimate.is_known) now.T_map_odom = estimate.T_map_robot * T_odom_robot.inverse();
   if (!steps_.empty()) {
     now.way = steps_.back().way + wayOf(steps_.back().T_odom_robot.inverse() * T_odom_robot);
     const bool has_leapt = hasLeapt(now);
     if (is_told_ ? is_path_new_ || has_leapt : has_leapt) {
-      if (const auto corrected = is_told_ ? afterPath(now) : afterLeap(now, scan)) {
-        place(*corrected);
-        is_corrected = true;
+      const auto corrected = is_told_ ? afterPath(now) : afterLeap(now, measurement.scan, past);
+      estimate.was_corrected = corrected.has_value();
+      for (std::size_t k = 0; corrected && k < steps_.size(); ++k) {
+        steps_[k].T_map_odom = (*corrected)[k];
       }
     }
-    if (has_leapt && (is_told_ || is_corrected)) last_leap_ = steps_.size();
+    if (has_leapt && (is_told_ || estimate.was_corrected)) last_leap_ = steps_.size();
     is_path_new_ = false;
   }
   steps_.push_back(now);
-  last_ = scan;
-  return is_corrected;
+  is_localised_.push_back(estimate.is_known);
+  return estimate;
 }
 
-void OuterCorrections::addBeside(const Scan& scan, std::size_t sensor) {
-  if (steps_.empty()) return;
-  past_.addBeside(steps_.size() - 1, scan, steps_.back().T_map_odom * steps_.back().T_odom_robot,
-                  sensor);
+std::vector<Pose2> ExternalCorrections::trajectory() const {
+  std::vector<Pose2> T_map_robot;
+  for (const Step& step : steps_) T_map_robot.push_back(step.T_map_odom * step.T_odom_robot);
+  return T_map_robot;
 }
 
-std::vector<OuterCorrections::TimedPose> OuterCorrections::way() const {
-  std::vector<TimedPose> way;
-  for (const Step& step : steps_) way.push_back({step.time, step.T_map_odom * step.T_odom_robot});
-  return way;
-}
+std::vector<bool> ExternalCorrections::isLocalised() const { return is_localised_; }
 
-void OuterCorrections::correct(std::vector<TimedPose> path) {
+void ExternalCorrections::correct(std::vector<TimedPose> path) {
   path.erase(std::remove_if(path.begin(), path.end(),
                             [](const TimedPose& pose) {
                               const Pose2& T = pose.T_map_robot;
@@ -80,7 +84,7 @@ void OuterCorrections::correct(std::vector<TimedPose> path) {
   is_told_ = is_path_new_ = true;
 }
 
-bool OuterCorrections::hasLeapt(const Step& now) const {
+bool ExternalCorrections::hasLeapt(const Step& now) const {
   const Step& before = steps_.back();
   const Pose2 expected = before.T_map_odom * now.T_odom_robot;
   const Pose2 off = expected.inverse() * (now.T_map_odom * now.T_odom_robot);
@@ -89,8 +93,8 @@ bool OuterCorrections::hasLeapt(const Step& now) const {
 }
 
 /// The leap, from nothing at the step `since` to all of it now; of what lies before, all or none.
-OuterCorrections::Odometries OuterCorrections::spread(const Step& now, std::size_t since,
-                                                      bool moves_all) const {
+ExternalCorrections::Odometries ExternalCorrections::spread(const Step& now, std::size_t since,
+                                                            bool moves_all) const {
   const Pose2 T_now_was = now.T_map_odom * steps_.back().T_map_odom.inverse();
   const double begin = steps_[since].way, length = now.way - begin;
   Odometries T_map_odom;
@@ -106,8 +110,8 @@ OuterCorrections::Odometries OuterCorrections::spread(const Step& now, std::size
 
 /// Nothing where the past is right as it is: wheels that slipped look like a localisation that was
 /// corrected, and only the scans tell the two apart.
-std::optional<OuterCorrections::Odometries> OuterCorrections::afterLeap(const Step& now,
-                                                                        const Scan& scan) const {
+std::optional<ExternalCorrections::Odometries> ExternalCorrections::afterLeap(
+    const Step& now, const Scan& scan, const PastScans& past) const {
   std::vector<Odometries> candidates{spread(now, 0, false)};
   if (last_leap_ > 0 && last_leap_ < steps_.size()) {
     candidates.push_back(spread(now, last_leap_, false));
@@ -115,10 +119,10 @@ std::optional<OuterCorrections::Odometries> OuterCorrections::afterLeap(const St
   candidates.push_back(spread(now, 0, true));
   Odometries as_it_is;
   for (const Step& step : steps_) as_it_is.push_back(step.T_map_odom);
-  int most = agreement(as_it_is, scan) + kClearlyBetter;
+  int most = agreement(as_it_is, scan, past) + kClearlyBetter;
   std::optional<Odometries> best;
   for (Odometries& candidate : candidates) {
-    const int agreed = agreement(candidate, scan);
+    const int agreed = agreement(candidate, scan, past);
     if (agreed <= most) continue;
     most = agreed;
     best = std::move(candidate);
@@ -126,7 +130,8 @@ std::optional<OuterCorrections::Odometries> OuterCorrections::afterLeap(const St
   return best;
 }
 
-std::optional<OuterCorrections::Odometries> OuterCorrections::afterPath(const Step& now) const {
+std::optional<ExternalCorrections::Odometries> ExternalCorrections::afterPath(
+    const Step& now) const {
   std::vector<std::pair<double, Pose2>> known;  // T_map_odom at a time
   for (const TimedPose& pose : path_) {
     const auto after = std::lower_bound(
@@ -161,8 +166,9 @@ std::optional<OuterCorrections::Odometries> OuterCorrections::afterPath(const St
 /// Returns of the scan just taken that lie on a wall of the line map that those kept make, less the
 /// returns of all scans from behind a wall of those before. What the scans kept confirm is no
 /// evidence: each finds again what its neighbours saw, however the whole is bent.
-int OuterCorrections::agreement(const Odometries& T_map_odom, const Scan& scan) const {
-  const auto& kept = past_.kept();
+int ExternalCorrections::agreement(const Odometries& T_map_odom, const Scan& scan,
+                                   const PastScans& past) const {
+  const auto& kept = past.kept();
   const std::size_t every = 1 + kept.size() / kMostCompared;
   LineMap map(mapping_);
   int contradicted = 0;
@@ -176,15 +182,6 @@ int OuterCorrections::agreement(const Odometries& T_map_odom, const Scan& scan) 
   }
   const ScanVerdict verdict = compareWithMap(scan, map.walls());
   return verdict.confirmed - verdict.contradicted - contradicted;
-}
-
-void OuterCorrections::place(const Odometries& T_map_odom) {
-  std::vector<Pose2> T_map_robot;
-  for (std::size_t k = 0; k < steps_.size(); ++k) {
-    steps_[k].T_map_odom = T_map_odom[k];
-    T_map_robot.push_back(T_map_odom[k] * steps_[k].T_odom_robot);
-  }
-  past_.correct(T_map_robot, std::vector<bool>(steps_.size(), true));
 }
 
 }  // namespace cca

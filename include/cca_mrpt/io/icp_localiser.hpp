@@ -4,7 +4,7 @@
 #include <memory>
 #include <optional>
 
-#include "cca_mrpt/sensing/scan.hpp"
+#include "cca_mrpt/localisation/localiser.hpp"
 
 namespace cca {
 
@@ -41,25 +41,19 @@ void describe(IcpParameters& p, Field&& field) {
 class IcpMatcher;
 
 /// Where the robot is, by MRPT's ICP-SLAM (CMetricMapBuilderICP): each scan is matched to the
-/// points of the earlier ones, starting from the odometry. Deterministic.
-class IcpLocalizer {
+/// points of the earlier ones, starting from the odometry. Where a scan has none, the robot is
+/// looked for where it was at the last one. The map begins at startOf() the first measurement.
+/// Deterministic. Cost of a scan: linear in the points of the map.
+class IcpLocaliser : public Localiser {
  public:
-  /// @param T_map_start  what the first locate() gives.
   /// @throws std::runtime_error where the library that holds MRPT's ICP cannot be loaded.
-  explicit IcpLocalizer(const Pose2& T_map_start, const IcpParameters& parameters = {});
-  ~IcpLocalizer();
-  IcpLocalizer(IcpLocalizer&&) noexcept;
-  IcpLocalizer& operator=(IcpLocalizer&&) noexcept;
+  explicit IcpLocaliser(const IcpParameters& parameters = {});
+  ~IcpLocaliser() override;
 
-  /// @param scan          T_map_sensor is not used.
-  /// @param T_odom_robot  in any frame that stays; nothing: the robot is looked for where it was at
-  ///                      the last scan, and so it is at the scan that follows.
-  /// @return              T_map_robot. Cost: linear in the points of the map.
-  Pose2 locate(const Scan& scan, const Pose2& T_robot_sensor,
-               const std::optional<Pose2>& T_odom_robot);
+  Estimate update(const Measurement& measurement, const PastScans& past) override;
 
  private:
-  Pose2 T_map_start_;
+  std::optional<Pose2> T_map_start_;
   std::unique_ptr<IcpMatcher> matcher_;
 };
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "cca_mrpt/slam/outer_corrections.hpp"
+#include "cca_mrpt/slam/external_corrections.hpp"
 
 #include <gtest/gtest.h>
 
@@ -46,29 +46,35 @@ std::vector<Pose2> onceAround() {
   return way;
 }
 
-/// A line map made of scans as they come, and anew where the past is corrected.
+/// A line map made of the scans kept, and anew where the past is corrected.
 struct Mapper {
-  OuterCorrections corrections{CcaParameters{}};
+  ExternalCorrections corrections{CcaParameters{}};
+  PastScans past;
   LineMap map{CcaParameters{}};
   double time = 0.0;
   int corrected = 0;
 
   void take(const Pose2& T_true, const Pose2& T_map_robot, const Pose2& T_odom_robot) {
-    Scan scan = kAround.scanFrom(T_true, 6.0);
-    scan.T_map_sensor = T_map_robot;
-    time += 0.1;
-    if (corrections.add(scan, T_map_robot, T_odom_robot, time)) {
+    Measurement measurement;
+    measurement.scan = kAround.scanFrom(T_true, 6.0);
+    measurement.scan.T_map_sensor = T_map_robot;
+    measurement.T_map_robot = T_map_robot;
+    measurement.T_odom_robot = T_odom_robot;
+    measurement.time = time += 0.1;
+    if (corrections.update(measurement, past).was_corrected) {
       ++corrected;
+      past.correct(corrections.trajectory(), corrections.isLocalised());
       map = LineMap(CcaParameters{});
-      for (const auto& kept : corrections.past().kept()) map.insert(kept.scan);
+      for (const auto& kept : past.kept()) map.insert(kept.scan);
     }
-    map.insert(scan);
+    past.add(measurement.scan, T_map_robot);
+    map.insert(measurement.scan);
   }
   double error(const std::vector<Pose2>& truth) const {
     double most = 0.0;
-    const auto way = corrections.way();
+    const auto way = corrections.trajectory();
     for (std::size_t k = 0; k < way.size(); ++k) {
-      most = std::max(most, (way[k].T_map_robot.position() - truth[k].position()).norm());
+      most = std::max(most, (way[k].position() - truth[k].position()).norm());
     }
     return most;
   }
@@ -83,7 +89,7 @@ double trueLength() {
   return length(mapper.map);
 }
 
-TEST(OuterCorrections, EveryWallIsThereOnceWhereALocalisationFindsThatItWasElsewhere) {
+TEST(ExternalCorrections, EveryWallIsThereOnceWhereALocalisationFindsThatItWasElsewhere) {
   const auto truth = onceAround();
   for (const Pose2& leap : {kLeap, kFarLeap}) {
     Mapper mapper;
@@ -97,7 +103,7 @@ TEST(OuterCorrections, EveryWallIsThereOnceWhereALocalisationFindsThatItWasElsew
   }
 }
 
-TEST(OuterCorrections, ALeapThatGoesBackLeavesThePastAsItWas) {
+TEST(ExternalCorrections, ALeapThatGoesBackLeavesThePastAsItWas) {
   const auto truth = onceAround();
   Mapper mapper;
   for (std::size_t k = 0; k < truth.size(); ++k) {
@@ -109,7 +115,7 @@ TEST(OuterCorrections, ALeapThatGoesBackLeavesThePastAsItWas) {
   EXPECT_NEAR(length(mapper.map), trueLength(), 1.0);
 }
 
-TEST(OuterCorrections, WheelsThatSlipLeaveThePastAsItWas) {
+TEST(ExternalCorrections, WheelsThatSlipLeaveThePastAsItWas) {
   const auto truth = onceAround();
   for (const Pose2& slip : {Pose2{0.0, 0.0, 0.06}, Pose2{0.0, 0.0, -0.3}, Pose2{0.25, 0.0, 0.0}}) {
     for (const std::size_t at : {std::size_t{3}, std::size_t{120}, truth.size() - 40}) {
@@ -144,7 +150,7 @@ struct Drifting {
   }
 };
 
-TEST(OuterCorrections, ALoopThatIsClosedTakesAllTheWayAlong) {
+TEST(ExternalCorrections, ALoopThatIsClosedTakesAllTheWayAlong) {
   const Drifting drive;
   Mapper mapper;
   double before = 0.0;
@@ -156,13 +162,13 @@ TEST(OuterCorrections, ALoopThatIsClosedTakesAllTheWayAlong) {
   EXPECT_LT(mapper.error(drive.truth), 0.5 * before) << before;
 }
 
-TEST(OuterCorrections, PosesThatAreToldAsCorrectedAreTaken) {
+TEST(ExternalCorrections, PosesThatAreToldAsCorrectedAreTaken) {
   const Drifting drive;
   for (const int late : {0, 5, -5}) {  // scans, the path after the leap
     Mapper mapper;
     for (std::size_t k = 0; k < drive.truth.size(); ++k) {
       if (static_cast<int>(k) == static_cast<int>(drive.back) + late) {
-        std::vector<OuterCorrections::TimedPose> path{{-3.0, {}}};  // of no scan
+        std::vector<ExternalCorrections::TimedPose> path{{-3.0, {}}};  // of no scan
         for (std::size_t j = 0; j < k; j += 4) path.push_back({0.1 * (j + 1), drive.truth[j]});
         mapper.corrections.correct(path);
       }
@@ -173,7 +179,7 @@ TEST(OuterCorrections, PosesThatAreToldAsCorrectedAreTaken) {
   }
 }
 
-TEST(OuterCorrections, PathsThatMakeNoSenseChangeNothing) {
+TEST(ExternalCorrections, PathsThatMakeNoSenseChangeNothing) {
   const auto truth = onceAround();
   Mapper mapper;
   for (const Pose2& T : truth) {

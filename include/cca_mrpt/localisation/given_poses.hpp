@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "cca_mrpt/localisation/localiser.hpp"
+
+namespace cca {
+
+/// Believes the pose that each measurement brings, to the bit: its T_map_robot, and the
+/// T_map_sensor of its scan. The robot is lost where there is none.
+class GivenPoses : public Localiser {
+ public:
+  Estimate update(const Measurement& measurement, const PastScans& past) override;
+};
+
+}  // namespace cca

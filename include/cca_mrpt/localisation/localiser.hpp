@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Core>
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include "cca_mrpt/sensing/past_scans.hpp"
+#include "cca_mrpt/sensing/scan.hpp"
+
+namespace cca {
+
+/// Does task(0) to task(count - 1), each once, in any order and at the same time as it likes;
+/// returns when all are done. Who has threads says how.
+using DoAll = std::function<void(int count, const std::function<void(int)>& task)>;
+/// One after another.
+void doInTurn(int count, const std::function<void(int)>& task);
+
+/// One scan of the laser that the robot is localised by, and what is known of where it was taken.
+struct Measurement {
+  /// Its T_map_sensor is where T_map_robot puts the laser, and has no meaning without that pose.
+  Scan scan;
+  Pose2 T_robot_sensor;
+  std::optional<Pose2> T_odom_robot{};  ///< from the wheels, in any frame that stays
+  std::optional<Pose2> T_map_robot{};   ///< where somebody else knows it
+  double time = 0.0;                    ///< s, never falling; 0 where nobody tells
+};
+
+/// Where a localiser believes that a scan was taken.
+struct Estimate {
+  Pose2 T_map_robot;
+  Pose2 T_map_sensor;
+  Eigen::Matrix3d covariance =
+      Eigen::Matrix3d::Zero();  ///< (x, y) map axes, theta; zero where the localiser has none
+  double agreement = 1.0;       ///< of the scan with what was seen before, [0, 1]
+  bool is_known = true;         ///< false: the robot is lost; the pose is a guess
+  bool was_corrected = false;   ///< the poses of the past have changed with this scan
+};
+
+/// Tells where the robot is, scan by scan. One interface for given poses, odometry, SLAM and the
+/// localisation in a known map. Deterministic.
+class Localiser {
+ public:
+  virtual ~Localiser() = default;
+
+  /// @param measurement  the next scan.
+  /// @param past         the scans kept so far, without this one, at the poses believed now.
+  virtual Estimate update(const Measurement& measurement, const PastScans& past) = 0;
+
+  /// Whether the poses of the past may be corrected: then trajectory() and isLocalised() tell how.
+  virtual bool correctsPast() const { return false; }
+  /// A last pass over the whole drive, for those who correct the past.
+  /// @param do_all  shares out what can be done at once.
+  virtual void finish(const DoAll& /*do_all*/) {}
+  /// T_map_robot of each scan so far as believed now, those of earlier drives first.
+  virtual std::vector<Pose2> trajectory() const { return {}; }
+  /// Of each of these, whether its pose in the map is known.
+  virtual std::vector<bool> isLocalised() const { return {}; }
+  /// How many scans are of earlier drives: the first ones.
+  virtual std::size_t remembered() const { return 0; }
+};
+
+}  // namespace cca

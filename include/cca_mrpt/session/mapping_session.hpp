@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <vector>
+
+#include "cca_mrpt/localisation/localiser.hpp"
+#include "cca_mrpt/mapping/line_map.hpp"
+#include "cca_mrpt/mapping/scan_agreement.hpp"
+#include "cca_mrpt/sensing/past_scans.hpp"
+
+namespace cca {
+
+/// A scan as it has gone into the map.
+struct MappedScan {
+  std::size_t number;  ///< among the scans of its drive, as they came, from 0
+  std::size_t sensor;  ///< which laser; 0 is the one that the robot is localised by
+  bool is_of_earlier_drive;
+  Pose2 T_map_robot;
+  const Scan& scan;  ///< at its T_map_sensor
+};
+
+/// Keeps what else is made of the scans of a map: a grid, a picture, a replay.
+class MapRecorder {
+ public:
+  virtual ~MapRecorder() = default;
+  /// The map begins anew: all that was recorded of it is void.
+  virtual void restart() = 0;
+  /// A scan has gone into the map.
+  virtual void record(const MappedScan& mapped, const LineMap& map) = 0;
+};
+
+/// Does a piece of work, now or later, but each after those that were given before.
+using Executor = std::function<void(std::function<void()> work)>;
+void doNow(std::function<void()> work);
+
+/// The one pipeline from scans to a line map, whoever brings the scans: a scan is localised, kept,
+/// and mapped; where the past is corrected, the map is made anew of the scans kept.
+///
+/// Which scans make the map: where the localiser corrects the past, those that PastScans keeps, one
+/// every 20 cm or 10 degrees, so that a map can be made anew in time, and so that it depends on
+/// the poses alone, not on when they became known. Where poses are final, every scan.
+class MappingSession {
+ public:
+  struct Settings {
+    CcaParameters mapping;
+    /// Whether nobody looks at the map before finish(). It is the same map then, and is made once.
+    bool maps_at_the_end = false;
+  };
+
+  /// @param recorder  may be null; must outlive the session.
+  /// @param executor  does the mapping. Who hands over one that does it later waits for all of it
+  ///                  before looking at lineMap(), agreement() or the recorder.
+  MappingSession(std::unique_ptr<Localiser> localiser, const Settings& settings,
+                 MapRecorder* recorder = nullptr, Executor executor = doNow);
+
+  /// Takes the next scan. Cost: does not depend on the size of the map, but where the past is
+  /// corrected: that of all scans kept.
+  Estimate add(const Measurement& measurement);
+
+  /// Takes a scan of another laser, of about the time of the last scan. It is at its T_map_robot
+  /// where that is told, else where odometry and the last estimate put it.
+  /// @param sensor  1, 2, ...
+  /// @return  its pose; is_known is false where neither tells it: then it is not mapped.
+  Estimate addSecondary(const Measurement& measurement, std::size_t sensor);
+
+  /// Takes a scan that an earlier drive has left, before the first scan of this one. Its pose is
+  /// unknown until a correction tells it. @param T_map_robot, T_map_sensor  in the frame of that
+  /// drive.
+  void remember(Scan scan, const Pose2& T_map_robot, const Pose2& T_map_sensor);
+
+  /// The last pass of the localiser, and the map of what it says.
+  /// @param do_all  see Localiser::finish().
+  void finish(const DoAll& do_all = doInTurn);
+  /// The map of the poses as they are believed now, without a last pass.
+  void mapAsItIs();
+
+  Localiser& localiser() { return *localiser_; }
+  const Localiser& localiser() const { return *localiser_; }
+  const LineMap& lineMap() const { return line_map_; }
+  /// How far the scans of the map agree with the map that the earlier ones made.
+  const ScanAgreement& agreement() const { return agreement_; }
+  /// The scans kept, where the localiser corrects the past; else none.
+  const PastScans& past() const { return past_; }
+  /// T_map_robot of each scan of this drive, as believed now, and its time [s].
+  const std::vector<Pose2>& trajectory() const { return trajectory_; }
+  const std::vector<double>& times() const { return times_; }
+  /// Of each scan of this drive, whether its pose is known.
+  const std::vector<bool>& isLocalised() const { return is_localised_; }
+
+ private:
+  void takeCorrection();
+  void rebuild();
+  void insert(Scan scan, const Pose2& T_map_robot, std::size_t sensor);
+  void insertNow(const MappedScan& mapped);
+
+  std::unique_ptr<Localiser> localiser_;
+  Settings settings_;
+  MapRecorder* recorder_;
+  Executor execute_;
+  PastScans past_;
+  Estimate last_;
+  std::optional<Pose2> T_map_odom_;  ///< of the last scan
+  std::vector<Pose2> trajectory_;
+  std::vector<double> times_;
+  std::vector<bool> is_localised_;
+  // Changed by the executor alone.
+  LineMap line_map_;
+  ScanAgreement agreement_;
+};
+
+}  // namespace cca

@@ -1,0 +1,182 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "exploration_run.hpp"
+
+#include <algorithm>
+#include <cstdio>
+#include <utility>
+
+#include "cca_mrpt/io/pose_source.hpp"
+#include "cca_mrpt/session/earlier_drive.hpp"
+#include "contradiction.hpp"
+#include "moved.hpp"
+#include "on_all_cores.hpp"
+#include "replay_moment.hpp"
+#include "tour_left.hpp"
+
+namespace cca::apps {
+namespace {
+
+/// m of way; a robot that has not found its place for so long is not exploring any more.
+constexpr double kLongestLost = 30.0;
+
+double microsecondsSince(std::chrono::steady_clock::time_point start) {
+  return std::chrono::duration<double, std::micro>(std::chrono::steady_clock::now() - start)
+      .count();
+}
+
+ExplorationSession::Settings settingsOf(const Parameters& parameters) {
+  return {parameters.mapping, parameters.robot, parameters.exploration};
+}
+
+/// What the robot is told: its pose is the true one, for a localiser that is to believe it.
+Measurement measurementOf(const Observation& seen, const Pose2& T_odom_robot) {
+  Measurement measurement;
+  measurement.scan = seen.scan;
+  measurement.T_robot_sensor = seen.T_map_robot.inverse() * seen.scan.T_map_sensor;
+  measurement.T_odom_robot = T_odom_robot;
+  measurement.T_map_robot = seen.T_map_robot;
+  measurement.time = seen.time;
+  return measurement;
+}
+
+/// How far the robot still has to go, as far as it knows: to each frontier.
+double metresLeft(const Simulation& simulation, const Explorer& explorer) {
+  std::vector<Eigen::Vector2d> frontier;
+  for (const Cell& cell : explorer.planner().place().frontierCells().cells()) {
+    frontier.push_back(explorer.grid().centreOf(cell));
+  }
+  return tourLeft(simulation.T_map_robot().position(), frontier);
+}
+
+}  // namespace
+
+std::string seenText(const std::optional<double>& seen) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.1f %% seen, ", 100.0 * seen.value_or(0.0));
+  return seen ? text : "";
+}
+
+ExplorationRun::ExplorationRun(Simulation& simulation, const Eigen::Vector2d& origin,
+                               const Parameters& parameters, const std::string& folder)
+    : simulation_(simulation),
+      parameters_(parameters),
+      record_(simulation, origin, parameters, folder),
+      session_(makeLocaliser(poseSource(parameters.run.pose), parameters.icp),
+               settingsOf(parameters), &record_,
+               [this](std::function<void()> work) { mapBeside(std::move(work)); }) {
+  slam_ = dynamic_cast<SlamLocaliser*>(&session_.mapping().localiser());
+}
+
+void ExplorationRun::remember(const SlamMemory& memory) {
+  rememberDrive(memory, *slam_, session_.mapping());
+}
+
+void ExplorationRun::mapBeside(std::function<void()> work) {
+  background_.add([this, work = std::move(work)] {
+    const Clock::time_point start = Clock::now();
+    work();
+    record_.addMappingTime(microsecondsSince(start));
+  });
+}
+
+Action ExplorationRun::step() {
+  const Observation seen = simulation_.observe();
+  const Clock::time_point start = Clock::now();
+  observation_ = session_.sense(measurementOf(seen, simulation_.T_odom_robot()), seen.velocity);
+  const Action action = session_.decide(observation_);
+  ExplorationRecord::Cycle cycle{
+      simulation_.time(),         simulation_.distance(), simulation_.T_map_robot(),
+      simulation_.T_odom_robot(), observation_,           action.goal,
+      microsecondsSince(start)};
+  std::optional<ReplayMoment> moment;
+  if (keepIfMoved(last_moment_, observation_.T_map_robot) ||
+      action.status == ExplorationStatus::kFinished) {
+    moment = momentOf(simulation_, session_.explorer(), observation_, action);
+  }
+  background_.add([this, cycle = std::move(cycle), moment = std::move(moment)] {
+    record_.add(cycle);
+    if (!moment) return;
+    record_.replay().add(*moment, cycle.believed.scan, session_.mapping().lineMap());
+  });
+  if (observation_.is_localised) localised_at_ = simulation_.distance();
+  return action;
+}
+
+bool ExplorationRun::hasEnded(const Action& action) {
+  if (simulation_.distance() - localised_at_ > kLongestLost) {
+    end_.reason = "the robot has not known its place for " +
+                  std::to_string(static_cast<int>(kLongestLost)) + " m";
+    return true;
+  }
+  if (action.status != ExplorationStatus::kFinished) return false;
+  const Plan& plan = session_.explorer().planner().plan();
+  end_ = {true, action.reason, 0.0, plan.unreached, session_.explorer().leavesMuch(), plan.gave_up};
+  return true;
+}
+
+void ExplorationRun::drive(const Interruption& interruption, Progress* progress,
+                           ExplorationWindow* window) {
+  end_.reason = "the longest simulated time is over";
+  while (simulation_.time() < parameters_.run.longest_time) {
+    if (interruption.requested()) {
+      end_.reason = "interrupted";
+      break;
+    }
+    const Action action = step();
+    if (hasEnded(action)) break;
+    simulation_.drive(action.velocity, parameters_.run.control_period);
+    show(action, progress, window);
+  }
+  background_.wait();
+}
+
+void ExplorationRun::show(const Action& action, Progress* progress, ExplorationWindow* window) {
+  if (window && window->isDue()) {
+    background_.wait();
+    window->show(record_.products(simulation_, session_), simulation_, observation_, action);
+  }
+  if (!progress || !progress->isDue()) return;
+  background_.wait();
+  const double left = metresLeft(simulation_, session_.explorer()), driven = simulation_.distance();
+  progress->show(driven + left > 0.0 ? driven / (driven + left) : 0.0, progressText(action, left));
+}
+
+std::string ExplorationRun::progressText(const Action& action, double metres_left) {
+  char text[160], goal[40] = "none";
+  if (action.goal) {
+    const Eigen::Vector2d p_map = record_.origin() + *action.goal;
+    std::snprintf(goal, sizeof goal, "%.1f, %.1f", p_map.x(), p_map.y());
+  }
+  const double seconds = std::max(1e-6 * microsecondsSince(begin_), 1e-3);
+  std::snprintf(text, sizeof text,
+                "%s%.0f m driven, %.0f m to go, %.0f s simulated, goal %s, %.0f scans/s",
+                seenText(record_.coverage().sofar()).c_str(), simulation_.distance(), metres_left,
+                simulation_.time(), goal, static_cast<double>(record_.scans()) / seconds);
+  return text;
+}
+
+void ExplorationRun::finish() {
+  session_.finish(doOnAllCores);
+  background_.wait();
+}
+
+std::string ExplorationRun::shortcomings() const {
+  std::string text;
+  char part[80];
+  const auto tell = [&text](const std::string& what) {
+    text += (text.empty() || what.empty() ? "" : ", ") + what;
+  };
+  if (simulation_.collisions() > 0) {
+    std::snprintf(part, sizeof part, "%d contacts with what stands", simulation_.collisions());
+    tell(part);
+  }
+  if (end_.gave_up) tell(end_.reason);
+  if (end_.leaves_much) {
+    std::snprintf(part, sizeof part, "%.1f m^2 in view that no way was found to", end_.unreached);
+    tell(part);
+  }
+  tell(contradiction(session_.mapping().agreement()));
+  return text;
+}
+
+}  // namespace cca::apps

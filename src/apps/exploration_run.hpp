@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <chrono>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "background_work.hpp"
+#include "cca_mrpt/io/memory_file.hpp"
+#include "cca_mrpt/io/parameters.hpp"
+#include "cca_mrpt/session/exploration_session.hpp"
+#include "cca_mrpt/simulation/simulation.hpp"
+#include "cca_mrpt/slam/slam_localiser.hpp"
+#include "exploration_record.hpp"
+#include "exploration_window.hpp"
+#include "interruption.hpp"
+#include "progress.hpp"
+
+namespace cca::apps {
+
+/// "91.3 % seen, ", or nothing where it is not known.
+std::string seenText(const std::optional<double>& seen);
+
+/// A simulated exploration: the robot of a simulation, driven by an exploration session, and all
+/// that is recorded of it. Mapping and recording go on beside the drive, on another core; the
+/// result does not depend on which is faster.
+class ExplorationRun {
+ public:
+  /// @param origin  m, map frame: where the simulation's frame lies.
+  /// @param folder  for the files of the run.
+  ExplorationRun(Simulation& simulation, const Eigen::Vector2d& origin,
+                 const Parameters& parameters, const std::string& folder);
+
+  /// Goes on with an earlier map, from anywhere in it; to be called first, with line SLAM only.
+  void remember(const SlamMemory& memory);
+
+  /// Explores until nothing is left, the time is over, the robot is lost, or the user interrupts.
+  /// @param progress, window  may be null.
+  void drive(const Interruption& interruption, Progress* progress, ExplorationWindow* window);
+
+  /// The last pass over poses and map.
+  void finish();
+
+  /// Whether the earlier map was found, or there is none.
+  bool isInMemory() const { return !slam_ || slam_->slam().isInMemory(); }
+  /// What a run that ended by itself has not done well; empty where there is nothing.
+  std::string shortcomings() const;
+
+  ExplorationRecord& record() { return record_; }
+  ExplorationRecord::End& end() { return end_; }
+  const ExplorationSession& session() const { return session_; }
+  const SlamLocaliser* slam() const { return slam_; }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  Action step();
+  void mapBeside(std::function<void()> work);
+  bool hasEnded(const Action& action);
+  void show(const Action& action, Progress* progress, ExplorationWindow* window);
+  std::string progressText(const Action& action, double metres_left);
+
+  Simulation& simulation_;
+  Parameters parameters_;
+  ExplorationRecord record_;
+  SlamLocaliser* slam_ = nullptr;  ///< the session's, where the poses are line SLAM's
+  ExplorationSession session_;
+  Observation observation_;           ///< the last one, as believed
+  std::optional<Pose2> last_moment_;  ///< of the replay
+  double localised_at_ = 0.0;         ///< m of way: where the robot last knew its pose
+  ExplorationRecord::End end_;
+  Clock::time_point begin_ = Clock::now();
+  BackgroundWork background_;  // last: what it still does needs all the rest
+};
+
+}  // namespace cca::apps
