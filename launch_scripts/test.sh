@@ -37,7 +37,7 @@ configure_and_build() {  # DIR TARGETS OPTIONS...
   mkdir -p "$dir"
   # Make waits for all of a library before it compiles what links it; Ninja does not.
   [ -e "$dir/CMakeCache.txt" ] || set -- -G Ninja "$@"
-  cmake -S . -B "$dir" -DCCA_WARNINGS_AS_ERRORS=$werror "$@" \
+  cmake -S . -B "$dir" -DCCA_BUILD_TESTS=ON -DCCA_WARNINGS_AS_ERRORS=$werror "$@" \
     >"$dir/configure.log" 2>&1 || { cat "$dir/configure.log"; return 1; }
   cmake --build "$dir" -j"$jobs" --target $targets 2>&1 |
     grep -vE '^\[[ 0-9/%]+\] (Built|Linking|Generating)|^Scanning'

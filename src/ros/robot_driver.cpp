@@ -12,8 +12,11 @@
 namespace cca {
 namespace {
 
-constexpr double kWatchPeriod = 0.05;    // s
-constexpr double kOldestScan = 0.5;      // s; the world has moved on since
+constexpr double kWatchPeriod = 0.05;  // s
+// s, of a scan of one instant; the world has moved on since.
+constexpr double kOldestScan = 0.5;
+// s, of the odometry that is kept: no scan that is driven by is older.
+constexpr double kKept = kOldestScan + ScanPeriod::kLongest;
 constexpr double kOldestOdometry = 0.3;  // s
 constexpr double kWorthTelling = 0.05;   // s, that commands act later than told
 // m, around the robot, of what other lasers see: it stands long before, from any speed.
@@ -126,7 +129,7 @@ void RobotDriver::publishMapToOdom(ros::NodeHandle& node) {
 void RobotDriver::take(const nav_msgs::Odometry& odometry) {
   const auto isTooOld = [&](const nav_msgs::Odometry& other) {
     const double age = (odometry.header.stamp - other.header.stamp).toSec();
-    return age < 0.0 || age > kOldestScan;  // the clock was set back, or so it is
+    return age < 0.0 || age > kKept;  // the clock was set back, or so it is
   };
   while (!lately_.empty() && isTooOld(lately_.front())) lately_.pop_front();
   lately_.push_back(odometry);
@@ -157,6 +160,7 @@ void RobotDriver::checkLatency() {
 }
 
 void RobotDriver::use(PlacedScan placed) {
+  tellSlowLaser(placed.topic);
   if (placed.topic != 0) return useBeside(std::move(placed));
   const ros::WallTime begin = ros::WallTime::now();
   const Pose2 T_fixed_robot = placed.T_fixed_robot;
@@ -220,12 +224,11 @@ void RobotDriver::explore(const PlacedScan& placed, const Pose2& T_map_fixed) {
   } else {
     stand();
   }
-  // The clock of the laser's computer may be ahead of ours: that is no clock set back.
-  last_used_[0] = std::min(placed.stamp, ros::Time::now());
+  last_used_[0] = placed.arrival;
 }
 
 void RobotDriver::useBeside(PlacedScan placed) {
-  last_used_[placed.topic] = std::min(placed.stamp, ros::Time::now());
+  last_used_[placed.topic] = placed.arrival;
   beside_[placed.topic] = {returnsAround(placed.scan, placed.T_fixed_robot.position()),
                            placed.stamp};
   if (outer_) outer_->take(placed);
@@ -237,18 +240,34 @@ void RobotDriver::useBeside(PlacedScan placed) {
 std::vector<Eigen::Vector2d> RobotDriver::seenElsewhere(const ros::Time& stamp,
                                                         const Pose2& T_map_fixed) const {
   std::vector<Eigen::Vector2d> points_map;
-  for (const Beside& beside : beside_) {
-    if (std::abs((stamp - beside.stamp).toSec()) > settings_.scan_timeout) continue;
+  for (std::size_t topic = 0; topic < beside_.size(); ++topic) {
+    const Beside& beside = beside_[topic];
+    if (std::abs((stamp - beside.stamp).toSec()) > longestSilence(topic)) continue;
     for (const Eigen::Vector2d& p : beside.points) points_map.push_back(T_map_fixed * p);
   }
   return points_map;
+}
+
+double RobotDriver::longestSilence(std::size_t topic) const {
+  return scans_.period(topic).longestSilence(settings_.scan_timeout);
+}
+
+void RobotDriver::tellSlowLaser(std::size_t topic) {
+  const double limit = longestSilence(topic);
+  if (has_told_rate_ || limit <= settings_.scan_timeout) return;
+  has_told_rate_ = true;
+  ROS_WARN(
+      "'%s' comes %.1f times a second: the robot is stopped %.2f s after the last one, not "
+      "%.2f s (scan_timeout)",
+      settings_.scans[topic].c_str(), 1.0 / scans_.period(topic).seconds(), limit,
+      settings_.scan_timeout);
 }
 
 std::optional<std::size_t> RobotDriver::silentLaser(std::size_t first) const {
   const ros::Time now = ros::Time::now();
   for (std::size_t topic = first; topic < last_used_.size(); ++topic) {
     const double age = (now - last_used_[topic]).toSec();
-    if (age < 0.0 || age > settings_.scan_timeout) return topic;
+    if (age < 0.0 || age > longestSilence(topic)) return topic;
   }
   return std::nullopt;
 }

@@ -23,9 +23,10 @@
 namespace cca {
 
 /// Explores with a robot that is out there: `scan`, tf and, where there is one, `odom` in,
-/// `cmd_vel` out. It never drives blind: where no usable scan has come for `scan_timeout`, or
-/// nobody listens to cmd_vel, the command is zero, and the exploration goes on when they are back.
-/// Where move_base drives, its goal is cancelled instead, and cmd_vel is not touched.
+/// `cmd_vel` out. It never drives blind: where no usable scan has come for `scan_timeout`
+/// (for a slow laser see ScanPeriod::longestSilence()), or nobody listens to cmd_vel, the command
+/// is zero, and the exploration goes on when they are back. Where move_base drives, its goal is
+/// cancelled instead, and cmd_vel is not touched.
 ///
 /// Where there are several lasers, it drives by the first one: each of its scans is a step. Those
 /// of the others are mapped as they come, and what the last of each shows is no way to drive.
@@ -61,6 +62,10 @@ class RobotDriver {
   void explore(const PlacedScan& placed, const Pose2& T_map_fixed);
   std::vector<Eigen::Vector2d> seenElsewhere(const ros::Time& stamp,
                                              const Pose2& T_map_fixed) const;
+  /// s, without a usable scan of that laser until the robot is stopped.
+  double longestSilence(std::size_t topic) const;
+  /// Once, where that is longer than scan_timeout.
+  void tellSlowLaser(std::size_t topic);
   /// The laser that has not been heard of for too long, if any; of those from `first` on.
   std::optional<std::size_t> silentLaser(std::size_t first) const;
   void waitForLaser(std::size_t topic);
@@ -82,8 +87,8 @@ class RobotDriver {
   ros::Subscriber odometry_;
   std::deque<nav_msgs::Odometry> lately_;  ///< odometry
   Velocity command_;
-  bool has_told_latency_ = false;
-  std::vector<ros::Time> last_used_;  ///< scan of each laser
+  bool has_told_latency_ = false, has_told_rate_ = false;
+  std::vector<ros::Time> last_used_;  ///< scan of each laser: when it came
   /// What the last scan of a laser but the first shows around the robot; m, fixed frame.
   struct Beside {
     std::vector<Eigen::Vector2d> points;

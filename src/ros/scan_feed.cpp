@@ -23,12 +23,13 @@ constexpr std::size_t kMostWaiting = 5000, kMostWaitingToDrive = 50;
 ScanFeed::ScanFeed(ros::NodeHandle& node, Settings settings, Sink sink)
     : settings_(std::move(settings)),
       sink_(std::move(sink)),
+      periods_(settings_.topics.size()),
       transforms_(node, [this] { serve(); }) {
   for (std::size_t topic = 0; topic < settings_.topics.size(); ++topic) {
-    scans_.push_back(node.subscribe<sensor_msgs::LaserScan>(
-        settings_.topics[topic], kQueue,
-        [this, topic](const sensor_msgs::LaserScan::ConstPtr& m) { receive(*m, topic); },
-        ros::VoidConstPtr(), ros::TransportHints().tcpNoDelay()));
+    const auto take = [this, topic](const Event& event) { receive(event, topic); };
+    scans_.push_back(node.subscribe<sensor_msgs::LaserScan, const Event&>(
+        settings_.topics[topic], kQueue, take, ros::VoidConstPtr(),
+        ros::TransportHints().tcpNoDelay()));
   }
 }
 
@@ -59,11 +60,17 @@ std::string ScanFeed::whyUnfit(const Waiting& w) const {
   return "";
 }
 
-void ScanFeed::receive(const sensor_msgs::LaserScan& message, std::size_t topic) {
+void ScanFeed::receive(const Event& event, std::size_t topic) {
   startAnewIfClockWasSetBack();
+  const sensor_msgs::LaserScan& message = *event.getConstMessage();
   try {
-    Waiting waiting{scanFromMessage(message), message.header.stamp, sweepMiddle(message),
-                    frameName(message.header.frame_id), topic};
+    Waiting waiting{scanFromMessage(message),
+                    message.header.stamp,
+                    sweepMiddle(message),
+                    event.getReceiptTime(),
+                    frameName(message.header.frame_id),
+                    topic};
+    periods_[topic].add(message.header.stamp);
     if (drives()) {
       const std::string why = whyUnfit(waiting);
       if (!why.empty()) return drop(why);
@@ -128,10 +135,9 @@ void ScanFeed::serve() {
 }
 
 void ScanFeed::use(const Waiting& waiting) {
-  if (drives() && (ros::Time::now() - waiting.stamp).toSec() > settings_.oldest) {
-    return drop("too old");
-  }
-  PlacedScan placed{waiting.scan, {}, waiting.stamp, waiting.frame, waiting.topic};
+  const double oldest = periods_[waiting.topic].oldest(settings_.oldest);
+  if (drives() && (ros::Time::now() - waiting.stamp).toSec() > oldest) return drop("too old");
+  PlacedScan placed{waiting.scan, {}, waiting.stamp, waiting.arrival, waiting.frame, waiting.topic};
   const Transforms& tf = transforms_.transforms();
   const std::string& robot = settings_.robot_frame;
   try {

@@ -14,6 +14,7 @@
 #include "cca_mrpt/ros/pose_gate.hpp"
 #include "cca_mrpt/sensing/missing_returns.hpp"
 #include "cca_mrpt/sensing/scan.hpp"
+#include "scan_period.hpp"
 #include "transform_feed.hpp"
 
 namespace cca {
@@ -23,6 +24,7 @@ struct PlacedScan {
   Scan scan;  ///< T_map_sensor is in the fixed frame
   Pose2 T_fixed_robot;
   ros::Time stamp;                      ///< of the message, its first beam
+  ros::Time arrival;                    ///< of the message here
   std::string frame;                    ///< of the message: which laser
   std::size_t topic;                    ///< which of the topics it came by
   std::optional<Pose2> T_odom_robot{};  ///< where that is asked for and known
@@ -34,16 +36,16 @@ struct PlacedScan {
 /// For mapping, that is a message that no laser can have meant, and a scan that tf knows no pose
 /// for: the same as in `cca-mrpt map BAG`. Who drives can use no blind scan either (hardly a valid
 /// beam, or none that returned), none that is not newer than the last of its laser, is too old to
-/// drive by or from the future, and none after which the pose leapt. Lives in the thread that
-/// spins.
+/// drive by (see ScanPeriod::oldest()) or from the future, and none after which the pose leapt.
+/// Lives in the thread that spins.
 class ScanFeed {
  public:
   struct Settings {
     std::vector<std::string> topics{"scan"};
     std::string fixed_frame = "map";
     std::string robot_frame =
-        {};                       ///< empty: not asked for; T_fixed_robot is the sensor's pose then
-    double oldest = 0.0;          ///< s, of a scan that may be driven by; 0: for mapping only
+        {};               ///< empty: not asked for; T_fixed_robot is the sensor's pose then
+    double oldest = 0.0;  ///< s, of a scan of one instant that may be driven by; 0: mapping only
     std::string odom_frame = {};  ///< empty: not asked for
   };
   using Sink = std::function<void(const PlacedScan&)>;
@@ -51,6 +53,8 @@ class ScanFeed {
   ScanFeed(ros::NodeHandle& node, Settings settings, Sink sink);
 
   const Transforms& transforms() const { return transforms_.transforms(); }
+  /// Of the laser of that topic.
+  const ScanPeriod& period(std::size_t topic) const { return periods_[topic]; }
   const std::map<std::string, long>& dropped() const { return dropped_; }
   /// Why the last scan was dropped or still waits, as ": reason"; empty where it was used.
   const std::string& lastTrouble() const { return last_trouble_; }
@@ -58,13 +62,15 @@ class ScanFeed {
  private:
   struct Waiting {
     Scan scan;
-    ros::Time stamp, middle;
+    ros::Time stamp, middle, arrival;
     std::string frame;
     std::size_t topic;
   };
   enum class Pose { kKnown, kExpected, kNever };
 
-  void receive(const sensor_msgs::LaserScan& message, std::size_t topic);
+  using Event = ros::MessageEvent<const sensor_msgs::LaserScan>;
+
+  void receive(const Event& event, std::size_t topic);
   void serve();
   void use(const Waiting& waiting);
   bool drives() const { return settings_.oldest > 0.0; }
@@ -82,6 +88,7 @@ class ScanFeed {
   PoseGate gate_;
   std::map<std::string, MissingReturns> missing_returns_;  ///< of each laser, by its frame
   std::map<std::string, ros::Time> last_stamps_;           ///< the same
+  std::vector<ScanPeriod> periods_;                        ///< by topic
   ros::Time last_now_;
   std::string last_trouble_;
   std::map<std::string, long> dropped_;

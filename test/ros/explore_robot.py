@@ -27,7 +27,7 @@ class ExploreRobot(unittest.TestCase):
         cls.commands = Watch("cmd_vel", Twist)
         cls.tf = Watch("/tf", TFMessage)
         cls.tf_static = Watch("/tf_static", TFMessage)
-        cls.log = Watch("/rosout_agg", Log)
+        cls.log = Watch("/rosout", Log)
 
     def test_1_explores_to_the_end(self):
         self.assertIsNotNone(self.status.wait(lambda m: m.data.startswith("finished"), 200),

@@ -18,12 +18,13 @@ NAP = 0.005  # s
 
 class FakeRobot:
     """Drives by cmd_vel among the given walls. Faults: sends_scans, sends_transforms, leap (m that the
-    localisation is off in x), delay (s by which stamps lie in the past), spoil (changes a scan)."""
+    localisation is off in x), delay (s by which stamps lie in the past), period (s), spoil (changes a scan)."""
 
     def __init__(self, walls, x, y):
         self.walls, self.x, self.y, self.theta = walls, x, y, 0.0
         self.sends_scans = self.sends_transforms = True
         self.leap = self.delay = 0.0
+        self.period = PERIOD
         self.spoil = lambda scan: None
         self.commands = []  # (time of arrival [s], linear [m/s], angular [rad/s])
         self.scans = []  # times at which they were sent [s]
@@ -82,15 +83,15 @@ class FakeRobot:
             begin = time.time()
             self._drive()
             self._tell()
-            time.sleep(max(0.0, begin + PERIOD - time.time()))
+            time.sleep(max(0.0, begin + self.period - time.time()))
 
     def _drive(self):
         if not self.moves():
             return
         _, v, w = self.commands[-1]
-        self.x += v * PERIOD * math.cos(self.theta)
-        self.y += v * PERIOD * math.sin(self.theta)
-        self.theta += w * PERIOD
+        self.x += v * self.period * math.cos(self.theta)
+        self.y += v * self.period * math.sin(self.theta)
+        self.theta += w * self.period
 
     def _tell(self):
         stamp = rospy.Time.now() - rospy.Duration(self.delay)
@@ -104,7 +105,7 @@ class FakeRobot:
         scan.header.stamp, scan.header.frame_id = stamp, "laser"
         scan.angle_min, scan.angle_max = -math.pi, math.pi
         scan.angle_increment = 2 * math.pi / (BEAMS - 1)
-        scan.scan_time, scan.range_max = PERIOD, RANGE
+        scan.scan_time, scan.range_max = self.period, RANGE
         bearings = self.theta + scan.angle_min + scan.angle_increment * numpy.arange(BEAMS)
         ranges = cast(self.walls, self.x, self.y, bearings)
         ranges[ranges > RANGE] = math.inf

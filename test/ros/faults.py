@@ -9,10 +9,11 @@ import unittest
 import rospy
 import rostest
 from diagnostic_msgs.msg import DiagnosticArray
+from rosgraph_msgs.msg import Log
 from std_msgs.msg import String
 from std_srvs.srv import Trigger
 
-from fake_robot import FakeRobot
+from fake_robot import PERIOD, FakeRobot
 from ros_watch import Watch
 from segments import read_segments
 
@@ -23,12 +24,13 @@ class Faults(unittest.TestCase):
         rospy.init_node("faults")
         cls.status = Watch("status", String)
         cls.diagnostics = Watch("/diagnostics", DiagnosticArray)
+        cls.log = Watch("/rosout", Log)
         cls.robot = FakeRobot(read_segments(rospy.get_param("~truth")), 12.0, 9.5)
         cls.robot.sends_transforms = False
 
     def tearDown(self):
         self.robot.sends_scans = self.robot.sends_transforms = True
-        self.robot.delay = 0.0
+        self.robot.delay, self.robot.period = 0.0, PERIOD
         self.robot.spoil = lambda scan: None
 
     def expect_status(self, word, seconds=5):
@@ -189,6 +191,34 @@ class Faults(unittest.TestCase):
         # As long after a scan as its stamp is ahead; later the machine may have been late with the next.
         soon = [t for t, v, w in commands if (v, w) == (0.0, 0.0) and any(0.0 < t - s < 0.2 for s in self.robot.scans)]
         self.assertLess(len(soon), 5, "the watchdog stops it after each scan")
+
+    def drive_with_a_laser_of(self, rate):
+        """Stamped with its first beam: a period old when it comes."""
+        self.robot.period = self.robot.delay = 1.0 / rate
+        rospy.sleep(10.0 / rate)
+        self.assertTrue(self.robot.wait_until_moves())
+        first, begin, told = len(self.robot.scans), time.time(), len(self.status.messages)
+        while len(self.robot.scans) < first + 40:
+            time.sleep(0.05)
+        commands = [(t, (v, w) == (0.0, 0.0)) for t, v, w in self.robot.commands if t > begin]
+        self.assertGreater(len(commands), 40)
+        stops = [t for (_, stood), (t, stands) in zip(commands, commands[1:]) if stands and not stood]
+        # A scan may ask for a stop, as it does where the robot turns about; the watchdog alone does later.
+        unasked = [t for t in stops if t - max(s for s in self.robot.scans if s < t) > 0.08]
+        self.assertLess(len(unasked), 4)
+        self.assertFalse([m.data for m in self.status.messages[told:] if "waiting" in m.data])
+        self.expect_stop_and_recovery(lambda: setattr(self.robot, "sends_scans", False),
+                                      lambda: setattr(self.robot, "sends_scans", True), "no usable scan")
+
+    def test_15_a_laser_of_5_Hz_is_driven_by_without_stops_and_told_of_once(self):
+        self.drive_with_a_laser_of(5.5)
+        rates = [m.msg for m in self.log.messages if "times a second" in m.msg]
+        self.assertEqual(len(rates), 1, rates)
+        self.assertIn("5.5 times a second", rates[0])
+
+    def test_16_scans_of_a_laser_of_7_Hz_that_come_late_are_driven_by(self):
+        self.robot.spoil = lambda scan: time.sleep(0.1)
+        self.drive_with_a_laser_of(7.0)
 
 
 if __name__ == "__main__":

@@ -1,0 +1,32 @@
+# Sets CCA_BUILDS_TESTS where GoogleTest is found with GoogleMock, of which catkin brings only the first, and
+# CCA_BUILDS_ROS_TESTS where the Python packages are there that the tests of the nodes need, too. What is missing is told
+# in one line, and is an error where the tests are asked for (CCA_BUILD_TESTS=ON): who runs them must not run none.
+function(cca_tests_need what packages is_there)
+  if(is_there)
+    return()
+  endif()
+  set(told "without ${what}: they need ${packages} (Debian: launch_scripts/install_dependencies.sh --tests)")
+  if(CCA_BUILD_TESTS STREQUAL AUTO)
+    message(STATUS "cca_mrpt: ${told}")
+  else()
+    message(FATAL_ERROR "CCA_BUILD_TESTS=${CCA_BUILD_TESTS}, but ${told}")
+  endif()
+endfunction()
+
+find_package(GTest QUIET)
+set(CCA_BUILDS_TESTS OFF)
+if(TARGET GTest::gtest AND TARGET GTest::gmock)
+  set(CCA_BUILDS_TESTS ON)
+endif()
+cca_tests_need("the tests" "GoogleTest and GoogleMock" ${CCA_BUILDS_TESTS})
+
+set(CCA_BUILDS_ROS_TESTS OFF)
+if(CCA_ROS AND CCA_BUILDS_TESTS)
+  set(modules actionlib diagnostic_msgs dynamic_reconfigure move_base_msgs numpy rospy rostest scipy)
+  list(JOIN modules ", " names)
+  execute_process(COMMAND ${PYTHON_EXECUTABLE} -c "import ${names}" RESULT_VARIABLE result OUTPUT_QUIET ERROR_QUIET)
+  if(result EQUAL 0)
+    set(CCA_BUILDS_ROS_TESTS ON)
+  endif()
+  cca_tests_need("the tests of the nodes" "the Python modules ${names}" ${CCA_BUILDS_ROS_TESTS})
+endif()
