@@ -6,7 +6,8 @@
 #include <exception>
 
 #include "cca_mrpt/io/map_products.hpp"
-#include "cca_mrpt/navigation/explorer.hpp"
+#include "cca_mrpt/localisation/given_poses.hpp"
+#include "cca_mrpt/session/exploration_session.hpp"
 #include "cca_mrpt/simulation/simulation.hpp"
 
 namespace {
@@ -24,19 +25,18 @@ int main(int argc, char** argv) try {
   const cca::Pose2 start = cca::defaultStart(world, parameters.robot.radius);
   cca::Simulation robot(std::move(world), start, parameters);
 
-  cca::Explorer explorer(cca::CcaParameters(), parameters.robot, cca::ExplorerParameters());
-  cca::MapProducts products;
+  cca::ExplorationSession::Settings settings;
+  settings.robot = parameters.robot;
+  cca::ExplorationSession session(std::make_unique<cca::GivenPoses>(), settings);
   cca::Action action;
   while (action.status != cca::ExplorationStatus::kFinished && robot.time() < kLongestRun) {
-    const cca::Observation observation = robot.observe();
-    action = explorer.step(observation);
+    const cca::Observation seen = robot.observe();
+    const auto measurement = cca::measurementOf(seen, robot.T_odom_robot());
+    action = session.decide(session.sense(measurement, seen.velocity));
     robot.drive(action.velocity, kControlPeriod);
-    products.trajectory.push_back(observation.T_map_robot);
   }
 
-  products.title = argv[1];
-  products.lines = explorer.lineMap().lines();
-  products.poly_lines = explorer.lineMap().polyLines();
+  cca::MapProducts products = cca::mapProducts(argv[1], session.mapping());
   products.summary["reason"] = action.reason;
   cca::writeMapFolder(argv[2], products);
   std::printf("%s; %.0f m in %.0f s, %zu lines\n", action.reason.c_str(), robot.distance(),

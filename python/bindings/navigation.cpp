@@ -8,7 +8,8 @@
 #include <memory>
 
 #include "arguments.hpp"
-#include "cca_mrpt/navigation/explorer.hpp"
+#include "cca_mrpt/localisation/given_poses.hpp"
+#include "cca_mrpt/session/exploration_session.hpp"
 #include "mapping.hpp"
 #include "module.hpp"
 #include "owned_array.hpp"
@@ -22,7 +23,7 @@ using Pair = std::pair<double, double>;
 
 /// What step() needs besides the explorer itself: time never falls.
 struct Exploration {
-  Explorer explorer;
+  ExplorationSession session;
   double time = -HUGE_VAL;
 };
 using SharedExplorer = Locked<Exploration>;
@@ -183,7 +184,8 @@ Action explore(SharedExplorer& explorer, nb::handle ranges, double angle_min,
   const auto action = explorer.with([&observation](Exploration& own) -> std::optional<Action> {
     if (observation.time < own.time) return std::nullopt;
     own.time = observation.time;
-    return own.explorer.step(observation);
+    return own.session.decide(
+        own.session.sense(measurementOf(observation, std::nullopt), observation.velocity));
   });
   if (!action) throw nb::value_error("time: before that of the last step");
   return *action;
@@ -200,7 +202,8 @@ void addExplorer(nb::module_& module) {
             RobotParameters robot;
             ExplorerParameters parameters;
             readParameters(keywords, mapping, robot, parameters);
-            new (self) SharedExplorer(Exploration{Explorer(mapping, robot, parameters)});
+            new (self) SharedExplorer(Exploration{
+                ExplorationSession(std::make_unique<GivenPoses>(), {mapping, robot, parameters})});
           },
           nb::arg("parameters"))
       .def("step", &explore, nb::arg("ranges").none(), nb::arg("angle_min"),
@@ -227,27 +230,27 @@ Raises:
       .def(
           "pause",
           [](SharedExplorer& explorer, bool paused) {
-            explorer.with([paused](Exploration& own) { own.explorer.pause(paused); });
+            explorer.with([paused](Exploration& own) { own.session.explorer().pause(paused); });
           },
           nb::arg("paused") = true, "While paused it maps, and stands still.")
       .def(
           "return_to_start",
           [](SharedExplorer& explorer) {
-            explorer.with([](Exploration& own) { own.explorer.returnToStart(); });
+            explorer.with([](Exploration& own) { own.session.explorer().returnToStart(); });
           },
           "Give up exploring and drive back to where it began.")
       .def(
           "line_map",
           [](SharedExplorer& explorer) {
             return new SharedLineMap(
-                explorer.with([](Exploration& own) { return own.explorer.lineMap(); }));
+                explorer.with([](Exploration& own) { return own.session.mapping().lineMap(); }));
           },
           "A copy of the line map as it stands.")
       .def(
           "grid",
           [](SharedExplorer& explorer) {
             return new SharedGrid(
-                explorer.with([](Exploration& own) { return own.explorer.grid(); }));
+                explorer.with([](Exploration& own) { return own.session.explorer().grid(); }));
           },
           "A copy of the grid as it stands.");
 }

@@ -9,7 +9,6 @@
 #include "cca_mrpt/io/atomic_file.hpp"
 #include "cca_mrpt/io/local_frame.hpp"
 #include "cca_mrpt/io/memory_file.hpp"
-#include "cca_mrpt/io/pose_files.hpp"
 #include "cca_mrpt/io/trajectory_error.hpp"
 #include "moved.hpp"
 
@@ -77,14 +76,6 @@ void ExplorationRecord::writeTrajectory(const Simulation& simulation) const {
   writeFile(folder_ + "/" + kTrajectory, text);
 }
 
-void ExplorationRecord::writePoses(const MappingSession& mapping) const {
-  std::vector<StampedPose> poses;
-  for (std::size_t k = 0; k < mapping.trajectory().size(); ++k) {
-    poses.push_back({mapping.times()[k], seenFrom(-origin_, mapping.trajectory()[k])});
-  }
-  writeFile(folder_ + "/" + kPoses, posesCsv(poses));
-}
-
 void ExplorationRecord::writeCoverage() {
   const std::vector<double> curve = coverage_.curve();
   std::string text = "t,distance,coverage\n";
@@ -148,35 +139,27 @@ nlohmann::ordered_json ExplorationRecord::summary(const Simulation& simulation,
 }
 
 MapProducts ExplorationRecord::products(const Simulation& simulation,
-                                        const ExplorationSession& session) const {
-  const LineMap& line_map = session.mapping().lineMap();
-  MapProducts products;
-  products.title = simulation.world().name;
-  products.lines = line_map.lines();
-  products.poly_lines = line_map.polyLines();
-  products.arcs = line_map.arcs();
-  products.trajectory = session.mapping().trajectory();
+                                        const MappingSession& mapping) const {
+  MapProducts products = mapProducts(simulation.world().name, mapping);
   products.grid = grid_.grid();
   products.origin = origin_;
   return products;
 }
 
-void ExplorationRecord::write(const Simulation& simulation, const ExplorationSession& session,
+void ExplorationRecord::write(const Simulation& simulation, const MappingSession& mapping,
                               const SlamLocaliser* slam, const End& end) {
   look(simulation.T_map_robot(), simulation.time(), simulation.distance());
   withdrawSummary(folder_);
   rawlog_.commit();
   writeTrajectory(simulation);
-  writePoses(session.mapping());
   writeCoverage();
-  MapProducts all = products(simulation, session);
-  all.beside = {kPoses};
+  MapProducts all = products(simulation, mapping);
   all.replay = packedReplay(simulation, all.lines);
   if (slam) {
     all.graph = slam->slam().keyFrames().graph;
     all.memory = packedMemory({slam->slam().memory(), origin_});
   }
-  all.summary = summary(simulation, session.mapping(), slam, end);
+  all.summary = summary(simulation, mapping, slam, end);
   writeMapFolder(folder_, all);
 }
 

@@ -58,8 +58,8 @@ class ExplorationRecord : public MapRecorder {
 
   /// Writes every file of the folder. @throws std::runtime_error naming the file.
   /// @param slam  where the poses are line SLAM's; else null.
-  void write(const Simulation& simulation, const ExplorationSession& session,
-             const SlamLocaliser* slam, const End& end);
+  void write(const Simulation& simulation, const MappingSession& mapping, const SlamLocaliser* slam,
+             const End& end);
 
   long scans() const { return scans_; }
   int goals() const { return goals_; }
@@ -67,17 +67,16 @@ class ExplorationRecord : public MapRecorder {
   Coverage& coverage() { return coverage_; }
   Replay& replay() { return replay_; }
   /// What the map's files are made from, as it stands.
-  MapProducts products(const Simulation& simulation, const ExplorationSession& session) const;
+  MapProducts products(const Simulation& simulation, const MappingSession& mapping) const;
 
  private:
   static constexpr const char *kLog = "run.rawlog", *kTrajectory = "trajectory.csv",
-                              *kCoverage = "coverage.csv", *kPoses = "poses.csv";
+                              *kCoverage = "coverage.csv";
   struct Look {
     double time, distance;
   };
   void look(const Pose2& T_map_robot, double time, double distance);
   void writeTrajectory(const Simulation& simulation) const;
-  void writePoses(const MappingSession& mapping) const;
   void writeCoverage();
   std::string packedReplay(const Simulation& simulation, const std::vector<MapLine>& lines);
   nlohmann::ordered_json summary(const Simulation& simulation, const MappingSession& mapping,

@@ -28,17 +28,6 @@ ExplorationSession::Settings settingsOf(const Parameters& parameters) {
   return {parameters.mapping, parameters.robot, parameters.exploration};
 }
 
-/// What the robot is told: its pose is the true one, for a localiser that is to believe it.
-Measurement measurementOf(const Observation& seen, const Pose2& T_odom_robot) {
-  Measurement measurement;
-  measurement.scan = seen.scan;
-  measurement.T_robot_sensor = seen.T_map_robot.inverse() * seen.scan.T_map_sensor;
-  measurement.T_odom_robot = T_odom_robot;
-  measurement.T_map_robot = seen.T_map_robot;
-  measurement.time = seen.time;
-  return measurement;
-}
-
 /// How far the robot still has to go, as far as it knows: to each frontier.
 double metresLeft(const Simulation& simulation, const Explorer& explorer) {
   std::vector<Eigen::Vector2d> frontier;
@@ -133,7 +122,8 @@ void ExplorationRun::drive(const Interruption& interruption, Progress* progress,
 void ExplorationRun::show(const Action& action, Progress* progress, ExplorationWindow* window) {
   if (window && window->isDue()) {
     background_.wait();
-    window->show(record_.products(simulation_, session_), simulation_, observation_, action);
+    window->show(record_.products(simulation_, session_.mapping()), simulation_, observation_,
+                 action);
   }
   if (!progress || !progress->isDue()) return;
   background_.wait();

@@ -174,7 +174,7 @@ void explore(const ExploreOptions& options, const Parameters& parameters) {
   tellOfMemory(options, run, folder);
   awaitCoverage(run.record().coverage(), interruption);
   run.end().wall_s = secondsSince(start);
-  run.record().write(simulation, run.session(), run.slam(), run.end());
+  run.record().write(simulation, run.session().mapping(), run.slam(), run.end());
   if (!options.quiet) report(simulation, run, folder);
   if (!run.end().finished) {
     throw std::runtime_error(run.end().reason + "; what was mapped so far is in " + folder);

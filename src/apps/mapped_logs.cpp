@@ -166,13 +166,7 @@ void MappedLogs::warn(const std::string& warning) {
 }
 
 MapProducts MappedLogs::products() const {
-  MapProducts products;
-  products.title = fileName(logs_.paths.front());
-  products.lines = session_->lineMap().lines();
-  products.poly_lines = session_->lineMap().polyLines();
-  products.arcs = session_->lineMap().arcs();
-  products.trajectory = session_->trajectory();
-  products.times = session_->times();
+  MapProducts products = mapProducts(fileName(logs_.paths.front()), *session_);
   products.grid = grid_.grid();
   products.origin = origin_;
   Replay replay = replay_;

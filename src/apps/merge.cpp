@@ -56,13 +56,9 @@ void join(const MergeOptions& options, const std::vector<StoredMemory>& stored, 
 
 MapProducts productsOf(const Merged& merged, const Eigen::Vector2d& origin,
                        const MergeOptions& options, const Parameters& parameters) {
-  MapProducts products;
+  const std::string title = std::filesystem::path(options.out).filename().string();
+  MapProducts products = mapProducts(title, *merged.session);
   const SlamMemory memory = merged.slam->slam().memory();
-  const LineMap& map = merged.session->lineMap();
-  products.title = std::filesystem::path(options.out).filename().string();
-  products.lines = map.lines();
-  products.poly_lines = map.polyLines();
-  products.arcs = map.arcs();
   products.grid = merged.grid.grid().grid();
   products.origin = origin;
   products.graph = memory.graph;

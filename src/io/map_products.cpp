@@ -61,6 +61,17 @@ std::vector<StampedPose> stamped(const std::vector<double>& times,
 
 }  // namespace
 
+MapProducts mapProducts(const std::string& title, const MappingSession& session) {
+  MapProducts products;
+  products.title = title;
+  products.lines = session.lineMap().lines();
+  products.poly_lines = session.lineMap().polyLines();
+  products.arcs = session.lineMap().arcs();
+  products.trajectory = session.trajectory();
+  products.times = session.times();
+  return products;
+}
+
 FolderLock prepareMapFolder(const std::string& folder, bool overwrite,
                             const std::vector<const char*>& beside) {
   makeFolder(folder);

@@ -2,7 +2,11 @@
 #include "exploration.hpp"
 
 #include <algorithm>
+#include <stdexcept>
 #include <utility>
+
+#include "cca_mrpt/io/memory_file.hpp"
+#include "cca_mrpt/session/earlier_drive.hpp"
 
 namespace cca {
 namespace {
@@ -17,7 +21,7 @@ constexpr double kLongestContradiction = 5.0;  // s
 Exploration::Exploration(ros::NodeHandle& node, ros::NodeHandle& private_node, Settings settings,
                          const Parameters& program)
     : settings_(std::move(settings)),
-      explorer_(program.mapping, program.robot, program.exploration),
+      program_(program),
       publisher_(node, settings_.map_frame),
       mode_(settings_.autostart ? Mode::kRunning : Mode::kStopped),
       saver_(private_node, settings_.out, [this] { return products(); }) {
@@ -28,6 +32,40 @@ Exploration::Exploration(ros::NodeHandle& node, ros::NodeHandle& private_node, S
   setMode(mode_);
 }
 
+void Exploration::begin(std::unique_ptr<Localiser> localiser, const std::string& resume,
+                        std::function<void()> on_rebuild) {
+  slam_ = dynamic_cast<SlamLocaliser*>(localiser.get());
+  recorder_.on_restart = std::move(on_rebuild);
+  auto session = std::make_unique<ExplorationSession>(
+      std::move(localiser),
+      ExplorationSession::Settings{program_.mapping, program_.robot, program_.exploration},
+      &recorder_);
+  if (slam_ && !resume.empty()) {
+    rememberDrive(seenFrom({0.0, 0.0}, loadMemory(resume)), *slam_, session->mapping());
+  }
+  if (slam_) saver_.saveMemory([this] { return memoryOf(slam_->slam()); });
+  const std::lock_guard<std::mutex> lock(saver_.mutex());
+  session_ = std::move(session);
+  session_->explorer().pause(mode_ == Mode::kPaused);
+}
+
+Observation Exploration::sense(const Measurement& measurement, const Velocity& velocity) {
+  const std::lock_guard<std::mutex> lock(saver_.mutex());
+  const bool is_idle = mode_ == Mode::kStopped || finished_;
+  if (is_idle && !session_->mapping().localiser().correctsPast()) return {};
+  const Observation observation = session_->sense(measurement, velocity);
+  if (session_->estimate().was_corrected) publisher_.correctWay(session_->mapping());
+  if (slam_) notes_["loops"] = slam_->slam().loops().size();
+  if (slam_ && slam_->remembered() > 0) notes_["found_in_memory"] = slam_->slam().isInMemory();
+  return observation;
+}
+
+Estimate Exploration::addSecondary(const Measurement& measurement, std::size_t sensor) {
+  const std::lock_guard<std::mutex> lock(saver_.mutex());
+  if (mode_ == Mode::kStopped || finished_) return {};
+  return session_->addSecondary(measurement, sensor);
+}
+
 Velocity Exploration::step(Observation observation, const ros::Time& stamp) {
   const double passed = std::clamp(observation.time - last_time_, 0.0, kLongestStep);
   own_time_ += passed;
@@ -36,11 +74,11 @@ Velocity Exploration::step(Observation observation, const ros::Time& stamp) {
   if (mode_ == Mode::kStopped || finished_) return {};
   observation.time = own_time_;
   const std::lock_guard<std::mutex> lock(saver_.mutex());
-  const Action action = explorer_.step(observation);
-  record_.add(observation.scan, observation.T_map_robot);
+  const Action action = session_->decide(observation);
   if (action.goal) T_map_goal_ = Pose2{action.goal->x(), action.goal->y(), action.goal_heading};
-  publisher_.show(explorer_, *record_.grid.grid(), observation.T_map_robot, T_map_goal_, stamp);
-  if (has_last_pass_ && action.status == ExplorationStatus::kFinished) {
+  publisher_.show(*session_, *recorder_.grid().grid(), observation.T_map_robot, T_map_goal_, stamp);
+  if (session_->mapping().localiser().correctsPast() &&
+      action.status == ExplorationStatus::kFinished) {
     end_ = action;
     return {};
   }
@@ -53,6 +91,7 @@ Velocity Exploration::step(Observation observation, const ros::Time& stamp) {
 }
 
 void Exploration::conclude(const ros::Time& stamp) {
+  finishPoses();
   const Action action = *std::exchange(end_, std::nullopt);
   const std::lock_guard<std::mutex> lock(saver_.mutex());
   finish(stamp);
@@ -60,20 +99,12 @@ void Exploration::conclude(const ros::Time& stamp) {
   tell(action);
 }
 
-void Exploration::addBeside(const Scan& scan, const Pose2& T_map_robot) {
-  if (mode_ == Mode::kStopped || finished_) return;
+void Exploration::finishPoses() {
   const std::lock_guard<std::mutex> lock(saver_.mutex());
-  explorer_.addBeside(scan, T_map_robot);
-  record_.addBeside(scan);
-}
-
-void Exploration::correct(const PastScans& past, const std::vector<StampedPose>& way,
-                          std::size_t remembered) {
-  const std::lock_guard<std::mutex> lock(saver_.mutex());
-  explorer_.correctMap(past);
-  explorer_.correctNavigation(past);
-  record_.correct(past, remembered);
-  publisher_.correctWay(way);
+  if (!hasBegun() || !session_->mapping().localiser().correctsPast()) return;
+  session_->finish();
+  if (slam_) notes_["loops"] = slam_->slam().loops().size();
+  publisher_.correctWay(session_->mapping());
 }
 
 void Exploration::note(const std::string& key, const nlohmann::json& value) {
@@ -102,33 +133,36 @@ void Exploration::tell(const Action& action) {
 
 void Exploration::finish(const ros::Time& stamp) {
   finished_ = true;
-  publisher_.showAll(explorer_, *record_.grid.grid(), stamp);
-  if (explorer_.planner().plan().gave_up) ROS_WARN("%s", explorer_.planner().plan().reason.c_str());
-  if (explorer_.leavesMuch()) {
+  publisher_.showAll(*session_, *recorder_.grid().grid(), stamp);
+  const Explorer& explorer = session_->explorer();
+  if (explorer.planner().plan().gave_up) ROS_WARN("%s", explorer.planner().plan().reason.c_str());
+  if (explorer.leavesMuch()) {
     ROS_WARN("%.1f m^2 in view were not reached: no way was found to them",
-             explorer_.planner().plan().unreached);
+             explorer.planner().plan().unreached);
   }
   if (settings_.save_at_end) saver_.saveSoon();
 }
 
 MapProducts Exploration::products() const {
-  MapProducts products = record_.products(settings_.title, explorer_.lineMap());
+  if (!hasBegun()) throw std::runtime_error("there is no map yet");
+  MapProducts products = mapProducts(settings_.title, session_->mapping());
+  products.grid = recorder_.grid().copy();
   products.summary["finished"] = finished_ && !failed_;
   products.summary["agreement"] = agreement().overall();
   products.summary["reason"] = state_;
-  products.summary["unreached_m2"] = explorer_.planner().plan().unreached;
+  products.summary["unreached_m2"] = session_->explorer().planner().plan().unreached;
   products.summary.update(notes_);
   return products;
 }
 
 void Exploration::end() {
-  if (settings_.save_at_end && !record_.way.empty()) saver_.saveOrTell();
+  if (settings_.save_at_end && hasBegun()) saver_.saveOrTell();
 }
 
 void Exploration::setMode(Mode mode) {
   const std::lock_guard<std::mutex> lock(saver_.mutex());
   mode_ = mode;
-  explorer_.pause(mode == Mode::kPaused);
+  if (session_) session_->explorer().pause(mode == Mode::kPaused);
   if (finished_) return;
   state_ = mode == Mode::kStopped  ? "stopped: call ~start to explore"
            : mode == Mode::kPaused ? "paused: call ~pause with false to go on"
@@ -156,12 +190,12 @@ bool Exploration::onStop(std_srvs::Trigger::Request& /*request*/,
 
 bool Exploration::onHome(std_srvs::Trigger::Request& /*request*/,
                          std_srvs::Trigger::Response& response) {
-  response.success = !record_.way.empty();
+  response.success = hasBegun();
   response.message = response.success ? "returning" : "it has not left yet";
   if (!response.success) return true;
   {
     const std::lock_guard<std::mutex> lock(saver_.mutex());
-    explorer_.returnToStart();
+    session_->explorer().returnToStart();
     finished_ = failed_ = false;
     contradicted_for_ = 0.0;
   }

@@ -5,17 +5,22 @@
 #include <std_srvs/Trigger.h>
 
 #include <functional>
+#include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "cca_mrpt/io/grid_recorder.hpp"
 #include "cca_mrpt/io/parameters.hpp"
+#include "cca_mrpt/session/exploration_session.hpp"
+#include "cca_mrpt/slam/slam_localiser.hpp"
 #include "exploration_publisher.hpp"
-#include "map_record.hpp"
 #include "map_saver.hpp"
 
 namespace cca {
 
-/// An Explorer with what a person does to it: the services `~start`, `~stop`, `~pause`, `~home`,
+/// An exploration session with what a person does to it: the services `~start`, `~stop`, `~pause`,
+/// `~home`,
 /// `~save`, and the topics of ExplorationPublisher. Where its observations come from, and where its
 /// velocities go, is its owner's business.
 class Exploration {
@@ -31,36 +36,37 @@ class Exploration {
   Exploration(ros::NodeHandle& node, ros::NodeHandle& private_node, Settings settings,
               const Parameters& program);
 
+  /// To be called before all that follows. @param resume  folder of an earlier map, or its
+  /// map.slam, that line SLAM is to go on with; empty: none.
+  /// @param on_rebuild  called before the map is made anew, which takes a second where it is large.
+  /// @throws std::runtime_error naming the file of the earlier map and what is wrong with it.
+  void begin(std::unique_ptr<Localiser> localiser, const std::string& resume = "",
+             std::function<void()> on_rebuild = {});
+
+  /// Localises and maps a scan. Where poses are given, a scan while it is stopped or has finished
+  /// is not mapped. @return  for step().
+  Observation sense(const Measurement& measurement, const Velocity& velocity);
+  /// A scan of another laser than that of the steps; see MappingSession::addSecondary().
+  Estimate addSecondary(const Measurement& measurement, std::size_t sensor);
   /// One step of the explorer. @return  zero unless it explores.
   /// observation.time may do what it likes: the explorer's own clock stands while it waits.
   Velocity step(Observation observation, const ros::Time& stamp);
 
   /// See Explorer::leaveDriving(), noteOutcome().
-  void leaveDriving() { explorer_.leaveDriving(); }
-  void noteOutcome(DriveOutcome outcome) { explorer_.noteOutcome(outcome); }
+  void leaveDriving() { session_->explorer().leaveDriving(); }
+  void noteOutcome(DriveOutcome outcome) { session_->explorer().noteOutcome(outcome); }
   /// Where the last step wants the robot, and where to it shall look there: only while it drives.
   const std::optional<Pose2>& goal() const { return T_map_goal_; }
-  void changeMotion(const RobotParameters& robot) { explorer_.changeMotion(robot); }
+  void changeMotion(const RobotParameters& robot) { session_->explorer().changeMotion(robot); }
   /// As `~pause` with true does.
   void pause() { setMode(Mode::kPaused); }
 
-  /// Once nothing is left, the exploration waits for conclude(): there is to be a last pass over
-  /// the poses, for which the robot has to stand. To be called before the first step.
-  void expectLastPass() { has_last_pass_ = true; }
+  /// Where the localiser corrects the past, the exploration waits for conclude() once nothing is
+  /// left: there is a last pass over the poses, for which the robot has to stand.
   bool isAtEnd() const { return end_.has_value(); }
-  /// What the last pass says of the past has been told by correct().
   void conclude(const ros::Time& stamp);
-
-  /// A scan of another laser than that of the steps, see Explorer::addBeside().
-  void addBeside(const Scan& scan, const Pose2& T_map_robot);
-
-  /// The past has been corrected, and the next observation knows of it.
-  /// @param way         of the robot so far.
-  /// @param remembered  scans of the past that are of an earlier drive, the first ones.
-  void correct(const PastScans& past, const std::vector<StampedPose>& way,
-               std::size_t remembered = 0);
-  /// See MapSaver::saveMemory().
-  void saveMemory(std::function<MapMemory()> memory) { saver_.saveMemory(std::move(memory)); }
+  /// The last pass, for a robot that is stopped before.
+  void finishPoses();
 
   /// A line of summary.json.
   void note(const std::string& key, const nlohmann::json& value);
@@ -69,8 +75,9 @@ class Exploration {
   bool drives() const { return mode_ == Mode::kRunning && !finished_; }
   /// Also where it failed.
   bool finished() const { return finished_; }
-  const ScanAgreement& agreement() const { return explorer_.agreement(); }
-  const ShownMotion& shownMotion() const { return explorer_.shownMotion(); }
+  const ExplorationSession& session() const { return *session_; }
+  const ScanAgreement& agreement() const { return session_->mapping().agreement(); }
+  const ShownMotion& shownMotion() const { return session_->explorer().shownMotion(); }
   /// Told as the status while the robot has to stand: why.
   void wait(const std::string& reason) { publisher_.showStatus("waiting: " + reason); }
   const std::string& state() const { return state_; }
@@ -90,14 +97,26 @@ class Exploration {
   MapProducts products() const;
   void tell(const Action& action);
   bool isContradicted(double seconds);
+  bool hasBegun() const { return session_ && !session_->mapping().times().empty(); }
+
+  /// The grid, and who is to know that the map is made anew.
+  class Recorder : public GridRecorder {
+   public:
+    std::function<void()> on_restart;
+    void restart() override {
+      if (on_restart) on_restart();
+      GridRecorder::restart();
+    }
+  };
 
   Settings settings_;
-  Explorer explorer_;
-  MapRecord record_;
+  Parameters program_;
+  Recorder recorder_;
+  SlamLocaliser* slam_ = nullptr;  ///< the session's, with line SLAM
+  std::unique_ptr<ExplorationSession> session_;
   ExplorationPublisher publisher_;
   Mode mode_;
   bool finished_ = false, failed_ = false;
-  bool has_last_pass_ = false;
   std::optional<Action> end_;                ///< that waits for conclude()
   double own_time_ = 0.0, last_time_ = 0.0;  // s
   double contradicted_for_ = 0.0;            // s, that scans and map have been at odds

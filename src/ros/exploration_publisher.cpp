@@ -47,7 +47,7 @@ void ExplorationPublisher::showGoal(const std::optional<Pose2>& T_map_goal,
   if (T_map_goal) shown_goal_ = T_map_goal->position();
 }
 
-void ExplorationPublisher::show(const Explorer& explorer,
+void ExplorationPublisher::show(const ExplorationSession& session,
                                 const mrpt::maps::COccupancyGridMap2D& grid,
                                 const Pose2& T_map_robot, const std::optional<Pose2>& T_map_goal,
                                 const ros::Time& stamp) {
@@ -55,21 +55,22 @@ void ExplorationPublisher::show(const Explorer& explorer,
   showGoal(T_map_goal, stamp);
   const ros::WallTime now = ros::WallTime::now();
   if (now - map_shown_ >= kMapPeriod) {
-    showAll(explorer, grid, stamp);
+    showAll(session, grid, stamp);
   } else if (now - lines_shown_ >= kLinePeriod) {
-    lines_.publish(explorer.lineMap().lines(), stamp);
+    lines_.publish(session.mapping().lineMap().lines(), stamp);
     lines_shown_ = now;
   }
 }
 
-void ExplorationPublisher::showAll(const Explorer& explorer,
+void ExplorationPublisher::showAll(const ExplorationSession& session,
                                    const mrpt::maps::COccupancyGridMap2D& grid,
                                    const ros::Time& stamp) {
-  lines_.publish(explorer.lineMap().lines(), stamp);
+  lines_.publish(session.mapping().lineMap().lines(), stamp);
   const nav_msgs::OccupancyGrid map = gridMessage(grid, header(stamp));
   map_.publish(map);
   map_metadata_.publish(map.info);
   std::vector<Eigen::Vector2d> frontier;
+  const Explorer& explorer = session.explorer();
   const auto& exploration_grid = explorer.grid();
   for (const Cell cell : explorer.planner().place().frontierCells().cells()) {
     frontier.push_back(exploration_grid.centreOf(cell));

@@ -6,7 +6,7 @@
 
 #include <string>
 
-#include "cca_mrpt/navigation/explorer.hpp"
+#include "cca_mrpt/session/exploration_session.hpp"
 #include "line_publisher.hpp"
 #include "way_publisher.hpp"
 
@@ -20,14 +20,16 @@ class ExplorationPublisher {
 
   /// After each step. Lines go out at most 25 times, grid, frontiers and way once a second of the
   /// wall; a changed goal at once.
-  void show(const Explorer& explorer, const mrpt::maps::COccupancyGridMap2D& grid,
+  void show(const ExplorationSession& session, const mrpt::maps::COccupancyGridMap2D& grid,
             const Pose2& T_map_robot, const std::optional<Pose2>& T_map_goal,
             const ros::Time& stamp);
   /// All of it now, as it stands.
-  void showAll(const Explorer& explorer, const mrpt::maps::COccupancyGridMap2D& grid,
+  void showAll(const ExplorationSession& session, const mrpt::maps::COccupancyGridMap2D& grid,
                const ros::Time& stamp);
   /// This is the way so far: the past has been corrected.
-  void correctWay(const std::vector<StampedPose>& way) { way_.replace(way); }
+  void correctWay(const MappingSession& mapping) {
+    way_.replace(mapping.times(), mapping.trajectory());
+  }
   /// Where it differs from what stands. The first word is the state.
   void showStatus(const std::string& status);
 

@@ -4,8 +4,10 @@
 // process; with `_world:=none`, explores with a robot that has `scan`, tf and `cmd_vel`.
 #include <filesystem>
 
+#include "cca_mrpt/localisation/given_poses.hpp"
 #include "exploration.hpp"
 #include "node_diagnostics.hpp"
+#include "node_localisation.hpp"
 #include "node_main.hpp"
 #include "pace.hpp"
 #include "private_parameters.hpp"
@@ -78,6 +80,7 @@ void exploreSimulated(const Settings& settings, ros::NodeHandle& node,
       node, makeSimulation(settings.simulator, settings.program),
       {settings.driver.frames, settings.simulator.scan_rate, settings.simulator.record, true});
   Exploration exploration(node, private_node, settings.exploration, settings.program);
+  exploration.begin(std::make_unique<GivenPoses>());
   const std::map<std::string, long> none_dropped;
   NodeDiagnostics diagnostics(
       node, private_node, [&]() -> const auto& { return none_dropped; });
@@ -87,7 +90,9 @@ void exploreSimulated(const Settings& settings, ros::NodeHandle& node,
     robot.skip(pace.forgive(robot.simulation().time()));
     if (robot.scanIsDue()) {
       const ros::WallTime begin = ros::WallTime::now();
-      velocity = exploration.step(robot.scan(), robot.now());
+      const Observation seen = robot.scan();
+      const Measurement measurement = measurementOf(seen, robot.simulation().T_odom_robot());
+      velocity = exploration.step(exploration.sense(measurement, seen.velocity), robot.now());
       diagnostics.scanUsed((ros::WallTime::now() - begin).toSec(), exploration.agreement());
       diagnostics.setState(exploration.state());
     }

@@ -6,19 +6,19 @@
 
 #include <stdexcept>
 
+#include "cca_mrpt/io/grid_recorder.hpp"
+#include "cca_mrpt/io/memory_file.hpp"
 #include "cca_mrpt/mapping/line_extraction.hpp"
-#include "cca_mrpt/mapping/line_map.hpp"
-#include "cca_mrpt/mapping/scan_agreement.hpp"
 #include "cca_mrpt/ros/line_messages.hpp"
+#include "cca_mrpt/session/earlier_drive.hpp"
 #include "line_publisher.hpp"
-#include "map_record.hpp"
 #include "map_saver.hpp"
 #include "node_diagnostics.hpp"
+#include "node_localisation.hpp"
 #include "node_main.hpp"
-#include "outer_localisation.hpp"
 #include "private_parameters.hpp"
 #include "scan_feed.hpp"
-#include "slam_localisation.hpp"
+#include "slam_publisher.hpp"
 #include "way_publisher.hpp"
 
 namespace cca {
@@ -66,7 +66,7 @@ class LineMapper {
   LineMapper() : LineMapper(ros::NodeHandle(), ros::NodeHandle("~")) {}
   LineMapper(ros::NodeHandle node, ros::NodeHandle private_node)
       : parameters_(readParameters(private_node)),
-        line_map_(parameters_.program.mapping),
+        node_(node),
         publisher_(node, parameters_.frames.map),
         way_(node, parameters_.frames.map),
         scans_(node, scanSettings(), [this](const PlacedScan& scan) { insert(scan); }),
@@ -75,22 +75,19 @@ class LineMapper {
         scan_lines_(node.advertise<cca_mrpt::LineMap>("scan_lines", 10)),
         reset_(private_node.advertiseService("reset", &LineMapper::onReset, this)),
         saver_(private_node, parameters_.out, [this] { return products(); }) {
-    if (parameters_.pose == "slam") {
-      slam_.emplace(node, parameters_.frames, parameters_.resume);
-      saver_.saveMemory([this] { return slam_->memory(); });
-    }
-    if (parameters_.pose == "tf" && parameters_.corrections) {
-      outer_.emplace(node, parameters_.program.mapping);
+    begin();
+    if (slam_) {
+      slam_publisher_.emplace(node, parameters_.frames);
+      saver_.saveMemory([this] { return memoryOf(slam_->slam()); });
     }
   }
 
   void end() {
     ros::getGlobalCallbackQueue()->callAvailable();  // scans that have come belong to the map
     if (!parameters_.save_at_end) return;
-    if (slam_) {
+    {
       const std::lock_guard<std::mutex> lock(saver_.mutex());
-      slam_->finish();
-      correct(slam_->past(), slam_->way(), slam_->remembered());
+      session_->finish();
     }
     saver_.saveOrTell();
   }
@@ -104,54 +101,64 @@ class LineMapper {
     return {parameters_.scans, frames.map};
   }
 
-  void insert(PlacedScan scan) {
-    const ros::WallTime begin = ros::WallTime::now();
+  /// An empty map.
+  void begin() {
+    path_.reset();
+    auto localiser =
+        makeLocaliser(parameters_.pose, parameters_.corrections, parameters_.program.mapping);
+    slam_ = dynamic_cast<SlamLocaliser*>(localiser.get());
+    if (auto* external = dynamic_cast<ExternalCorrections*>(localiser.get())) {
+      path_.emplace(node_, *external);
+    }
+    grid_.restart();
+    session_ = std::make_unique<MappingSession>(
+        std::move(localiser), MappingSession::Settings{parameters_.program.mapping}, &grid_);
+    if (!parameters_.resume.empty()) {
+      rememberDrive(seenFrom({0.0, 0.0}, loadMemory(parameters_.resume)), *slam_, *session_);
+    }
+  }
+
+  void insert(const PlacedScan& scan) {
+    const ros::WallTime start = ros::WallTime::now();
     const std::lock_guard<std::mutex> lock(saver_.mutex());
-    const bool is_first_laser = scan.topic == 0;
-    if (slam_ && !is_first_laser && !slam_->placeBeside(scan)) return;
-    if (slam_ && is_first_laser && slam_->place(scan)) {
-      correct(slam_->past(), slam_->way(), slam_->remembered());
-    }
-    if (outer_ && outer_->take(scan)) correct(outer_->past(), outer_->way());
-    agreement_.add(compareWithMap(scan.scan, line_map_.walls()));
-    std::vector<LineSegment> lines = extractLines(scan.scan, parameters_.program.mapping);
-    if (scan_lines_.getNumSubscribers() > 0) showLinesOf(scan, lines);
-    line_map_.insert(scan.scan, std::move(lines));
-    publisher_.publish(line_map_.lines(), scan.stamp);
-    // After the lines: somebody may wait for them.
-    if (is_first_laser) {
-      record_.add(scan.scan, scan.T_fixed_robot);
-      way_.add(scan.T_fixed_robot, scan.stamp);
-      showWay(scan.stamp);
+    Measurement measurement = measurementOf(scan, slam_ != nullptr);
+    if (scan.topic != 0) {
+      session_->addSecondary(measurement, scan.topic);
     } else {
-      record_.addBeside(scan.scan);
+      if (session_->times().empty() && !measurement.T_map_robot) {
+        measurement.T_map_robot = T_map_restart_;
+      }
+      show(session_->add(measurement), measurement, scan);
     }
-    if (slam_) slam_->tell(diagnostics_);
-    diagnostics_.scanUsed((ros::WallTime::now() - begin).toSec(), agreement_);
-    if (agreement_.recent() < kPoorAgreement) {
+    if (scan_lines_.getNumSubscribers() > 0) showLinesOf(scan);
+    publisher_.publish(session_->lineMap().lines(), scan.stamp);
+    diagnostics_.scanUsed((ros::WallTime::now() - start).toSec(), session_->agreement());
+    if (session_->agreement().recent() < kPoorAgreement) {
       ROS_WARN_THROTTLE(5.0, "scans contradict the map: %.1f %% of their returns agree with it",
-                        100.0 * agreement_.recent());
+                        100.0 * session_->agreement().recent());
     }
   }
 
-  void correct(const PastScans& past, const std::vector<StampedPose>& way,
-               std::size_t remembered = 0) {
-    line_map_ = LineMap(parameters_.program.mapping);
-    for (const auto& kept : past.kept()) line_map_.insert(kept.scan);
-    record_.correct(past, remembered);
-    way_.replace(way);
-  }
-
-  void showWay(const ros::Time& stamp) {
+  void show(const Estimate& estimate, const Measurement& measurement, const PlacedScan& scan) {
+    estimate_ = estimate;
+    if (estimate.was_corrected) {
+      if (path_) ROS_INFO("the localisation was corrected: the past is placed anew");
+      way_.replace(session_->times(), session_->trajectory());
+    }
+    if (slam_) {
+      slam_publisher_->publish(estimate, *measurement.T_odom_robot, *slam_, scan.stamp);
+      slam_publisher_->note(estimate, *slam_, diagnostics_);
+    }
+    way_.add(estimate.T_map_robot, scan.stamp);
     const ros::WallTime now = ros::WallTime::now();
     if (now - way_shown_ < kWayPeriod) return;
-    way_.publish(stamp);
+    way_.publish(scan.stamp);
     way_shown_ = now;
   }
 
-  void showLinesOf(const PlacedScan& scan, const std::vector<LineSegment>& lines) {
+  void showLinesOf(const PlacedScan& scan) {
     std::vector<MapLine> numbered;
-    for (const LineSegment& line : lines) {
+    for (const LineSegment& line : extractLines(scan.scan, parameters_.program.mapping)) {
       numbered.push_back({numbered.size(), line, line.moments.weight});
     }
     std_msgs::Header header;
@@ -162,12 +169,10 @@ class LineMapper {
 
   bool onReset(std_srvs::Trigger::Request& /*request*/, std_srvs::Trigger::Response& response) {
     const std::lock_guard<std::mutex> lock(saver_.mutex());
-    line_map_ = LineMap(parameters_.program.mapping);
-    agreement_ = ScanAgreement();
-    record_ = MapRecord();
-    way_.replace({});
-    if (slam_) slam_->reset();
-    if (outer_) outer_->reset();
+    if (!session_->times().empty()) T_map_restart_ = estimate_.T_map_robot;
+    parameters_.resume.clear();
+    begin();
+    way_.replace({}, {});
     publisher_.publish({}, ros::Time::now());
     response.success = true;
     response.message = "the map is empty";
@@ -175,25 +180,30 @@ class LineMapper {
   }
 
   MapProducts products() const {
-    MapProducts products = record_.products("line_mapper", line_map_);
-    products.summary["scans"] = record_.way.size();
-    products.summary["agreement"] = agreement_.overall();
-    if (slam_) products.summary["loops"] = slam_->loops();
+    if (session_->times().empty()) throw std::runtime_error("there is no map yet");
+    MapProducts products = mapProducts("line_mapper", *session_);
+    products.grid = grid_.grid().copy();
+    products.summary["scans"] = session_->times().size();
+    products.summary["agreement"] = session_->agreement().overall();
+    if (slam_) products.summary["loops"] = slam_->slam().loops().size();
     if (slam_ && slam_->remembered() > 0) {
-      products.summary["found_in_memory"] = slam_->isInMemory();
+      products.summary["found_in_memory"] = slam_->slam().isInMemory();
     }
     return products;
   }
 
   LineMapperParameters parameters_;
-  LineMap line_map_;
-  ScanAgreement agreement_;
-  MapRecord record_;
+  ros::NodeHandle node_;
+  GridRecorder grid_;
+  SlamLocaliser* slam_ = nullptr;  ///< the session's, with line SLAM
+  std::unique_ptr<MappingSession> session_;
+  std::optional<CorrectedPath> path_;   ///< with corrections of tf's
+  Estimate estimate_;                   ///< the last one
+  std::optional<Pose2> T_map_restart_;  ///< where the robot was at the last ~reset
+  std::optional<SlamPublisher> slam_publisher_;
   LinePublisher publisher_;
   WayPublisher way_;
   ros::WallTime way_shown_;
-  std::optional<SlamLocalisation> slam_;
-  std::optional<OuterLocalisation> outer_;
   ScanFeed scans_;
   NodeDiagnostics diagnostics_;
   ros::Publisher scan_lines_;

@@ -3,8 +3,15 @@
 
 #include <exception>
 #include <filesystem>
+#include <optional>
+
+#include "cca_mrpt/io/memory_file.hpp"
 
 namespace cca {
+
+MapMemory memoryOf(const Slam& slam) {
+  return {slam.memory(), slam.remembered() > 0 && !slam.isInMemory()};
+}
 
 MapSaver::MapSaver(const ros::NodeHandle& private_node, std::string folder, Snapshot snapshot)
     : folder_(std::filesystem::absolute(folder).string()),
@@ -19,16 +26,15 @@ MapSaver::MapSaver(const ros::NodeHandle& private_node, std::string folder, Snap
 
 void MapSaver::save() {
   const std::lock_guard<std::mutex> one_at_a_time(writing_);
-  std::function<MapMemory()> make_memory;
+  std::optional<MapMemory> memory;
   MapProducts products = [&] {
     const std::lock_guard<std::mutex> lock(mutex_);
-    make_memory = memory_;
+    if (memory_) memory = memory_();
     return snapshot_();
   }();
-  const MapMemory memory = make_memory ? make_memory() : MapMemory{};
-  products.memory = memory.packed;
+  if (memory) products.memory = packedMemory({memory->drive});
   const FolderLock lock = prepareMapFolder(folder_, true);
-  if (memory.is_apart && !has_saved_) {
+  if (memory && memory->is_apart && !has_saved_) {
     const std::string kept = keepMemory(folder_);
     if (!kept.empty())
       ROS_WARN("no place of the earlier map was found, it is kept: %s", kept.c_str());

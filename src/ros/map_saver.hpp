@@ -10,16 +10,18 @@
 #include <string>
 
 #include "cca_mrpt/io/map_products.hpp"
+#include "cca_mrpt/slam/slam.hpp"
 
 namespace cca {
 
 /// What goes with a map as map.slam.
 struct MapMemory {
-  std::string packed;
+  SlamMemory drive;
   /// It is not that of the earlier map that it should have gone on with: no place was found of that
   /// yet, so a map.slam that is there is kept.
   bool is_apart = false;
 };
+MapMemory memoryOf(const Slam& slam);
 
 /// Writes the map's folder on `~save` and when asked to, in a thread of its own: pictures and
 /// scenes take a second, and for that long a robot must not be left alone with its last command.
@@ -32,7 +34,7 @@ class MapSaver {
   /// Tells on the console, before the work, where the folder cannot be written.
   MapSaver(const ros::NodeHandle& private_node, std::string folder, Snapshot snapshot);
 
-  /// Made in the thread that saves, not under the mutex, for it is packed.
+  /// Called under the mutex, like the snapshot.
   void saveMemory(std::function<MapMemory()> memory);
 
   /// To be held wherever what the snapshot reads is changed.

@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "cca_mrpt/ros/pose_message.hpp"
+#include "node_localisation.hpp"
 
 namespace cca {
 namespace {
@@ -63,14 +64,15 @@ RobotDriver::RobotDriver(ros::NodeHandle& node, ros::NodeHandle& private_node,
       reconfigure_(private_node, changeable(),
                    [this] { exploration_.changeMotion(settings_.robot); }) {
   if (settings_.pose == "odometry") publishMapToOdom(node);
-  if (settings_.pose == "slam") {
-    slam_ = std::make_shared<SlamLocalisation>(node, settings_.frames, settings_.resume);
-    exploration_.saveMemory([slam = slam_] { return slam->memory(); });
-    exploration_.expectLastPass();
-  } else if (!settings_.resume.empty()) {
+  auto localiser = makeLocaliser(settings_.pose, settings_.corrections, mapping);
+  slam_ = dynamic_cast<const SlamLocaliser*>(localiser.get());
+  if (slam_) slam_publisher_.emplace(node, settings_.frames);
+  auto* const external = dynamic_cast<ExternalCorrections*>(localiser.get());
+  if (external) path_.emplace(node, *external);
+  if (!slam_ && !settings_.resume.empty()) {
     ROS_WARN("_resume:=%s has no effect: the robot is told where it is", settings_.resume.c_str());
   }
-  if (settings_.pose == "tf" && settings_.corrections) outer_.emplace(node, mapping);
+  exploration_.begin(std::move(localiser), settings_.resume, [this] { standWhileCorrecting(); });
   exploration_.note("pose", settings_.pose);
   if (settings_.driver == "move_base") {
     leaveDriving();
@@ -88,7 +90,7 @@ RobotDriver::~RobotDriver() {
   watchdog_.stop();
   stand();
   ros::WallDuration(0.1).sleep();  // for the message to leave before the connection does
-  if (slam_ && !exploration_.finished()) makeLastPass();
+  if (!exploration_.finished()) exploration_.finishPoses();
 }
 
 // Radius and margin are in all that is known of ways, and stay.
@@ -159,25 +161,20 @@ void RobotDriver::checkLatency() {
       shown.latency(), settings_.robot.latency);
 }
 
-void RobotDriver::use(PlacedScan placed) {
+void RobotDriver::use(const PlacedScan& placed) {
   tellSlowLaser(placed.topic);
-  if (placed.topic != 0) return useBeside(std::move(placed));
+  if (placed.topic != 0) return useBeside(placed);
   const ros::WallTime begin = ros::WallTime::now();
-  const Pose2 T_fixed_robot = placed.T_fixed_robot;
+  if (exploration_.isAtEnd()) return exploration_.conclude(placed.stamp);
+  const Measurement measurement = measurementOf(placed, slam_ != nullptr);
+  Observation observation = exploration_.sense(measurement, measuredVelocity(placed.stamp));
+  const ExplorationSession& session = exploration_.session();
   if (slam_) {
-    if (exploration_.isAtEnd()) {
-      makeLastPass();
-      return exploration_.conclude(placed.stamp);
-    }
-    if (slam_->place(placed)) {
-      standWhileCorrecting();
-      exploration_.correct(slam_->past(), slam_->way(), slam_->remembered());
-    }
-    exploration_.note("loops", slam_->loops());
-    if (slam_->remembered() > 0) exploration_.note("found_in_memory", slam_->isInMemory());
-    slam_->tell(diagnostics_);
+    slam_publisher_->publish(session.estimate(), placed.T_fixed_robot, *slam_, placed.stamp);
+    slam_publisher_->note(session.estimate(), *slam_, diagnostics_);
+  } else if (session.estimate().was_corrected) {
+    moveAlong(session.mapping().past().correctionHere());
   }
-  if (outer_) correctByOthers(placed);
   if (const char* why = deaf()) {
     if (exploration_.drives()) exploration_.wait(why);
     if (move_base_) move_base_->forget();
@@ -189,33 +186,29 @@ void RobotDriver::use(PlacedScan placed) {
   }
   // By a scan that has become old meanwhile nobody drives.
   if ((ros::WallTime::now() - begin).toSec() > settings_.scan_timeout) return;
-  explore(placed, placed.T_fixed_robot * T_fixed_robot.inverse());
+  addObstacles(placed, observation);
+  obey(exploration_.step(std::move(observation), placed.stamp));
+  last_used_[0] = placed.arrival;
   diagnostics_.scanUsed((ros::WallTime::now() - begin).toSec(), exploration_.agreement());
 }
 
-void RobotDriver::makeLastPass() {
-  slam_->finish();
-  if (slam_->past().size() == 0) return;
-  exploration_.note("loops", slam_->loops());
-  exploration_.correct(slam_->past(), slam_->way(), slam_->remembered());
-}
-
-void RobotDriver::correctByOthers(const PlacedScan& placed) {
-  if (!outer_->take(placed)) return;
-  standWhileCorrecting();
-  exploration_.correct(outer_->past(), outer_->way());
-  hazards_.move(outer_->past().correctionHere());
+/// Where the map was corrected, and what is kept stands in its frame.
+void RobotDriver::moveAlong(const Pose2& T_now_was) {
+  ROS_INFO("the localisation was corrected: the past is placed anew");
+  hazards_.move(T_now_was);
   for (Beside& beside : beside_) beside.points.clear();  // the next are a tenth of a second away
 }
 
-void RobotDriver::explore(const PlacedScan& placed, const Pose2& T_map_fixed) {
-  Observation observation{placed.scan, placed.T_fixed_robot, measuredVelocity(placed.stamp),
-                          placed.stamp.toSec(), !slam_ || !slam_->isLost()};
+/// What other sensors see.
+void RobotDriver::addObstacles(const PlacedScan& placed, Observation& observation) {
+  const Pose2 T_map_fixed = observation.T_map_robot * placed.T_fixed_robot.inverse();
   observation.seen_elsewhere = seenElsewhere(placed.stamp, T_map_fixed);
-  const Eigen::Vector2d robot_fixed = T_map_fixed.inverse() * placed.T_fixed_robot.position();
-  observation.hazards = hazards_.around(robot_fixed, placed.stamp, scans_.transforms());
+  observation.hazards =
+      hazards_.around(placed.T_fixed_robot.position(), placed.stamp, scans_.transforms());
   for (Eigen::Vector2d& p : observation.hazards) p = T_map_fixed * p;
-  const Velocity velocity = exploration_.step(std::move(observation), placed.stamp);
+}
+
+void RobotDriver::obey(const Velocity& velocity) {
   if (!move_base_) {
     command(velocity);
     checkLatency();
@@ -224,17 +217,13 @@ void RobotDriver::explore(const PlacedScan& placed, const Pose2& T_map_fixed) {
   } else {
     stand();
   }
-  last_used_[0] = placed.arrival;
 }
 
-void RobotDriver::useBeside(PlacedScan placed) {
+void RobotDriver::useBeside(const PlacedScan& placed) {
   last_used_[placed.topic] = placed.arrival;
   beside_[placed.topic] = {returnsAround(placed.scan, placed.T_fixed_robot.position()),
                            placed.stamp};
-  if (outer_) outer_->take(placed);
-  if (!slam_ || slam_->placeBeside(placed)) {
-    exploration_.addBeside(placed.scan, placed.T_fixed_robot);
-  }
+  exploration_.addSecondary(measurementOf(placed, slam_ != nullptr), placed.topic);
 }
 
 std::vector<Eigen::Vector2d> RobotDriver::seenElsewhere(const ros::Time& stamp,

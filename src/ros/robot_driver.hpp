@@ -15,10 +15,10 @@
 #include "hazard_feed.hpp"
 #include "move_base_driver.hpp"
 #include "node_diagnostics.hpp"
-#include "outer_localisation.hpp"
+#include "node_localisation.hpp"
 #include "reconfigure_server.hpp"
 #include "scan_feed.hpp"
-#include "slam_localisation.hpp"
+#include "slam_publisher.hpp"
 
 namespace cca {
 
@@ -38,7 +38,7 @@ class RobotDriver {
     std::string hazard_points, hazard_range;  ///< topics, see HazardFeed
     double scan_timeout = 0.3;                ///< s
     std::string pose = "tf";  ///< of the robot in the map, from tf, odometry or slam
-    std::string resume;       ///< folder of an earlier map, see SlamLocalisation
+    std::string resume;       ///< folder of an earlier map, see Exploration::begin()
     bool corrections = true;  ///< of the past where tf's map -> odom leaps
     RobotParameters robot;
     std::string driver = "cmd_vel";  ///< or move_base
@@ -55,11 +55,11 @@ class RobotDriver {
 
  private:
   void take(const nav_msgs::Odometry& odometry);
-  void use(PlacedScan placed);
-  void makeLastPass();
-  void correctByOthers(const PlacedScan& placed);
-  void useBeside(PlacedScan placed);
-  void explore(const PlacedScan& placed, const Pose2& T_map_fixed);
+  void use(const PlacedScan& placed);
+  void useBeside(const PlacedScan& placed);
+  void moveAlong(const Pose2& T_now_was);
+  void addObstacles(const PlacedScan& placed, Observation& observation);
+  void obey(const Velocity& velocity);
   std::vector<Eigen::Vector2d> seenElsewhere(const ros::Time& stamp,
                                              const Pose2& T_map_fixed) const;
   /// s, without a usable scan of that laser until the robot is stopped.
@@ -96,8 +96,9 @@ class RobotDriver {
   };
   std::vector<Beside> beside_;
   ros::WallTime last_moving_;
-  std::shared_ptr<SlamLocalisation> slam_;  ///< shared with who saves the map
-  std::optional<OuterLocalisation> outer_;
+  const SlamLocaliser* slam_ = nullptr;  ///< the exploration's, with line SLAM
+  std::optional<SlamPublisher> slam_publisher_;
+  std::optional<CorrectedPath> path_;  ///< with corrections of tf's
   std::optional<MoveBaseDriver> move_base_;
   HazardFeed hazards_;
   ScanFeed scans_;

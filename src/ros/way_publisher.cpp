@@ -31,9 +31,10 @@ void WayPublisher::add(const Pose2& T_map_robot, const ros::Time& stamp) {
   way_.poses.push_back(pose);
 }
 
-void WayPublisher::replace(const std::vector<StampedPose>& way) {
+void WayPublisher::replace(const std::vector<double>& times,
+                           const std::vector<Pose2>& T_map_robot) {
   way_.poses.clear();
-  for (const StampedPose& pose : way) add(pose.T_map_robot, ros::Time(pose.time));
+  for (std::size_t k = 0; k < times.size(); ++k) add(T_map_robot[k], ros::Time(times[k]));
 }
 
 void WayPublisher::publish(const ros::Time& stamp) {

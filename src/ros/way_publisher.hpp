@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "cca_mrpt/io/pose_files.hpp"
+#include "cca_mrpt/geometry/pose2.hpp"
 
 namespace cca {
 
@@ -18,7 +18,8 @@ class WayPublisher {
 
   void add(const Pose2& T_map_robot, const ros::Time& stamp);
   /// This is the way so far, and what was added is forgotten.
-  void replace(const std::vector<StampedPose>& way);
+  /// @param times  s, of each pose.
+  void replace(const std::vector<double>& times, const std::vector<Pose2>& T_map_robot);
   void publish(const ros::Time& stamp);
 
  private:

@@ -5,6 +5,16 @@
 
 namespace cca {
 
+Measurement measurementOf(const Observation& seen, const std::optional<Pose2>& T_odom_robot) {
+  Measurement measurement;
+  measurement.scan = seen.scan;
+  measurement.T_robot_sensor = seen.T_map_robot.inverse() * seen.scan.T_map_sensor;
+  measurement.T_odom_robot = T_odom_robot;
+  measurement.T_map_robot = seen.T_map_robot;
+  measurement.time = seen.time;
+  return measurement;
+}
+
 ExplorationSession::ExplorationSession(std::unique_ptr<Localiser> localiser,
                                        const Settings& settings, MapRecorder* recorder,
                                        Executor executor)
@@ -12,15 +22,15 @@ ExplorationSession::ExplorationSession(std::unique_ptr<Localiser> localiser,
       explorer_(settings.robot, settings.exploration) {}
 
 Observation ExplorationSession::sense(const Measurement& measurement, const Velocity& velocity) {
-  const Estimate estimate = mapping_.add(measurement);
-  if (estimate.was_corrected) explorer_.correct(mapping_.past());
+  estimate_ = mapping_.add(measurement);
+  if (estimate_.was_corrected) explorer_.correct(mapping_.past());
   Observation observation;
   observation.scan = measurement.scan;
-  observation.scan.T_map_sensor = estimate.T_map_sensor;
-  observation.T_map_robot = estimate.T_map_robot;
+  observation.scan.T_map_sensor = estimate_.T_map_sensor;
+  observation.T_map_robot = estimate_.T_map_robot;
   observation.velocity = velocity;
   observation.time = measurement.time;
-  observation.is_localised = estimate.is_known;
+  observation.is_localised = estimate_.is_known;
   return observation;
 }
 

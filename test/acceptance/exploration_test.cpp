@@ -4,6 +4,8 @@
 #include <string>
 
 #include "cca_mrpt/io/parameters.hpp"
+#include "cca_mrpt/localisation/given_poses.hpp"
+#include "cca_mrpt/session/exploration_session.hpp"
 #include "cca_mrpt/simulation/coverage.hpp"
 #include "cca_mrpt/simulation/floor_plan.hpp"
 #include "cca_mrpt/simulation/simulation.hpp"
@@ -31,12 +33,15 @@ Result explore(const World& world, const Pose2& start, int seed, double longest_
   const Parameters parameters;
   simulated.seed = static_cast<std::uint64_t>(seed);
   Simulation simulation(world, start, simulated, movers);
-  Explorer explorer(parameters.mapping, parameters.robot, parameters.exploration);
+  ExplorationSession session(std::make_unique<GivenPoses>(),
+                             {parameters.mapping, parameters.robot, parameters.exploration});
   Coverage coverage(simulation.world(), start.position(), simulated.robot.radius,
                     simulated.laser.range);
   Result result;
   while (!result.finished && simulation.time() < longest_time) {
-    const Action action = explorer.step(simulation.observe());
+    const Observation seen = simulation.observe();
+    const Measurement measurement = measurementOf(seen, simulation.T_odom_robot());
+    const Action action = session.decide(session.sense(measurement, seen.velocity));
     coverage.look(simulation.T_map_robot());
     result.finished = action.status == ExplorationStatus::kFinished;
     result.reason = action.reason;
@@ -47,7 +52,7 @@ Result explore(const World& world, const Pose2& start, int seed, double longest_
   result.time = simulation.time();
   result.collisions = simulation.collisions();
   result.mover_contacts = simulation.moverContacts();
-  result.lines = explorer.lineMap().lines();
+  result.lines = session.mapping().lineMap().lines();
   result.trajectory = simulation.trajectory();
   return result;
 }

@@ -94,7 +94,7 @@ struct Trial {
   double corrections = 0.0;  ///< s, between two corrections of the past, by what it was; 0: none
 };
 
-/// Makes map and navigation anew from time to time, as a localisation may that finds loops.
+/// Makes navigation anew from time to time, as a localisation may that finds loops.
 class Corrections {
  public:
   explicit Corrections(double period) : period_(period), due_(period) {}
@@ -108,8 +108,7 @@ class Corrections {
     if (period_ == 0.0 || time < due_) return;
     due_ += period_;
     past_.correct(truth_, std::vector<bool>(truth_.size(), true));
-    explorer.correctMap(past_);
-    explorer.correctNavigation(past_);
+    explorer.correct(past_);
   }
 
  private:
@@ -132,7 +131,7 @@ void explore(int seed, const Trial& trial, Outcome& outcome) {
   const Pose2 T_map_start{start->x(), start->y(), random.uniform(-M_PI, M_PI)};
   Simulation simulation(world, T_map_start, simulated,
                         randomWalkers(world, *start, trial.movers, random));
-  Explorer explorer(parameters.mapping, trial.told, parameters.exploration);
+  Explorer explorer(trial.told, parameters.exploration);
   Coverage coverage(simulation.world(), *start, simulated.robot.radius, simulated.laser.range);
   Corrections corrections(trial.corrections);
   bool finished = false;

@@ -46,7 +46,7 @@ World map(const char* name) {
 SlamMemory memoryOf(const World& world) {
   const Parameters parameters;
   Simulation robot = robotIn(world, defaultStart(world, parameters.robot.radius), 1);
-  Explorer explorer(parameters.mapping, parameters.robot, parameters.exploration);
+  Explorer explorer(parameters.robot, parameters.exploration);
   Slam slam(robot.T_map_robot());
   for (;;) {
     const Observation seen = robot.observe();
@@ -96,7 +96,7 @@ TEST(Relocation, ARobotThatIsSetDownAnywhereFindsItselfWithinThreeMetres) {
   Count at_once, after_driving;
   for (int place = 0; place < places; ++place) {
     Simulation robot = robotIn(world, randomPlace(world, seen_from, random), place);
-    Explorer explorer(parameters.mapping, parameters.robot, parameters.exploration);
+    Explorer explorer(parameters.robot, parameters.exploration);
     Slam slam;
     slam.remember(memory);
     Observation seen = robot.observe();

@@ -48,7 +48,7 @@ struct Driver {
   HazardMemory memory;
 
   explicit Driver(const ExplorerParameters& parameters = {}, const KnownWorld& place = kRooms)
-      : explorer({}, {}, parameters), world(place) {}
+      : explorer({}, parameters), world(place) {}
 
   Action step() {
     const Scan scan = ahead(world.scanFrom(T_map_robot, 4.0), half_view);
@@ -129,7 +129,7 @@ TEST(Explorer, WithANarrowViewStopsBeforeItTurnsToLook) {
 }
 
 // It stands in clear view of the door, and the laser sees over it.
-TEST(Explorer, DrivesAroundWhatOnlyOtherSensorsMeetAndDoesNotMapIt) {
+TEST(Explorer, DrivesAroundWhatOnlyOtherSensorsMeet) {
   Driver driver;
   for (int k = 0; k <= 30; ++k) driver.low.emplace_back(2.5, 1.2 + 0.02 * k);
   double least = INFINITY;
@@ -144,10 +144,6 @@ TEST(Explorer, DrivesAroundWhatOnlyOtherSensorsMeetAndDoesNotMapIt) {
   EXPECT_EQ(driver.explorer.grid().at({120, 20}), CellState::kFree);
   EXPECT_GE(least, RobotParameters{}.radius);
   EXPECT_LT(least, 1.0) << "it was in the way";
-  for (const MapLine& line : driver.explorer.lineMap().lines()) {
-    const Eigen::Vector2d middle = 0.5 * (line.segment.start + line.segment.end);
-    EXPECT_FALSE(std::abs(middle.x() - 2.5) < 0.2 && std::abs(middle.y() - 1.5) < 0.5);
-  }
 }
 
 // Two lasers, one at each end of the robot, do not see what is between them.
@@ -159,7 +155,7 @@ TEST(Explorer, DrivesWithLasersThatLookAwayFromWhereItStands) {
   };
   Action action;
   for (int i = 0; i < 4000 && action.status != ExplorationStatus::kFinished; ++i) {
-    driver.explorer.addBeside(look(-0.15, M_PI), driver.T_map_robot);
+    driver.explorer.observe(look(-0.15, M_PI), driver.T_map_robot);
     action =
         driver.explorer.step({look(0.15, 0.0), driver.T_map_robot, driver.velocity, driver.time});
     driver.move(action.velocity);
@@ -196,7 +192,7 @@ struct StrayingDriver {
   Velocity velocity;
   double time = 0.0;
 
-  explicit StrayingDriver(const ExplorerParameters& parameters) : explorer({}, {}, parameters) {}
+  explicit StrayingDriver(const ExplorerParameters& parameters) : explorer({}, parameters) {}
 
   Action step(double stray) {
     Scan scan = kRooms.scanFrom(T_map_robot, 4.0);
@@ -215,13 +211,12 @@ struct StrayingDriver {
   }
   void correct() {
     past.correct(truth, std::vector<bool>(truth.size(), true));
-    explorer.correctMap(past);
-    explorer.correctNavigation(past);
+    explorer.correct(past);
     T_map_true = {};
   }
 };
 
-TEST(Explorer, MakesItsMapAnewAndFindsHomeWhereThePastIsCorrected) {
+TEST(Explorer, MakesItsGridAnewAndFindsHomeWhereThePastIsCorrected) {
   ExplorerParameters parameters;
   parameters.return_to_start = true;
   StrayingDriver driver(parameters);
@@ -243,10 +238,6 @@ TEST(Explorer, MakesItsMapAnewAndFindsHomeWhereThePastIsCorrected) {
     astray += is_inside;
   }
   EXPECT_EQ(astray, 0);
-  for (const MapLine& line : driver.explorer.lineMap().lines()) {
-    const Eigen::Vector2d way = line.segment.end - line.segment.start;
-    EXPECT_LT(std::min(std::abs(way.x()), std::abs(way.y())), 0.05);
-  }
 }
 
 TEST(Explorer, DrivesOnAsItDidWhereThePastIsCorrected) {
@@ -295,7 +286,7 @@ TEST(Explorer, BelievesInAnotherLatencyWhereItIsTold) {
 
 // Something holds a robot with a narrow laser: half a minute, and it goes on without.
 TEST(Explorer, APauseIsNoTimeForLookingAround) {
-  Explorer explorer({}, {}, {});
+  Explorer explorer({}, {});
   const Scan scan = ahead(kRooms.scanFrom(kStart, 4.0), 0.8);
   const auto reasonAt = [&](double time) { return explorer.step({scan, kStart, {}, time}).reason; };
   EXPECT_EQ(reasonAt(0.0), "to look around");
@@ -310,7 +301,7 @@ TEST(Explorer, APauseIsNoTimeForLookingAround) {
 TEST(Explorer, LooksAllAroundHoweverSlowlyItTurns) {
   RobotParameters slow;
   slow.max_angular_velocity = 0.1;
-  Explorer explorer({}, slow, {});
+  Explorer explorer(slow, {});
   const Scan scan = ahead(kRooms.scanFrom(kStart, 4.0), 0.8);
   for (const double time : {0.0, 60.0, 120.0, 150.0})
     EXPECT_EQ(explorer.step({scan, kStart, {}, time}).reason, "to look around") << time;
@@ -318,7 +309,7 @@ TEST(Explorer, LooksAllAroundHoweverSlowlyItTurns) {
 
 TEST(Explorer, StandsWherePosesAreNoNumbers) {
   const double nan = std::nan(""), inf = INFINITY;
-  Explorer explorer({}, {}, {});
+  Explorer explorer({}, {});
   double time = 0.0;
   for (const Pose2 pose : {Pose2{nan, 1.0, 0.0}, Pose2{1.0, inf, 0.0}, Pose2{1.0, 1.0, nan}, kStart,
                            Pose2{nan, nan, nan}, Pose2{inf, 1.0, 0.0}}) {
@@ -378,7 +369,7 @@ TEST(Explorer, StandsStillWhilePausedAndGoesOnAfterwards) {
 }
 
 TEST(Explorer, GivesUpGoalsThatARobotWhichCannotMoveDoesNotReach) {
-  Explorer explorer({}, {}, {});
+  Explorer explorer({}, {});
   const Scan scan = kRooms.scanFrom(kStart, 4.0);
   Action action;
   double time = 0.0;
@@ -438,10 +429,9 @@ struct OtherNavigation {
   double half_view = M_PI;  // rad
   Pose2 T_map_robot = kStart;
   double time = 0.0;
-  bool is_placed = true;
+  bool is_localised = true;
 
-  explicit OtherNavigation(const ExplorerParameters& parameters = {})
-      : explorer({}, {}, parameters) {
+  explicit OtherNavigation(const ExplorerParameters& parameters = {}) : explorer({}, parameters) {
     explorer.leaveDriving();
   }
 
@@ -449,7 +439,7 @@ struct OtherNavigation {
   Action step() {
     const Scan scan = ahead(kRooms.scanFrom(T_map_robot, 4.0), half_view);
     Observation observation{scan, T_map_robot, {}, time};
-    observation.is_placed = is_placed;
+    observation.is_localised = is_localised;
     const Action action = explorer.step(observation);
     EXPECT_EQ(action.velocity.linear, 0.0);
     EXPECT_EQ(action.velocity.angular, 0.0);
@@ -543,13 +533,13 @@ TEST(Explorer, HasNoGoalForOthersWhilePausedOrLost) {
   EXPECT_FALSE(other.step().goal);
   other.explorer.pause(false);
   EXPECT_TRUE(other.step().goal);
-  other.is_placed = false;
+  other.is_localised = false;
   for (int i = 0; i < 100; ++i) {
     const Action action = other.step();
     EXPECT_FALSE(action.goal);
     EXPECT_EQ(action.status, ExplorationStatus::kExploring);
   }
-  other.is_placed = true;
+  other.is_localised = true;
   EXPECT_TRUE(other.step().goal);
 }
 

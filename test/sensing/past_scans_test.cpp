@@ -22,15 +22,16 @@ PastScans metre() {
   return past;
 }
 
-TEST(PastScans, KeepAScanEveryTwentyCentimetresOrTenDegrees) {
+TEST(PastScans, KeepAScanEveryTenCentimetresOrFiveDegrees) {
   PastScans past = metre();
   EXPECT_EQ(past.size(), 21u);
-  EXPECT_GE(past.kept().size(), 5u);
-  EXPECT_LE(past.kept().size(), 6u);
+  EXPECT_GE(past.kept().size(), 9u);  // 5 cm a step: a sum of steps may lie short of 10 cm by a bit
+  EXPECT_LE(past.kept().size(), 11u);
+  past.add({}, {1.0, 0.1, 0.0});
   const std::size_t before = past.kept().size();
-  past.add({}, {1.0, 0.0, 0.1});
+  past.add({}, {1.0, 0.1, 0.05});
   EXPECT_EQ(past.kept().size(), before);
-  past.add({}, {1.0, 0.0, 0.2});
+  past.add({}, {1.0, 0.1, 0.1});
   EXPECT_EQ(past.kept().size(), before + 1);
 }
 

@@ -12,6 +12,7 @@
 #include "cca_mrpt/io/folder_lock.hpp"
 #include "cca_mrpt/io/pose_files.hpp"
 #include "cca_mrpt/mapping/line_map.hpp"
+#include "cca_mrpt/session/mapping_session.hpp"
 
 namespace cca {
 
@@ -36,6 +37,10 @@ struct MapProducts {
   /// Goes into summary.json, in this order, followed by the map's own numbers.
   nlohmann::ordered_json summary = nlohmann::ordered_json::object();
 };
+
+/// What a mapping session has made: lines, poly-lines, arcs, the trajectory of its drive and its
+/// times. @param title  for people.
+MapProducts mapProducts(const std::string& title, const MappingSession& session);
 
 /// Writes a map's folder: lines.csv, arcs.csv, lines.geojson, lines.svg, lines.dxf, map.png,
 /// map.pgm and map.yaml, map.gridmap.gz, map.linemap.gz, scene.3Dscene, poses.csv, poses.tum,

@@ -22,6 +22,10 @@ class ScanGrid {
   void insert(const Scan& scan);
 
   std::shared_ptr<const mrpt::maps::COccupancyGridMap2D> grid() const { return grid_; }
+  /// The grid as it is now, which later scans do not change.
+  std::shared_ptr<const mrpt::maps::COccupancyGridMap2D> copy() const {
+    return std::make_shared<mrpt::maps::COccupancyGridMap2D>(*grid_);
+  }
 
   static constexpr double kResolution = 0.05;   ///< m
   static constexpr double kLongestBeam = 25.0;  ///< m; beyond, a beam's footprint exceeds a cell

@@ -22,7 +22,7 @@ class PastScans {
     std::size_t sensor = 0;   ///< which laser
   };
 
-  /// Takes the next scan, and keeps it where the robot has moved 20 cm or 10 degrees since the last
+  /// Takes the next scan, and keeps it where the robot has moved 10 cm or 5 degrees since the last
   /// one that was kept.
   /// @param is_placed  whether the pose is known: otherwise it is kept until a correction tells it.
   /// @return  whether it was kept.

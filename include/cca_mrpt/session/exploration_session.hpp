@@ -8,6 +8,10 @@
 
 namespace cca {
 
+/// An observation made at a known pose as a measurement that brings this pose along.
+/// @param T_odom_robot  what the wheels say at that time.
+Measurement measurementOf(const Observation& seen, const std::optional<Pose2>& T_odom_robot);
+
 /// The one pipeline from scans to commands: a mapping session, and an explorer that sees each scan
 /// where the session has localised it, and moves along where the past is corrected.
 ///
@@ -37,6 +41,8 @@ class ExplorationSession {
   /// See MappingSession::finish().
   void finish(const DoAll& do_all = doInTurn);
 
+  /// Of the last scan.
+  const Estimate& estimate() const { return estimate_; }
   MappingSession& mapping() { return mapping_; }
   const MappingSession& mapping() const { return mapping_; }
   Explorer& explorer() { return explorer_; }
@@ -45,6 +51,7 @@ class ExplorationSession {
  private:
   MappingSession mapping_;
   Explorer explorer_;
+  Estimate estimate_;
 };
 
 }  // namespace cca

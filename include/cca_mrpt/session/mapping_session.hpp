@@ -39,7 +39,7 @@ void doNow(std::function<void()> work);
 /// and mapped; where the past is corrected, the map is made anew of the scans kept.
 ///
 /// Which scans make the map: where the localiser corrects the past, those that PastScans keeps, one
-/// every 20 cm or 10 degrees, so that a map can be made anew in time, and so that it depends on
+/// every 10 cm or 5 degrees, so that a map can be made anew in time, and so that it depends on
 /// the poses alone, not on when they became known. Where poses are final, every scan.
 class MappingSession {
  public:

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <ros/ros.h>
+#include <tf2_msgs/TFMessage.h>
+
+#include "cca_mrpt/slam/slam_localiser.hpp"
+#include "frame_names.hpp"
+#include "node_diagnostics.hpp"
+
+namespace cca {
+
+/// Publishes what line SLAM believes, as REP 105 has it: map -> odom on tf, `pose`, and
+/// `loop_markers`.
+class SlamPublisher {
+ public:
+  SlamPublisher(ros::NodeHandle& node, FrameNames frames);
+
+  /// After each scan. @param T_odom_robot  at its time.
+  void publish(const Estimate& estimate, const Pose2& T_odom_robot, const SlamLocaliser& localiser,
+               const ros::Time& stamp);
+  void note(const Estimate& estimate, const SlamLocaliser& localiser,
+            NodeDiagnostics& diagnostics) const;
+
+ private:
+  void publishTransform(const Pose2& T_map_odom, const ros::Time& stamp);
+  void publishPose(const Estimate& estimate, const ros::Time& stamp);
+  void publishLoops(const Slam& slam, const ros::Time& stamp);
+  void warnOfOthers(const ros::MessageEvent<const tf2_msgs::TFMessage>& event) const;
+
+  FrameNames frames_;
+  std::size_t loops_shown_ = 0;
+  ros::Publisher transforms_, poses_, loop_markers_;
+  ros::Subscriber others_;
+};
+
+}  // namespace cca
