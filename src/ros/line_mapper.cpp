@@ -125,9 +125,7 @@ class LineMapper {
     if (scan.topic != 0) {
       session_->addSecondary(measurement, scan.topic);
     } else {
-      if (session_->times().empty() && !measurement.T_map_robot) {
-        measurement.T_map_robot = T_map_restart_;
-      }
+      if (session_->times().empty() && slam_) measurement.T_map_robot = T_map_start_;
       show(session_->add(measurement), measurement, scan);
     }
     if (scan_lines_.getNumSubscribers() > 0) showLinesOf(scan);
@@ -142,7 +140,7 @@ class LineMapper {
   void show(const Estimate& estimate, const Measurement& measurement, const PlacedScan& scan) {
     estimate_ = estimate;
     if (estimate.was_corrected) {
-      if (path_) ROS_INFO("the localisation was corrected: the past is placed anew");
+      if (path_) path_->logCorrection();
       way_.replace(session_->times(), session_->trajectory());
     }
     if (slam_) {
@@ -169,7 +167,7 @@ class LineMapper {
 
   bool onReset(std_srvs::Trigger::Request& /*request*/, std_srvs::Trigger::Response& response) {
     const std::lock_guard<std::mutex> lock(saver_.mutex());
-    if (!session_->times().empty()) T_map_restart_ = estimate_.T_map_robot;
+    if (!session_->times().empty()) T_map_start_ = estimate_.T_map_robot;
     parameters_.resume.clear();
     begin();
     way_.replace({}, {});
@@ -197,9 +195,9 @@ class LineMapper {
   GridRecorder grid_;
   SlamLocaliser* slam_ = nullptr;  ///< the session's, with line SLAM
   std::unique_ptr<MappingSession> session_;
-  std::optional<CorrectedPath> path_;   ///< with corrections of tf's
-  Estimate estimate_;                   ///< the last one
-  std::optional<Pose2> T_map_restart_;  ///< where the robot was at the last ~reset
+  std::optional<CorrectedPath> path_;  ///< with corrections of tf's
+  Estimate estimate_;                  ///< the last one
+  Pose2 T_map_start_;                  ///< where SLAM's map begins: at the last ~reset
   std::optional<SlamPublisher> slam_publisher_;
   LinePublisher publisher_;
   WayPublisher way_;

@@ -40,6 +40,11 @@ CorrectedPath::CorrectedPath(ros::NodeHandle& node, ExternalCorrections& correct
     : corrections_(corrections),
       path_(node.subscribe("corrected_path", 1, &CorrectedPath::receive, this)) {}
 
+void CorrectedPath::logCorrection() const {
+  ROS_INFO("the localisation was corrected: the past is placed anew%s",
+           corrections_.isTold() ? " by corrected_path" : "");
+}
+
 void CorrectedPath::receive(const nav_msgs::Path& path) {
   std::vector<ExternalCorrections::TimedPose> poses;
   for (const auto& stamped : path.poses) {

@@ -30,6 +30,8 @@ class CorrectedPath {
  public:
   /// @param corrections  that take it; to outlive this.
   CorrectedPath(ros::NodeHandle& node, ExternalCorrections& corrections);
+  /// Logs that the past has been corrected, and by what.
+  void logCorrection() const;
 
  private:
   void receive(const nav_msgs::Path& path);

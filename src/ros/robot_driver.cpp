@@ -166,13 +166,16 @@ void RobotDriver::use(const PlacedScan& placed) {
   if (placed.topic != 0) return useBeside(placed);
   const ros::WallTime begin = ros::WallTime::now();
   if (exploration_.isAtEnd()) return exploration_.conclude(placed.stamp);
-  const Measurement measurement = measurementOf(placed, slam_ != nullptr);
+  Measurement measurement = measurementOf(placed, slam_ != nullptr);
+  // SLAM's map begins where the robot stands at its first scan.
+  if (slam_ && exploration_.session().mapping().times().empty()) measurement.T_map_robot = Pose2{};
   Observation observation = exploration_.sense(measurement, measuredVelocity(placed.stamp));
   const ExplorationSession& session = exploration_.session();
   if (slam_) {
     slam_publisher_->publish(session.estimate(), placed.T_fixed_robot, *slam_, placed.stamp);
     slam_publisher_->note(session.estimate(), *slam_, diagnostics_);
   } else if (session.estimate().was_corrected) {
+    path_->logCorrection();
     moveAlong(session.mapping().past().correctionHere());
   }
   if (const char* why = deaf()) {
@@ -194,7 +197,6 @@ void RobotDriver::use(const PlacedScan& placed) {
 
 /// Where the map was corrected, and what is kept stands in its frame.
 void RobotDriver::moveAlong(const Pose2& T_now_was) {
-  ROS_INFO("the localisation was corrected: the past is placed anew");
   hazards_.move(T_now_was);
   for (Beside& beside : beside_) beside.points.clear();  // the next are a tenth of a second away
 }
