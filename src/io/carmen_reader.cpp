@@ -5,14 +5,13 @@
 #include <stdexcept>
 
 #include "carmen_line.hpp"
+#include "cca_mrpt/sensing/missing_returns.hpp"
 #include "gzip_lines.hpp"
-#include "saturation.hpp"
 
 namespace cca {
 namespace {
 
 constexpr double kShortestRange = 0.05;   // m; below it a SICK reports errors
-constexpr double kOfOwnMaximum = 0.999;   // ROBOTLASER's no-returns are written with rounding
 constexpr double kLongestMounting = 2.0;  // m; a laser further from the robot is a corrected pose
 
 bool samePose(const Pose2& a, const Pose2& b, double tolerance) {
@@ -40,10 +39,11 @@ class Surveyor {
  public:
   void add(const CarmenScan& scan) {
     ++scans_;
-    const double own = scan.max_range > 0.0 ? kOfOwnMaximum * scan.max_range : HUGE_VAL;
-    for (const double range : scan.ranges) {
-      if (range < own) saturation_.add(range);
-    }
+    Scan read;
+    read.angle_increment = scan.angle_increment;
+    const double own = scan.max_range > 0.0 ? kOfReach * scan.max_range : HUGE_VAL;
+    for (const double range : scan.ranges) read.ranges.push_back(range < own ? range : HUGE_VAL);
+    saturation_.add(read);
     if (scan.message != CarmenMessage::kRearLaser) addMounting(scan);
     scans_with_odometry_ += odometry_lines_ > 0;
     odometry_lines_ = 0;
@@ -179,8 +179,8 @@ class CarmenReader : public LogReader {
   }
 
   double judged(double range, double own_maximum) const {
-    const bool no_return = range >= survey_.no_return_from ||
-                           (own_maximum > 0.0 && range >= kOfOwnMaximum * own_maximum);
+    const bool no_return =
+        range >= survey_.no_return_from || (own_maximum > 0.0 && range >= kOfReach * own_maximum);
     if (no_return) return HUGE_VAL;
     return range >= kShortestRange ? range : 0.0;
   }

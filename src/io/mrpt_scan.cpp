@@ -5,15 +5,16 @@
 
 #include <cmath>
 
+#include "cca_mrpt/sensing/saturation.hpp"
+
 namespace cca {
 namespace {
 
-constexpr double kSteepest = 0.966;   // cosine of 15 degrees: beyond, beams meet the floor
-constexpr double kOfMaximum = 0.999;  // maximum ranges come back from 32 bits
+constexpr double kSteepest = 0.966;  // cosine of 15 degrees: beyond, beams meet the floor
 constexpr float kInvalidOfMaximum = 1e-3F;
 
 double judged(double range, bool valid, double max_range) {
-  const bool at_maximum = max_range > 0.0 && range >= kOfMaximum * max_range;
+  const bool at_maximum = max_range > 0.0 && range >= kOfReach * max_range;
   if (at_maximum || (!valid && range == 0.0)) return HUGE_VAL;
   return valid && range > 0.0 ? range : 0.0;
 }

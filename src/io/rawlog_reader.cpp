@@ -11,9 +11,11 @@
 
 #include <cmath>
 #include <deque>
+#include <map>
 #include <stdexcept>
 
 #include "cca_mrpt/io/mrpt_scan.hpp"
+#include "cca_mrpt/sensing/missing_returns.hpp"
 #include "mrpt_objects.hpp"
 
 namespace cca {
@@ -122,6 +124,7 @@ class RawlogReader : public LogReader {
       ++tilted_;
       return std::nullopt;
     }
+    missing_returns_[observation.sensorLabel].judge(mounted->scan);
     LogRecord record;
     record.scan = std::move(mounted->scan);
     record.T_robot_sensor = record.scan.T_map_sensor = mounted->T_robot_sensor;
@@ -171,6 +174,7 @@ class RawlogReader : public LogReader {
   std::optional<double> action_time_;
   std::optional<Stamped> earlier_, later_;  ///< of plain observations
   std::deque<LogRecord> waiting_, ready_;
+  std::map<std::string, MissingReturns> missing_returns_;  ///< of each laser, by its label
   std::size_t tilted_ = 0;
 };
 
@@ -213,6 +217,7 @@ class SimpleMapReader : public LogReader {
       auto mounted = fromMrpt(*scan);
       left_out_ += !mounted;
       if (!mounted) continue;
+      missing_returns_[scan->sensorLabel].judge(mounted->scan);
       LogRecord record;
       record.scan = std::move(mounted->scan);
       record.T_robot_sensor = mounted->T_robot_sensor;
@@ -226,6 +231,7 @@ class SimpleMapReader : public LogReader {
   }
 
   mrpt::maps::CSimpleMap::Ptr map_;
+  std::map<std::string, MissingReturns> missing_returns_;  ///< of each laser, by its label
   std::size_t at_ = 0, left_out_ = 0;
   std::deque<LogRecord> ready_;
 };

@@ -10,6 +10,7 @@ namespace cca {
 namespace {
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
 /// Drivers round 2 pi / n up and repeat the first beam at the end.
 constexpr double kFullTurn = 2.0 * M_PI + 0.05;
 /// Drivers count one beam too many or too few, round their increment, and turn not quite evenly.
@@ -55,8 +56,9 @@ Scan scanFromMessage(const sensor_msgs::LaserScan& message) {
   scan.free_range_without_return = std::isfinite(message.range_max) ? message.range_max : 0.0;
   scan.ranges.reserve(message.ranges.size());
   for (const float range : message.ranges) {
-    const bool valid = range > 0.0f && range >= message.range_min && range <= message.range_max;
-    scan.ranges.push_back(valid || isNoReturn(range) ? range : kNaN);
+    const bool meant = range > 0.0f && range >= message.range_min;
+    const bool beyond = range > message.range_max;
+    scan.ranges.push_back(!meant ? kNaN : beyond ? kInfinity : range);
   }
   return scan;
 }

@@ -10,9 +10,10 @@
 namespace cca {
 
 /// A scan from a message, as REP-117 reads ranges: +inf is no return, -inf (too close) and NaN
-/// (error) are invalid, and so is a finite value outside [range_min, range_max]; invalid becomes
-/// NaN. Bearings are the message's own, whatever field of view or direction. Beams without return
-/// are free up to range_max.
+/// (error) are invalid, and so is a value below range_min; invalid becomes NaN. A value above
+/// range_max is no return: drivers write the end of their scale. (MissingReturns judges those of
+/// range_max itself.) Bearings are the message's own, whatever field of view or direction. Beams
+/// without return are declared to be free up to range_max.
 ///
 /// MRPT's own bridge is not used: it shifts every ray by one for several common lasers and ignores
 /// REP-117.
