@@ -46,7 +46,7 @@ bool SlamLocalisation::place(PlacedScan& placed) {
   const std::lock_guard<std::mutex> lock(mutex_);
   if (last_) past_.add(last_->scan, last_->T_fixed_robot, !pose_.is_lost);
   const Pose2 T_odom_robot = placed.T_fixed_robot;
-  const Pose2 T_robot_sensor = T_odom_robot.inverse() * placed.scan.T_map_sensor;
+  const Pose2 T_robot_sensor = placed.T_robot_sensor;
   const int version = pose_.version;
   pose_ = slam_.step(placed.scan, T_robot_sensor, T_odom_robot);
   T_map_odom_ = pose_.T_map_robot * T_odom_robot.inverse();
