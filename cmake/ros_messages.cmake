@@ -5,5 +5,5 @@ generate_messages(DEPENDENCIES geometry_msgs std_msgs)
 #catkin_lint: ignore missing_export_lib unused_include_path
 catkin_package(INCLUDE_DIRS include
                CATKIN_DEPENDS actionlib dynamic_reconfigure geometry_msgs message_runtime move_base_msgs nav_msgs
-                              roscpp rosgraph_msgs sensor_msgs std_msgs std_srvs visualization_msgs
+                              roscpp rosgraph_msgs sensor_msgs std_msgs std_srvs topic_tools visualization_msgs
                CFG_EXTRAS cca_mrpt-extras.cmake)

@@ -9,7 +9,7 @@ packages="build-essential ca-certificates cmake libboost-dev libcairo2-dev libcl
 ros="catkin libactionlib-dev libdiagnostic-updater-dev libdynamic-reconfigure-config-init-mutex-dev libgeometry-msgs-dev
   libmove-base-msgs-dev libnav-msgs-dev
   librosbag-dev libroscpp-dev libroslib-dev libsensor-msgs-dev libstd-msgs-dev libstd-srvs-dev libtf2-dev libtf2-msgs-dev
-  libvisualization-msgs-dev python3-diagnostic-msgs python3-nav-msgs python3-pil python3-rosbag
+  libtopic-tools-dev libvisualization-msgs-dev python3-diagnostic-msgs python3-nav-msgs python3-pil python3-rosbag
   python3-roslaunch python3-rospy python3-sensor-msgs python3-std-srvs python3-tf2-ros
   python3-visualization-msgs python3-yaml ros-core-dev rosbash rosout rviz"
 tests="catkin-lint chromium clang clang-format ffmpeg gdal-bin git imagemagick libbenchmark-dev libclang-rt-14-dev

@@ -11,6 +11,7 @@
 #include "cca_mrpt/io/log_reader.hpp"
 #include "cca_mrpt/mapping/line_extraction.hpp"
 #include "commands.hpp"
+#include "log_hint_options.hpp"
 #include "log_warnings.hpp"
 #include "parameter_options.hpp"
 
@@ -58,11 +59,12 @@ void addExtractCommand(CLI::App& program) {
   command->add_option("--arcs", *arcs, "CSV file to write for round pillars and curved walls");
   command->add_flag("--force", *force, "overwrite files that are there");
   auto options = std::make_shared<ParameterOptions>(*command, std::vector<std::string>{"mapping"});
-  command->callback([log, out, arcs, force, options] {
+  const auto hints = addLogHintOptions(*command);
+  command->callback([log, out, arcs, force, options, hints] {
     const Parameters parameters = options->resolve();
     requireNew(*out, *force);
     requireNew(*arcs, *force);
-    auto reader = openLog(*log);
+    auto reader = openLog(*log, *hints);
     std::string csv = kHeader, arcs_csv = kArcHeader;
     for (int id = 0; auto record = reader->next(); ++id) {
       if (arcs->empty()) {

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "commands.hpp"
+#include "log_hint_options.hpp"
 
 namespace cca::apps {
 namespace {
@@ -66,8 +67,9 @@ void addInfoCommand(CLI::App& program) {
   auto json = std::make_shared<bool>(false);
   command->add_option("LOG", *log, "MRPT .rawlog or .simplemap, CARMEN .log, ROS .bag")->required();
   command->add_flag("--json", *json, "as JSON");
-  command->callback([log, json] {
-    const Json info = inspectLog(*openLog(*log));
+  const auto hints = addLogHintOptions(*command);
+  command->callback([log, json, hints] {
+    const Json info = inspectLog(*openLog(*log, *hints));
     if (*json) {
       std::printf("%s\n", info.dump(2, ' ', false, Json::error_handler_t::replace).c_str());
       return;

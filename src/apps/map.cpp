@@ -11,6 +11,7 @@
 #include "cca_mrpt/io/map_products.hpp"
 #include "commands.hpp"
 #include "interruption.hpp"
+#include "log_hint_options.hpp"
 #include "log_warnings.hpp"
 #include "mapped_logs.hpp"
 #include "parameter_options.hpp"
@@ -21,6 +22,7 @@ namespace {
 struct MapOptions {
   std::vector<std::string> logs;
   std::string out, pose, resume;  // no pose source named: see makeMap()
+  std::shared_ptr<const LogHints> hints;
   bool force = false, quiet = false;
 };
 
@@ -53,6 +55,10 @@ void report(const MapOptions& options, const MapProducts& products, double secon
               options.out.c_str());
 }
 
+std::unique_ptr<LocalLog> open(const MapOptions& options, std::size_t k) {
+  return std::make_unique<LocalLog>(openLog(options.logs[k], *options.hints));
+}
+
 std::unique_ptr<MappedLogs> mapLogs(const MapOptions& options, std::unique_ptr<LocalLog> first,
                                     const Parameters& parameters,
                                     const Interruption& interruption) {
@@ -63,7 +69,7 @@ std::unique_ptr<MappedLogs> mapLogs(const MapOptions& options, std::unique_ptr<L
   if (!options.resume.empty()) logs.memory = loadMemory(options.resume);
   auto mapped = std::make_unique<MappedLogs>(logs, *first, parameters);
   for (std::size_t k = 0; k < options.logs.size() && !mapped->isInterrupted(); ++k) {
-    auto log = k == 0 ? std::move(first) : std::make_unique<LocalLog>(openLog(options.logs[k]));
+    auto log = k == 0 ? std::move(first) : open(options, k);
     mapped->take(options.logs[k], *log, interruption);
   }
   mapped->finish();
@@ -73,7 +79,7 @@ std::unique_ptr<MappedLogs> mapLogs(const MapOptions& options, std::unique_ptr<L
 void makeMap(const MapOptions& options, const Parameters& parameters) {
   const auto begin = std::chrono::steady_clock::now();
   const Interruption interruption;
-  auto log = std::make_unique<LocalLog>(openLog(options.logs.front()));
+  auto log = open(options, 0);
   if (interruption.requested()) throw std::runtime_error("interrupted; no map was begun");
   std::error_code unknown;
   const bool is_new = !std::filesystem::exists(options.out, unknown);
@@ -121,6 +127,7 @@ void addMapCommand(CLI::App& program) {
                       "DIR of an earlier map: go on with it, from anywhere in it");
   command->add_flag("--force", options->force, "overwrite a map that is there");
   command->add_flag("--quiet", options->quiet, "print nothing but errors");
+  options->hints = addLogHintOptions(*command);
   auto parameters =
       std::make_shared<ParameterOptions>(*command, std::vector<std::string>{"mapping", "icp"});
   command->callback([options, parameters] { makeMap(*options, parameters->resolve()); });

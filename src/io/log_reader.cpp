@@ -13,6 +13,7 @@
 #include "mrpt_objects.hpp"
 #include "rawlog_reader.hpp"
 #include "truth_file.hpp"
+#include "unzipped_file.hpp"
 
 namespace cca {
 namespace {
@@ -38,16 +39,34 @@ std::vector<LogKind>& addedKinds() {
   return kinds;
 }
 
-std::unique_ptr<LogReader> openAsWhatItIs(const std::string& path) {
+std::unique_ptr<LogReader> openAdded(const LogKind& kind, const std::string& path,
+                                     const LogHints& hints) try {
+  return kind.open(unzippedFile(path), hints);
+} catch (const std::runtime_error& error) {
+  throw std::runtime_error(path + ": " + error.what());
+}
+
+/// Logs that are known, and not read. @return  what this is one of; empty for any other.
+std::string unreadKind(const std::string& head) {
+  const auto begins = [&](const std::string& bytes) { return head.rfind(bytes, 0) == 0; };
+  if (begins("#ROSBAG")) return "a ROS bag, and this program was built without ROS";
+  if (begins("#ROSRECORD")) return "a ROS bag of version 1; those of version 2.0 are read";
+  if (begins("\x89MCAP")) return "an MCAP file, as ROS 2 records; the bags of ROS 1 are read";
+  if (begins("SQLite format 3")) return "a database, as ROS 2 records; the bags of ROS 1 are read";
+  return "";
+}
+
+std::unique_ptr<LogReader> openAsWhatItIs(const std::string& path, const LogHints& hints) {
   const std::string head = fileHead(path, kHead);
   if (head.empty()) throw std::runtime_error(path + ": is empty, or a damaged compressed file");
   for (const LogKind& kind : addedKinds()) {
-    if (kind.recognizes(head)) return readInChild(path, [&] { return kind.open(path); });
+    if (!kind.recognizes(head)) continue;
+    return readInChild(path, [&] { return openAdded(kind, path, hints); });
   }
-  if (head.rfind("#ROSBAG", 0) == 0) {
-    throw std::runtime_error(path +
-                             ": is a ROS bag of version 1, or this program was built without"
-                             " ROS, and cannot read bags");
+  const std::string unread = unreadKind(head);
+  if (!unread.empty()) throw std::runtime_error(path + ": is " + unread);
+  if (!hints.empty()) {
+    throw std::runtime_error(path + ": is no ROS bag: topic, base frame and mount tell of bags");
   }
   const std::string mrpt_class = mrptClassName(head);
   if (isSimpleMap(mrpt_class)) return readInChild(path, [&] { return openSimpleMap(path); });
@@ -81,8 +100,8 @@ class BegunLog : public LogReader {
 
 void addLogKind(LogKind kind) { addedKinds().push_back(std::move(kind)); }
 
-std::unique_ptr<LogReader> openLog(const std::string& path) {
-  auto log = openAsWhatItIs(path);
+std::unique_ptr<LogReader> openLog(const std::string& path, const LogHints& hints) {
+  auto log = openAsWhatItIs(path, hints);
   if (const auto truth = findTruthFile(path)) log = withTruth(std::move(log), *truth);
   auto first = log->next();
   if (!first) {

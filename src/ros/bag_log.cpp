@@ -1,64 +1,32 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "cca_mrpt/ros/bag_log.hpp"
 
-#include <nav_msgs/Odometry.h>
 #include <rosbag/bag.h>
 #include <rosbag/view.h>
-#include <sensor_msgs/LaserScan.h>
-#include <tf2_msgs/TFMessage.h>
 
 #include <algorithm>
 #include <map>
 #include <stdexcept>
 
+#include "bag_places.hpp"
+#include "bag_topics.hpp"
 #include "cca_mrpt/io/log_reader.hpp"
-#include "cca_mrpt/ros/pose_message.hpp"
 #include "cca_mrpt/ros/scan_message.hpp"
-#include "cca_mrpt/ros/transforms.hpp"
 #include "cca_mrpt/sensing/missing_returns.hpp"
 
 namespace cca {
 namespace {
 
-constexpr const char* kMapFrame = "map";
-constexpr const char* kOdomFrame = "odom";
-
-/// All of a bag's: poses are wanted at times before the next one is read.
-std::vector<Transforms::Message> transformsOf(const rosbag::Bag& bag) {
-  std::vector<Transforms::Message> messages;
-  rosbag::View view(bag, rosbag::TopicQuery({"/tf", "/tf_static", "tf", "tf_static"}));
-  for (const auto& message : view) {
-    const auto transforms = message.instantiate<tf2_msgs::TFMessage>();
-    const bool is_static = message.getTopic().find("static") != std::string::npos;
-    if (transforms) messages.push_back({*transforms, is_static});
-  }
-  return messages;
-}
-
-/// The topics of one message type, the one with most messages first.
-std::string busiestTopic(const rosbag::Bag& bag, const std::string& type) {
-  std::map<std::string, std::size_t> messages;
-  rosbag::View view(bag, rosbag::TypeQuery(type));
-  for (const auto& message : view) ++messages[message.getTopic()];
-  const auto busiest =
-      std::max_element(messages.begin(), messages.end(),
-                       [](const auto& a, const auto& b) { return a.second < b.second; });
-  return busiest == messages.end() ? std::string() : busiest->first;
-}
-
 class BagLog : public LogReader {
  public:
-  explicit BagLog(const std::string& path)
+  BagLog(const std::string& path, const LogHints& hints)
       : bag_(path, rosbag::bagmode::Read),
-        transforms_(transformsOf(bag_)),
-        view_(bag_, rosbag::TopicQuery({busiestTopic(bag_, "sensor_msgs/LaserScan"),
-                                        busiestTopic(bag_, "nav_msgs/Odometry")})),
+        topic_(laserTopic(hints.topic)),
+        odometry_topic_(busiest(topicsOf(bag_, {"nav_msgs/Odometry"})).value_or(BagTopic()).name),
+        places_(transformsOf(bag_), odometryOf(bag_, odometry_topic_), hints),
+        view_(bag_, rosbag::TopicQuery({topic_, odometry_topic_})),
         at_(view_.begin()) {
     messages_ = std::max<std::size_t>(view_.size(), 1);
-    base_ = transforms_.hasFrame("base_link")        ? "base_link"
-            : transforms_.hasFrame("base_footprint") ? "base_footprint"
-                                                     : "";
-    has_map_ = !base_.empty() && find(kMapFrame, base_, ros::Time()).has_value();
   }
 
   std::optional<LogRecord> next() override try {
@@ -70,12 +38,14 @@ class BagLog : public LogReader {
 
   std::string warnings() const override {
     std::string text = fault_;
-    const auto tell = [&text](std::size_t count, const char* what) {
-      if (count == 0) return;
-      text += (text.empty() ? "" : "; ") + std::to_string(count) + " " + what + " left out";
+    const auto tell = [&text](const std::string& more) {
+      text += (text.empty() || more.empty() ? "" : "; ") + more;
     };
-    tell(left_out_, "impossible or tilted scan(s)");
-    tell(unplaced_, "scan(s) that tf has no pose in 'map' for");
+    tell(of_topics_);
+    for (const auto& [rule, fault] : left_out_) {
+      tell(std::to_string(fault.scans) + " impossible scan(s) left out: " + fault.first);
+    }
+    tell(places_.warnings());
     return text;
   }
 
@@ -84,15 +54,34 @@ class BagLog : public LogReader {
   }
 
  private:
+  /// @param asked  empty: the one with most scans.
+  std::string laserTopic(const std::string& asked) {
+    const std::vector<BagTopic> lasers = laserTopicsOf(bag_);
+    if (lasers.empty()) of_topics_ = "topics: " + listed(topicsOf(bag_));
+    const auto is_asked = [&](const BagTopic& topic) {  // with or without its slash
+      return frameName(topic.name) == frameName(asked);
+    };
+    const auto found = std::find_if(lasers.begin(), lasers.end(), is_asked);
+    if (!asked.empty() && found == lasers.end()) {
+      throw std::runtime_error("topic '" + asked + "' holds no laser scans; these do: " +
+                               (lasers.empty() ? "none" : listed(lasers)));
+    }
+    const std::string topic =
+        asked.empty() ? busiest(lasers).value_or(BagTopic()).name : found->name;
+    if (lasers.size() > 1) {
+      of_topics_ =
+          "the scans are those of '" + topic + "' alone (--topic chooses), of " + listed(lasers);
+    }
+    return topic;
+  }
+
   std::optional<LogRecord> nextReadable() {
     for (; at_ != view_.end(); ++at_, ++read_) {
-      if (const auto odometry = at_->instantiate<nav_msgs::Odometry>()) take(*odometry);
-      const auto message = at_->instantiate<sensor_msgs::LaserScan>();
+      if (const auto odometry = at_->instantiate<nav_msgs::Odometry>()) places_.take(*odometry);
+      const auto message = scanOf(*at_);
       if (!message) continue;
       auto record = makeRecord(*message);
-      left_out_ += !record;
-      if (!record || !place(*record)) continue;
-      missing_returns_[frameName(message->header.frame_id)].judge(record->scan);
+      if (!record) continue;
       ++at_;
       ++read_;
       return record;
@@ -100,90 +89,50 @@ class BagLog : public LogReader {
     return std::nullopt;
   }
 
-  /// T_target_source; nothing where tf does not know it at that time, or it is not planar.
-  std::optional<PlanarPose> find(const std::string& target, const std::string& source,
-                                 const ros::Time& time) const try {
-    if (!transforms_.has(target, source, time)) return std::nullopt;
-    return transforms_.lookup(target, source, time);
-  } catch (const std::runtime_error&) {
-    return std::nullopt;
-  }
-
-  void take(const nav_msgs::Odometry& odometry) {
-    geometry_msgs::Transform transform;
-    transform.translation.x = odometry.pose.pose.position.x;
-    transform.translation.y = odometry.pose.pose.position.y;
-    transform.rotation = odometry.pose.pose.orientation;
-    try {
-      wheels_ = planarPose(transform).pose;
-    } catch (const std::runtime_error&) {
-      wheels_.reset();
-    }
-  }
-
-  std::optional<LogRecord> makeRecord(const sensor_msgs::LaserScan& message) const {
+  std::optional<LogRecord> makeRecord(const sensor_msgs::LaserScan& message) try {
     LogRecord record;
-    ros::Time time;
-    try {
-      record.scan = scanFromMessage(message);
-      time = sweepMiddle(message);
-    } catch (const std::runtime_error&) {
-      return std::nullopt;
-    }
+    record.scan = scanFromMessage(message);
+    const ros::Time time = sweepMiddle(message);
     record.time = time.toSec();
     record.has_time = !message.header.stamp.isZero();
     const std::string laser = frameName(message.header.frame_id);
-    const std::string base = base_.empty() ? laser : base_;
-    PlanarPose mounting;
-    if (const auto found = find(base, laser, time)) {
-      mounting = *found;
-    } else if (transforms_.hasFrame(laser) && !base_.empty() && laser != base_) {
-      return std::nullopt;
-    }
-    placeScan(record.scan, mounting);
-    record.T_robot_sensor = mounting.pose;
-    if (const auto pose = find(kMapFrame, base, time)) record.corrected = pose->pose;
-    if (const auto pose = find(kOdomFrame, base, time)) record.odometry = pose->pose;
-    if (!record.odometry) record.odometry = wheels_;
-    // At once, as who listens to tf has it: put together from the others it differs in the last
-    // bit.
-    if (const auto pose = find(kMapFrame, laser, time)) {
-      record.scan.T_map_sensor = pose->pose;
-    } else if (record.corrected) {
-      record.scan.T_map_sensor = *record.corrected * mounting.pose;
-    }
+    if (!places_.place(record, laser, time)) return std::nullopt;
+    missing_returns_[laser].judge(record.scan);
     return record;
+  } catch (const MalformedScan& fault) {
+    return leaveOut(fault.rule(), fault.what());
+  } catch (const std::runtime_error& error) {
+    return leaveOut(error.what(), error.what());
   }
 
-  /// Puts the scan where the robot was. tf may end before the scans, or begin after them: where the
-  /// bag knows `map`, a scan is not put into another frame instead.
-  /// @return  whether that place is known.
-  bool place(LogRecord& record) {
-    if (record.corrected) return has_map_ = true;
-    unplaced_ += has_map_;
-    if (has_map_) return false;
-    record.scan.T_map_sensor = record.odometry.value_or(Pose2()) * record.T_robot_sensor;
-    return true;
+  std::nullopt_t leaveOut(const std::string& rule, const std::string& text) {
+    Fault& fault = left_out_[rule];
+    if (++fault.scans == 1) fault.first = text;
+    return std::nullopt;
   }
+
+  struct Fault {
+    std::size_t scans = 0;
+    std::string first;
+  };
 
   rosbag::Bag bag_;
-  Transforms transforms_;
+  std::string of_topics_;  ///< what people should know of them
+  std::string topic_, odometry_topic_;
+  BagPlaces places_;
   rosbag::View view_;
   rosbag::View::iterator at_;
-  std::size_t messages_ = 1;
-  std::string base_;
-  bool has_map_ = false;  ///< tf knows the base in `map`, at some time
-  std::optional<Pose2> wheels_;
+  std::size_t messages_ = 1, read_ = 0;
   std::map<std::string, MissingReturns> missing_returns_;  ///< of each laser, by its frame
+  std::map<std::string, Fault> left_out_;                  ///< by the rule that is broken
   std::string fault_;
-  std::size_t read_ = 0, left_out_ = 0, unplaced_ = 0;
 };
 
-std::unique_ptr<LogReader> openBag(const std::string& path) {
+std::unique_ptr<LogReader> openBag(const std::string& file, const LogHints& hints) {
   try {
-    return std::make_unique<BagLog>(path);
+    return std::make_unique<BagLog>(file, hints);
   } catch (const rosbag::BagException& error) {
-    throw std::runtime_error(path + ": cannot be read as a ROS bag (" + error.what() +
+    throw std::runtime_error(std::string("cannot be read as a ROS bag (") + error.what() +
                              "); 'rosbag reindex' may mend one that broke off");
   }
 }

@@ -25,7 +25,7 @@ std::unique_ptr<Localiser> makeLocaliser(const std::string& pose, bool correctio
 Measurement measurementOf(const PlacedScan& placed, bool is_in_odometry) {
   Measurement measurement;
   measurement.scan = placed.scan;
-  measurement.T_robot_sensor = placed.T_fixed_robot.inverse() * placed.scan.T_map_sensor;
+  measurement.T_robot_sensor = placed.T_robot_sensor;
   measurement.time = placed.stamp.toSec();
   if (is_in_odometry) {
     measurement.T_odom_robot = placed.T_fixed_robot;

@@ -18,16 +18,27 @@ constexpr double kLongWait = 1.0;                // s; no localisation takes as 
 constexpr std::uint32_t kQueue = 5000;
 constexpr std::size_t kMostWaiting = 5000, kMostWaitingToDrive = 50;
 
+/// @throws std::runtime_error where it holds no scan.
+sensor_msgs::LaserScan scanOf(const topic_tools::ShapeShifter& message) try {
+  if (message.getDataType() == "sensor_msgs/MultiEchoLaserScan") {
+    return firstEchoes(*message.instantiate<sensor_msgs::MultiEchoLaserScan>());
+  }
+  return *message.instantiate<sensor_msgs::LaserScan>();
+} catch (const ros::Exception&) {
+  throw std::runtime_error("a " + message.getDataType() + " is no scan");
+}
+
 }  // namespace
 
 ScanFeed::ScanFeed(ros::NodeHandle& node, Settings settings, Sink sink)
     : settings_(std::move(settings)),
+      frames_{settings_.fixed_frame, settings_.robot_frame, settings_.odom_frame, std::nullopt},
       sink_(std::move(sink)),
       periods_(settings_.topics.size()),
       transforms_(node, [this] { serve(); }) {
   for (std::size_t topic = 0; topic < settings_.topics.size(); ++topic) {
     const auto take = [this, topic](const Event& event) { receive(event, topic); };
-    scans_.push_back(node.subscribe<sensor_msgs::LaserScan, const Event&>(
+    scans_.push_back(node.subscribe<topic_tools::ShapeShifter, const Event&>(
         settings_.topics[topic], kQueue, take, ros::VoidConstPtr(),
         ros::TransportHints().tcpNoDelay()));
   }
@@ -62,8 +73,8 @@ std::string ScanFeed::whyUnfit(const Waiting& w) const {
 
 void ScanFeed::receive(const Event& event, std::size_t topic) {
   startAnewIfClockWasSetBack();
-  const sensor_msgs::LaserScan& message = *event.getConstMessage();
   try {
+    const sensor_msgs::LaserScan message = scanOf(*event.getConstMessage());
     Waiting waiting{scanFromMessage(message),
                     message.header.stamp,
                     sweepMiddle(message),
@@ -85,27 +96,23 @@ void ScanFeed::receive(const Event& event, std::size_t topic) {
 
 std::optional<ros::Time> ScanFeed::latestPose(const std::string& laser_frame) const {
   const Transforms& tf = transforms_.transforms();
-  const auto laser = tf.latest(settings_.fixed_frame, laser_frame);
-  if (settings_.robot_frame.empty() || !laser) return laser;
-  const auto robot = tf.latest(settings_.fixed_frame, settings_.robot_frame);
+  const auto laser = tf.latest(frames_.fixed, laser_frame);
+  if (frames_.base.empty() || !laser) return laser;
+  const auto robot = tf.latest(frames_.fixed, frames_.base);
   return robot ? std::min(laser, robot) : robot;
 }
 
 /// tf comes in the order of time: a time that it has passed, and knows no pose for, it never will.
 ScanFeed::Pose ScanFeed::pose(const Waiting& w, const std::optional<ros::Time>& latest) const {
   if (!latest || (!latest->isZero() && w.middle > *latest)) return Pose::kExpected;
-  const Transforms& tf = transforms_.transforms();
-  const std::string& robot = settings_.robot_frame;
-  const bool is_known = tf.has(settings_.fixed_frame, w.frame, w.middle) &&
-                        (robot.empty() || tf.has(settings_.fixed_frame, robot, w.middle));
-  if (is_known) return Pose::kKnown;
+  if (hasPlacement(transforms_.transforms(), frames_, w.frame, w.middle)) return Pose::kKnown;
   return w.middle <= *latest ? Pose::kNever : Pose::kExpected;
 }
 
 std::string ScanFeed::whyNoPose(const Waiting& w) const {
   const Transforms& tf = transforms_.transforms();
-  const bool lacks_laser = !tf.has(settings_.fixed_frame, w.frame, w.middle);
-  return tf.whyNot(settings_.fixed_frame, lacks_laser ? w.frame : settings_.robot_frame);
+  const bool lacks_laser = !tf.has(frames_.fixed, w.frame, w.middle);
+  return tf.whyNot(frames_.fixed, lacks_laser ? w.frame : frames_.base);
 }
 
 void ScanFeed::serve() {
@@ -137,19 +144,19 @@ void ScanFeed::serve() {
 void ScanFeed::use(const Waiting& waiting) {
   const double oldest = periods_[waiting.topic].oldest(settings_.oldest);
   if (drives() && (ros::Time::now() - waiting.stamp).toSec() > oldest) return drop("too old");
-  PlacedScan placed{waiting.scan, {}, waiting.stamp, waiting.arrival, waiting.frame, waiting.topic};
-  const Transforms& tf = transforms_.transforms();
-  const std::string& robot = settings_.robot_frame;
+  PlacedScan placed;
+  placed.scan = waiting.scan;
+  placed.stamp = waiting.stamp;
+  placed.arrival = waiting.arrival;
+  placed.frame = waiting.frame;
+  placed.topic = waiting.topic;
   try {
-    placeScan(placed.scan, tf.lookup(settings_.fixed_frame, waiting.frame, waiting.middle));
-    placed.T_fixed_robot = robot.empty()
-                               ? placed.scan.T_map_sensor
-                               : tf.lookup(settings_.fixed_frame, robot, waiting.middle).pose;
-    const std::string& odom = settings_.odom_frame;
-    const std::string& source = robot.empty() ? waiting.frame : robot;
-    if (!odom.empty() && tf.has(odom, source, waiting.middle)) {
-      placed.T_odom_robot = tf.lookup(odom, source, waiting.middle).pose;
-    }
+    const ScanPlacement placement =
+        placementOf(transforms_.transforms(), frames_, waiting.frame, waiting.middle);
+    placeScan(placed.scan, placement.T_fixed_sensor);
+    placed.T_fixed_robot = placement.T_fixed_robot;
+    placed.T_robot_sensor = placement.T_robot_sensor;
+    placed.T_odom_robot = placement.T_odom_robot;
   } catch (const std::runtime_error& error) {
     return drop("no usable transform", error.what());
   }

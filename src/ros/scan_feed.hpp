@@ -2,7 +2,7 @@
 #pragma once
 
 #include <ros/ros.h>
-#include <sensor_msgs/LaserScan.h>
+#include <topic_tools/shape_shifter.h>
 
 #include <deque>
 #include <functional>
@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "cca_mrpt/ros/pose_gate.hpp"
+#include "cca_mrpt/ros/scan_placement.hpp"
 #include "cca_mrpt/sensing/missing_returns.hpp"
 #include "cca_mrpt/sensing/scan.hpp"
 #include "scan_period.hpp"
@@ -23,15 +24,17 @@ namespace cca {
 struct PlacedScan {
   Scan scan;  ///< T_map_sensor is in the fixed frame
   Pose2 T_fixed_robot;
-  ros::Time stamp;                      ///< of the message, its first beam
-  ros::Time arrival;                    ///< of the message here
-  std::string frame;                    ///< of the message: which laser
-  std::size_t topic;                    ///< which of the topics it came by
-  std::optional<Pose2> T_odom_robot{};  ///< where that is asked for and known
+  Pose2 T_robot_sensor;               ///< identity where the robot's frame is not asked for
+  ros::Time stamp;                    ///< of the message, its first beam
+  ros::Time arrival;                  ///< of the message here
+  std::string frame;                  ///< of the message: which laser
+  std::size_t topic;                  ///< which of the topics it came by
+  std::optional<Pose2> T_odom_robot;  ///< where that is asked for and known
 };
 
-/// Turns scans and tf into placed scans. A scan waits until tf has come to its stamp. What cannot
-/// be used is dropped, counted by reason, and told at most once in five seconds.
+/// Turns scans (sensor_msgs/LaserScan, or the first echoes of MultiEchoLaserScan) and tf into
+/// placed scans. A scan waits until tf has come to its stamp. What cannot be used is dropped,
+/// counted by reason, and told at most once in five seconds.
 ///
 /// For mapping, that is a message that no laser can have meant, and a scan that tf knows no pose
 /// for: the same as in `cca-mrpt map BAG`. Who drives can use no blind scan either (hardly a valid
@@ -68,7 +71,7 @@ class ScanFeed {
   };
   enum class Pose { kKnown, kExpected, kNever };
 
-  using Event = ros::MessageEvent<const sensor_msgs::LaserScan>;
+  using Event = ros::MessageEvent<const topic_tools::ShapeShifter>;
 
   void receive(const Event& event, std::size_t topic);
   void serve();
@@ -83,6 +86,7 @@ class ScanFeed {
   void startAnewIfClockWasSetBack();
 
   Settings settings_;
+  PlacementFrames frames_;
   Sink sink_;
   std::deque<Waiting> waiting_;
   PoseGate gate_;

@@ -2,9 +2,11 @@
 #include "cca_mrpt/ros/scan_message.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdio>
 #include <limits>
-#include <stdexcept>
+#include <vector>
 
 namespace cca {
 namespace {
@@ -16,21 +18,34 @@ constexpr double kFullTurn = 2.0 * M_PI + 0.05;
 /// Drivers count one beam too many or too few, round their increment, and turn not quite evenly.
 constexpr double kBeamsOff = 2.5, kShareOff = 0.1;
 
-void refuseUnless(bool sound, const char* what) {
-  if (!sound) throw std::runtime_error(std::string("LaserScan: ") + what);
+/// m. No 2-D laser has half of its returns from farther off, and no room is so small that half of
+/// its walls are nearer in millimetres.
+constexpr double kFarthestMedian = 250.0;
+
+template <class... Values>
+void refuseUnless(bool sound, const char* rule, const char* pattern, Values... values) {
+  if (sound) return;
+  std::array<char, 200> text{};
+  std::snprintf(text.data(), text.size(), pattern, values...);
+  throw MalformedScan(rule, text.data());
 }
 
 void check(const sensor_msgs::LaserScan& m) {
-  refuseUnless(std::isfinite(m.angle_min), "angle_min must be finite");
-  refuseUnless(std::isfinite(m.angle_increment), "angle_increment must be finite");
-  refuseUnless(std::isfinite(m.time_increment), "time_increment must be finite");
+  refuseUnless(std::isfinite(m.angle_min), "angle_min must be finite", "it is %g", m.angle_min);
+  refuseUnless(std::isfinite(m.angle_increment), "angle_increment must be finite", "it is %g",
+               m.angle_increment);
+  refuseUnless(std::isfinite(m.time_increment), "time_increment must be finite", "it is %g",
+               m.time_increment);
   refuseUnless(m.range_max > 0.0f && m.range_max > m.range_min,
-               "range_max must be positive and above range_min");
+               "range_max must be positive and above range_min", "range_max %g, range_min %g",
+               m.range_max, m.range_min);
   if (m.ranges.size() < 2) return;
-  refuseUnless(m.angle_increment != 0.0f, "angle_increment must not be 0");
+  refuseUnless(m.angle_increment != 0.0f, "angle_increment must not be 0", "%zu beams",
+               m.ranges.size());
   const double field_of_view =
       std::abs(m.angle_increment) * static_cast<double>(m.ranges.size() - 1);
-  refuseUnless(field_of_view <= kFullTurn, "the beams must not cover more than one turn");
+  refuseUnless(field_of_view <= kFullTurn, "the beams must not cover more than one turn",
+               "%zu beams, angle_increment %g", m.ranges.size(), m.angle_increment);
 }
 
 /// A driver that loses beams, or counts them the other way round, contradicts itself. An angle_max
@@ -42,7 +57,26 @@ void checkFieldOfView(const sensor_msgs::LaserScan& m) {
   const double allowed = std::max(kBeamsOff * std::abs(m.angle_increment),
                                   kShareOff * std::max(std::abs(declared), std::abs(covered)));
   refuseUnless(std::abs(declared - covered) <= allowed,
-               "ranges and angle_increment must lead from angle_min to angle_max");
+               "ranges and angle_increment must lead from angle_min to angle_max",
+               "%zu beams of angle_increment %g lead from angle_min %g to %g, not to angle_max %g",
+               m.ranges.size(), m.angle_increment, m.angle_min, m.angle_min + covered, m.angle_max);
+}
+
+/// Readings like the largest one are left out: drivers have numbers of their own for no return.
+void checkUnit(const sensor_msgs::LaserScan& m) {
+  std::vector<float> returns;
+  for (const float range : m.ranges) {
+    if (std::isfinite(range) && range > 0.0f) returns.push_back(range);
+  }
+  if (returns.empty()) return;
+  const float largest = *std::max_element(returns.begin(), returns.end());
+  const auto isLargest = [&](float range) { return range >= 0.999f * largest; };
+  returns.erase(std::remove_if(returns.begin(), returns.end(), isLargest), returns.end());
+  if (returns.empty()) return;
+  const auto middle = returns.begin() + static_cast<std::ptrdiff_t>(returns.size() / 2);
+  std::nth_element(returns.begin(), middle, returns.end());
+  refuseUnless(*middle <= kFarthestMedian, "ranges must be metres: they look like millimetres",
+               "half of the returns are beyond %g, range_max %g", *middle, m.range_max);
 }
 
 }  // namespace
@@ -50,6 +84,7 @@ void checkFieldOfView(const sensor_msgs::LaserScan& m) {
 Scan scanFromMessage(const sensor_msgs::LaserScan& message) {
   check(message);
   checkFieldOfView(message);
+  checkUnit(message);
   Scan scan;
   scan.angle_min = message.angle_min;
   scan.angle_increment = message.angle_increment;
@@ -59,6 +94,23 @@ Scan scanFromMessage(const sensor_msgs::LaserScan& message) {
     const bool meant = range > 0.0f && range >= message.range_min;
     const bool beyond = range > message.range_max;
     scan.ranges.push_back(!meant ? kNaN : beyond ? kInfinity : range);
+  }
+  return scan;
+}
+
+sensor_msgs::LaserScan firstEchoes(const sensor_msgs::MultiEchoLaserScan& message) {
+  sensor_msgs::LaserScan scan;
+  scan.header = message.header;
+  scan.angle_min = message.angle_min;
+  scan.angle_max = message.angle_max;
+  scan.angle_increment = message.angle_increment;
+  scan.time_increment = message.time_increment;
+  scan.scan_time = message.scan_time;
+  scan.range_min = message.range_min;
+  scan.range_max = message.range_max;
+  scan.ranges.reserve(message.ranges.size());
+  for (const auto& beam : message.ranges) {
+    scan.ranges.push_back(beam.echoes.empty() ? static_cast<float>(kNaN) : beam.echoes.front());
   }
   return scan;
 }

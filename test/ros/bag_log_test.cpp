@@ -6,10 +6,12 @@
 #include <nav_msgs/Odometry.h>
 #include <rosbag/bag.h>
 #include <sensor_msgs/LaserScan.h>
+#include <sensor_msgs/MultiEchoLaserScan.h>
 #include <tf2_msgs/TFMessage.h>
 
 #include <cmath>
 #include <cstdio>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <optional>
@@ -40,7 +42,7 @@ class BagLog : public testing::Test {
     bag_.write(topic, recorded_.value_or(at(time)), message);
   }
 
-  void scan(double time, float range_max = 10.0F) {
+  void scan(double time, float range_max = 10.0F, const std::string& topic = "/scan") {
     sensor_msgs::LaserScan message;
     message.header.stamp = at(time);
     message.header.frame_id = "/laser";
@@ -49,12 +51,30 @@ class BagLog : public testing::Test {
     message.range_min = 0.1F;
     message.range_max = range_max;
     message.ranges = {2.0F, HUGE_VALF, 0.05F};
-    bag_.write("/scan", recorded_.value_or(at(time)), message);
+    bag_.write(topic, recorded_.value_or(at(time)), message);
   }
 
-  std::unique_ptr<LogReader> open() {
+  void odometry(const std::string& odom, const std::string& base, const Pose2& pose, double time) {
+    nav_msgs::Odometry message;
+    message.header.stamp = at(time);
+    message.header.frame_id = odom;
+    message.child_frame_id = base;
+    message.pose.pose = poseMessage(pose);
+    bag_.write("/odom", at(time), message);
+  }
+
+  std::unique_ptr<LogReader> open(const LogHints& hints = {}) {
     bag_.close();
-    return openLog(path_);
+    return openLog(path_, hints);
+  }
+
+  std::string refusal(const LogHints& hints) {
+    try {
+      open(hints);
+    } catch (const std::runtime_error& error) {
+      return error.what();
+    }
+    return "";
   }
 
   const std::string path_ =
@@ -94,6 +114,118 @@ TEST_F(BagLog, OdometryMessagesStandInForTf) {
   ASSERT_TRUE(record->odometry.has_value());
   EXPECT_NEAR(record->odometry->x, 3.0, 1e-9);
   EXPECT_NEAR(record->odometry->theta, 0.5, 1e-9);
+}
+
+TEST_F(BagLog, OdometryMessagesAreInterpolatedAndTheirBaseIsTheRobots) {
+  transform("chassis", "laser", {0.2, 0.0, M_PI}, 0.0, "/tf_static");
+  odometry("wheels", "chassis", {1.0, 0.0, 0.0}, 0.0);
+  odometry("wheels", "chassis", {2.0, 0.0, 0.0}, 1.0);
+  scan(0.5);
+  const auto log = open();
+  const auto record = log->next();
+  ASSERT_TRUE(record.has_value());
+  EXPECT_NEAR(record->odometry->x, 1.5, 1e-6);
+  EXPECT_NEAR(record->T_robot_sensor.x, 0.2, 1e-6);
+  EXPECT_NEAR(record->scan.T_map_sensor.x, 1.7, 1e-6);
+  EXPECT_FALSE(log->next().has_value());
+  EXPECT_EQ(log->warnings(), "");
+}
+
+TEST_F(BagLog, FramesWithAPrefixAreThoseOfTheRobot) {
+  transform("robot1/base_link", "laser", {0.2, 0.0, 0.0}, 0.0, "/tf_static");
+  transform("robot1/odom", "robot1/base_link", {1.0, 0.0, 0.0}, 0.0);
+  scan(0.5);
+  transform("robot1/odom", "robot1/base_link", {2.0, 0.0, 0.0}, 1.0);
+  const auto record = open()->next();
+  ASSERT_TRUE(record.has_value());
+  ASSERT_TRUE(record->odometry.has_value());
+  EXPECT_NEAR(record->odometry->x, 1.5, 1e-6);
+  EXPECT_NEAR(record->scan.T_map_sensor.x, 1.7, 1e-6);
+}
+
+TEST_F(BagLog, ALaserWithoutAPlaceOnTheRobotIsNamed) {
+  transform("odom", "base_link", {0.0, 0.0, 0.0}, 0.0);
+  transform("odom", "base_link", {1.0, 0.0, 0.0}, 1.0);
+  scan(0.5);
+  const auto log = open();
+  const auto record = log->next();
+  ASSERT_TRUE(record.has_value());
+  EXPECT_NEAR(record->odometry->x, 0.5, 1e-6);
+  log->next();
+  EXPECT_THAT(log->warnings(),
+              testing::HasSubstr("'laser' has no place on the robot ('base_link') in tf"));
+}
+
+TEST_F(BagLog, AMountThatIsToldStandsInForTf) {
+  transform("odom", "base_link", {1.0, 0.0, 0.0}, 0.0);
+  scan(0.0);
+  const auto log = open({"", "", SensorMount{{0.1, 0.2, M_PI}, true}});
+  const auto record = log->next();
+  ASSERT_TRUE(record.has_value());
+  EXPECT_NEAR(record->T_robot_sensor.y, 0.2, 1e-9);
+  EXPECT_NEAR(record->scan.T_map_sensor.x, 1.1, 1e-9);
+  EXPECT_NEAR(record->scan.angle_increment, -1.0, 1e-9);
+  log->next();
+  EXPECT_EQ(log->warnings(), "");
+}
+
+TEST_F(BagLog, ABaseThatTfDoesNotKnowIsRefused) {
+  transform("odom", "base_link", {}, 0.0);
+  scan(0.0);
+  EXPECT_THAT(refusal({"", "chassis", {}}),
+              testing::HasSubstr("no such frame; it has 'base_link' 'odom'"));
+}
+
+TEST_F(BagLog, OfSeveralLasersTheOneThatIsReadIsTold) {
+  for (const double time : {0.1, 0.2, 0.3}) scan(time, 10.0F, "/rear");
+  scan(0.1, 20.0F, "/front");
+  auto log = open();
+  int scans = 0;
+  while (log->next()) ++scans;
+  EXPECT_EQ(scans, 3);
+  EXPECT_THAT(log->warnings(),
+              testing::StartsWith("the scans are those of '/rear' alone (--topic chooses), of "
+                                  "'/front' (sensor_msgs/LaserScan, 1 messages), '/rear'"));
+  log = open({"front", "", {}});
+  scans = 0;
+  while (log->next()) ++scans;
+  EXPECT_EQ(scans, 1);
+  EXPECT_THAT(refusal({"left", "", {}}), testing::HasSubstr("'left' holds no laser scans"));
+}
+
+TEST_F(BagLog, OfSeveralEchoesTheFirstIsRead) {
+  sensor_msgs::MultiEchoLaserScan message;
+  message.header.stamp = at(0.0);
+  message.header.frame_id = "laser";
+  message.angle_increment = 0.1F;
+  message.range_max = 10.0F;
+  message.ranges.resize(2);
+  message.ranges[0].echoes = {2.0F, 4.0F};
+  bag_.write("/echoes", at(0.0), message);
+  const auto record = open()->next();
+  ASSERT_TRUE(record.has_value());
+  EXPECT_EQ(record->scan.ranges[0], 2.0);
+  EXPECT_FALSE(isReturn(record->scan.ranges[1]));
+}
+
+TEST_F(BagLog, MayBeGzipped) {
+  scan(0.1);
+  scan(0.2);
+  bag_.close();
+  ASSERT_EQ(std::system(("gzip -kf " + path_).c_str()), 0);
+  const std::string zipped = path_ + ".gz";
+  const auto log = openLog(zipped);
+  int scans = 0;
+  while (log->next()) ++scans;
+  EXPECT_EQ(scans, 2);
+  std::filesystem::resize_file(zipped, std::filesystem::file_size(zipped) - 9);
+  EXPECT_THROW(openLog(zipped), std::runtime_error);
+  std::filesystem::remove(zipped);
+}
+
+TEST_F(BagLog, WithoutScansItsTopicsAreTold) {
+  odometry("odom", "base_link", {}, 0.0);
+  EXPECT_THAT(refusal({}), testing::HasSubstr("'/odom' (nav_msgs/Odometry, 1 messages)"));
 }
 
 TEST_F(BagLog, ScansAreNotPutIntoTwoFrames) {
@@ -154,7 +286,9 @@ TEST_F(BagLog, ImpossibleScansAreLeftOutAndSaid) {
   int scans = 0;
   while (log->next()) ++scans;
   EXPECT_EQ(scans, 2);
-  EXPECT_THAT(log->warnings(), testing::HasSubstr("1 impossible"));
+  EXPECT_THAT(log->warnings(),
+              testing::HasSubstr("1 impossible scan(s) left out: range_max must be positive and "
+                                 "above range_min (range_max -1, range_min 0.1)"));
 }
 
 TEST_F(BagLog, WithoutScansIsRefused) {

@@ -110,7 +110,8 @@ class Faults(unittest.TestCase):
             scan.ranges = [math.inf if k % 10 == 0 else 1e3 * r for k, r in enumerate(scan.ranges)]
         self.expect_stop_and_recovery(lambda: setattr(self.robot, "spoil", millimetres),
                                       lambda: setattr(self.robot, "spoil", lambda scan: None),
-                                      "blind")
+                                      "malformed")
+        self.assertTrue(any("they look like millimetres" in m.msg for m in self.log.messages))
 
     def test_07c_beams_that_do_not_fill_their_field_of_view(self):
         def backwards(scan):

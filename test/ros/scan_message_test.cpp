@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "cca_mrpt/ros/scan_message.hpp"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -122,6 +123,65 @@ TEST(ScanMessage, WhatNoLaserCanHaveMeantIsRefused) {
   refused([&](auto& m) { m.range_max = 0.0f; });
   refused([&](auto& m) { m.range_max = nan; });
   refused([&](auto& m) { m.time_increment = nan; });
+}
+
+std::string faultOf(const sensor_msgs::LaserScan& message) {
+  try {
+    scanFromMessage(message);
+  } catch (const MalformedScan& fault) {
+    return fault.what();
+  }
+  return "";
+}
+
+TEST(ScanMessage, ARefusalTellsTheRuleAndTheValuesThatBreakIt) {
+  auto message = messageOf({1.0f, 2.0f, 3.0f});
+  message.range_max = 0.0f;
+  EXPECT_EQ(faultOf(message),
+            "range_max must be positive and above range_min (range_max 0, range_min 0.1)");
+  message = messageOf(std::vector<float>(11, 1.0f));
+  message.angle_min = 1.0f;
+  message.angle_max = -1.0f;
+  EXPECT_EQ(faultOf(message),
+            "ranges and angle_increment must lead from angle_min to angle_max (11 beams of "
+            "angle_increment 0.1 lead from angle_min 1 to 2, not to angle_max -1)");
+}
+
+// range_max in the same unit, or not; some beams without return.
+TEST(ScanMessage, RangesInMillimetresAreRefusedAsSuch) {
+  const float inf = std::numeric_limits<float>::infinity();
+  auto message = messageOf({1410.0f, 1345.0f, inf, 900.0f, 350.0f, 5200.0f});
+  for (const float range_max : {12.0f, 12000.0f}) {
+    message.range_max = range_max;
+    EXPECT_THAT(faultOf(message), testing::HasSubstr("they look like millimetres"));
+  }
+}
+
+TEST(ScanMessage, ANumberThatStandsForNoReturnIsNoMillimetre) {
+  for (const float no_return : {65533.0f, 3.4e38f}) {
+    auto message = messageOf({2.0f, no_return, no_return, no_return, 3.0f, no_return});
+    EXPECT_EQ(faultOf(message), "");
+    message.ranges = {no_return, no_return};
+    EXPECT_EQ(faultOf(message), "");
+  }
+}
+
+TEST(ScanMessage, TheFirstOfSeveralEchoesIsTheRange) {
+  sensor_msgs::MultiEchoLaserScan message;
+  message.header.frame_id = "laser";
+  message.angle_increment = 0.1f;
+  message.range_min = 0.1f;
+  message.range_max = 10.0f;
+  message.ranges.resize(3);
+  message.ranges[0].echoes = {2.0f, 5.0f};
+  message.ranges[2].echoes = {std::numeric_limits<float>::infinity()};
+  const sensor_msgs::LaserScan first = firstEchoes(message);
+  EXPECT_EQ(first.header.frame_id, "laser");
+  const Scan scan = scanFromMessage(first);
+  EXPECT_EQ(scan.ranges[0], 2.0);
+  EXPECT_TRUE(std::isnan(scan.ranges[1]));
+  EXPECT_TRUE(isNoReturn(scan.ranges[2]));
+  EXPECT_EQ(scan.free_range_without_return, 10.0);
 }
 
 TEST(ScanMessage, TheMiddleOfTheSweepLiesHalfwayThroughItsBeams) {

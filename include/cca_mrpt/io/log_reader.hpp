@@ -34,18 +34,37 @@ class LogReader {
   virtual double progress() const = 0;
 };
 
+/// How a laser hangs on its robot.
+struct SensorMount {
+  Pose2 T_robot_sensor;
+  bool upside_down = false;
+};
+
+/// What a log may not tell, or tell more than once.
+struct LogHints {
+  std::string topic = {};       ///< of the laser; empty: the one with most scans
+  std::string base_frame = {};  ///< of the robot; empty: as the log's own frames tell it
+  std::optional<SensorMount> mount = {};
+
+  bool empty() const { return topic.empty() && base_frame.empty() && !mount; }
+};
+
 /// Opens a log by its content: MRPT .rawlog, .simplemap(.gz), CARMEN .log(.gz), ROS .bag (in builds
-/// with ROS). A file of true poses beside it (LOG.GT.txt, STEM_GT.txt) is read with it.
-/// @throws std::runtime_error naming the file and the reason; also where it holds no scan.
-std::unique_ptr<LogReader> openLog(const std::string& path);
+/// with ROS), each also gzipped. A file of true poses beside it (LOG.GT.txt, STEM_GT.txt) is read
+/// with it.
+/// @param hints  for bags only.
+/// @throws std::runtime_error naming the file and the reason; also where it holds no scan, and for
+///         hints that it cannot heed.
+std::unique_ptr<LogReader> openLog(const std::string& path, const LogHints& hints = {});
 
 /// A kind of log that openLog() knows besides its own.
 struct LogKind {
   std::string name;  ///< for people, as in messages
   /// Whether a file that begins with these bytes (unzipped) is one.
   std::function<bool(const std::string& head)> recognizes;
-  /// @throws std::runtime_error naming the file and the reason.
-  std::function<std::unique_ptr<LogReader>(const std::string& path)> open;
+  /// @param file  unzipped; the reader is the last thing of its process that reads it.
+  /// @throws std::runtime_error with the reason.
+  std::function<std::unique_ptr<LogReader>(const std::string& file, const LogHints& hints)> open;
 };
 
 /// Makes openLog() know one more kind of log. Not for use while logs are being opened.

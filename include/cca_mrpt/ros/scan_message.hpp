@@ -2,12 +2,27 @@
 #pragma once
 
 #include <sensor_msgs/LaserScan.h>
+#include <sensor_msgs/MultiEchoLaserScan.h>
 
+#include <stdexcept>
 #include <string>
 
 #include "cca_mrpt/sensing/scan.hpp"
 
 namespace cca {
+
+/// Of a message that no laser can have meant.
+class MalformedScan : public std::runtime_error {
+ public:
+  /// @param values  of this message, that break it.
+  MalformedScan(const std::string& rule, const std::string& values)
+      : std::runtime_error(rule + " (" + values + ")"), rule_(rule) {}
+  /// The same for each message with this fault.
+  const std::string& rule() const { return rule_; }
+
+ private:
+  std::string rule_;
+};
 
 /// A scan from a message, as REP-117 reads ranges: +inf is no return, -inf (too close) and NaN
 /// (error) are invalid, and so is a value below range_min; invalid becomes NaN. A value above
@@ -19,12 +34,14 @@ namespace cca {
 /// REP-117.
 ///
 /// @return  T_map_sensor is the identity: a message does not tell it.
-/// @throws std::runtime_error naming the field, for a message that no laser can have meant:
-/// bearings
-///         not finite, no increment between several beams, more than one turn of them, another
-///         number or direction of them than lead from angle_min to angle_max, or range limits that
-///         allow no range. A message without beams is a scan without beams.
+/// @throws MalformedScan with rule and values: bearings not finite, no increment between several
+///         beams, more than one turn of them, another number or direction of them than lead from
+///         angle_min to angle_max, range limits that allow no range, or ranges of which half are
+///         beyond 250 m, which are millimetres. A message without beams is a scan without beams.
 Scan scanFromMessage(const sensor_msgs::LaserScan& message);
+
+/// The scan of the nearest surface on each beam. A beam without any echo says nothing.
+sensor_msgs::LaserScan firstEchoes(const sensor_msgs::MultiEchoLaserScan& message);
 
 /// What a laser tells of itself besides its scan.
 struct LaserLimits {
