@@ -111,6 +111,85 @@ TEST(ExplorationGrid, BearingNoiseOpensNoWallThatTheRobotLooksAlong) {
   EXPECT_EQ(behind, 0);
 }
 
+/// A straight wall, seen from its right side (below it where it is not turned).
+struct StraightWall {
+  Eigen::Vector2d along, away;  ///< unit; away from the sensor
+  double offset;                ///< m, of the wall along `away`
+
+  StraightWall(double turn, double wall_offset)
+      : along(std::cos(turn), std::sin(turn)),
+        away(-std::sin(turn), std::cos(turn)),
+        offset(wall_offset) {}
+  Eigen::Vector2d at(double x, double behind = 0.0) const {
+    return x * along + (offset + behind) * away;
+  }
+  double behind(const Eigen::Vector2d& p) const { return p.dot(away) - offset; }
+};
+
+/// A full turn of 1 degree a beam from x along the wall, `before` it; what is farther than 8 m away
+/// does not return. Deviations: m along the beam.
+Scan lookAtWall(const StraightWall& wall, double x, double before, double sigma,
+                std::mt19937& random) {
+  std::normal_distribution<double> noise(0.0, 1.0);
+  Scan scan;
+  scan.angle_increment = M_PI / 180.0;
+  scan.free_range_without_return = 8.0;
+  scan.T_map_sensor = {wall.at(x, -before).x(), wall.at(x, -before).y(), 0.3};
+  for (std::size_t k = 0; k < 360; ++k) {
+    const double bearing = 0.3 + scan.bearing(k);
+    const double closing = wall.away.dot(Eigen::Vector2d(std::cos(bearing), std::sin(bearing)));
+    const double range = closing > 0.0 ? before / closing : kInf;
+    scan.ranges.push_back(range < 8.0 ? range + sigma * noise(random) : kInf);
+  }
+  return scan;
+}
+
+/// Of 4 m of a wall, looked at from places along it and then for long from one far end: cm that no
+/// wall stands for, seen or between two returns, and cells behind it that seem free.
+struct WallFaults {
+  int missing = 0, behind = 0;
+};
+
+WallFaults faultsOf(const StraightWall& wall, double before, double sigma) {
+  std::mt19937 random(1);
+  ExplorationGrid grid(0.05);
+  for (int k = 0; k <= 20; ++k) grid.insert(lookAtWall(wall, 0.2 * k, before, sigma, random));
+  for (int k = 0; k < 100; ++k) grid.insert(lookAtWall(wall, -2.0, before, sigma, random));
+  WallFaults faults;
+  for (int x = 0; x <= 400; ++x) {
+    bool stands = false;
+    for (const double deep : {0.0, 0.025, 0.05}) {
+      const CellState state = grid.at(grid.cellOf(wall.at(0.01 * x, deep)));
+      stands |= state == CellState::kOccupied || state == CellState::kPresumedWall;
+    }
+    faults.missing += !stands;
+  }
+  for (int y = grid.lowest().y; y <= grid.highest().y; ++y) {
+    for (int x = grid.lowest().x; x <= grid.highest().x; ++x) {
+      const bool is_behind = wall.behind(grid.centreOf({x, y})) > 0.05;
+      faults.behind += is_behind && isFree(grid.at({x, y}));
+    }
+  }
+  return faults;
+}
+
+// Real walls lie anywhere within the cells, at any angle.
+TEST(ExplorationGrid, AWallAnywhereWithinItsCellsIsOccupiedAndHidesWhatIsBehind) {
+  for (const double turn : {0.0, 0.03, 0.2, 0.5, M_PI / 4.0, 1.2}) {
+    for (const double offset : {0.0, 0.01, 0.02, 0.025, 0.03, 0.04}) {
+      for (const double before : {0.3, 1.0, 2.5}) {
+        for (const double sigma : {0.0, 0.01}) {
+          const WallFaults faults = faultsOf({turn, 1.0 + offset}, before, sigma);
+          const auto where = testing::Message() << "turned by " << turn << ", at " << offset << ", "
+                                                << before << " before it, noise " << sigma;
+          EXPECT_EQ(faults.missing, 0) << where;
+          EXPECT_EQ(faults.behind, 0) << where;
+        }
+      }
+    }
+  }
+}
+
 TEST(ExplorationGrid, LeavesInvalidRangesAndPosesAlone) {
   ExplorationGrid grid(0.05);
   for (const double bad : {std::numeric_limits<double>::quiet_NaN(), -kInf, 0.0, -1.0}) {

@@ -15,10 +15,9 @@ namespace {
 // drives some 3 % farther.
 constexpr double kFreeWay = 1.0;
 
-/// Cells' length that rays may go through opaque ones: cutting corners, but not through a
-/// wall. A surface on the border of two cells makes both occupied, and a ray that grazes it, or the
-/// jamb of a door, would end there.
-constexpr double kCut = 1.0;
+/// Cells' length that rays may go through opaque ones: by so much a surface may lie before such a
+/// cell's middle, and a ray before the surface may cut the cell's corner.
+constexpr double kCut = ExplorationGrid::kBehindSurface;
 
 constexpr int kCount = 360;
 /// Never along an axis: no ties at corners.

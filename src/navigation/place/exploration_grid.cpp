@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "cca_mrpt/geometry/cross.hpp"
 #include "cca_mrpt/sensing/beam.hpp"
 #include "cca_mrpt/sensing/range_noise.hpp"
+#include "surface_points.hpp"
 
 namespace cca {
 namespace {
@@ -22,11 +22,7 @@ constexpr double kWithin = 2.0;  // deviations: where a beam may be
 // Cells. What lies before a return is known to be free only up to this distance: noise and rounding
 // must not open the wall.
 constexpr double kBeforeSurface = 0.3;
-constexpr double kSteepest = 4.0;  // widest gap in one surface, in spacings of the beams
-constexpr double kWidestGuess = 1.5;
-// Of the gap, from it to a third return.
-constexpr double kLeastReach = 0.2, kMostReach = 4.0;
-constexpr double kInLine = 0.03;             // m, grows with that
+constexpr double kWidestGuess = 1.5;         // m, of a wall between two returns
 constexpr std::size_t kMostBetween = 8;      // rays between two beams
 constexpr double kLongestRangeCells = 4000;  // 200 m at 5 cm
 
@@ -51,13 +47,14 @@ void ExplorationGrid::insert(const Scan& raw_scan) {
   directions_.clear();
   for (std::size_t i = 0; i < scan.size(); ++i) directions_.push_back(directionOf(scan, i));
   findCertainRanges(scan);
+  const auto points =
+      surfacePoints(scan, directions_, resolution_, kBehindSurface, kLongestRangeCells);
   // Returns first: a cell that holds one is not cleared by a beam that passes beside the surface.
   for (std::size_t i = 0; i < scan.size(); ++i) {
-    const double range = scan.ranges[i] / resolution_;
-    if (!isReturn(range) || range > kLongestRangeCells) continue;
-    const Eigen::Vector2d hit = origin + (range + kBehindSurface) * directions_[i];
-    add(cellOf(hit * resolution_), kReturn / kPass * weightOf(noise_.variance(scan.ranges[i])));
+    if (!points[i].is_return) continue;
+    add(cellAt(points[i].inside), kReturn / kPass * weightOf(noise_.variance(scan.ranges[i])));
   }
+  markSurfaces(points);
   for (std::size_t i = 0; i < scan.size(); ++i) {
     const double range = certain_ranges_[i];
     const double free_range =
@@ -67,7 +64,6 @@ void ExplorationGrid::insert(const Scan& raw_scan) {
                 scan.ranges[i]);
   }
   presumeFree(scan);
-  presumeWalls(scan);
 }
 
 /// Of a beam that may lie so far beside or before where it is thought to be. @param variance  m^2.
@@ -122,36 +118,18 @@ void ExplorationGrid::passThrough(const Eigen::Vector2d& origin, const Eigen::Ve
 }
 
 // Far from the sensor the beams are wider apart than the cells. What lies between two returns of
-// one surface is most likely more of it, not a gap into the unknown.
-void ExplorationGrid::presumeWalls(const Scan& scan) {
-  const std::size_t n = scan.size();
-  for (std::size_t i = 0; i + 1 < n; ++i) {
-    const double a = scan.ranges[i], b = scan.ranges[i + 1];
-    if (!isReturn(a) || !isReturn(b) || std::max(a, b) > kLongestRangeCells * resolution_) continue;
-    const double behind = kBehindSurface * resolution_;
-    const Eigen::Vector2d origin = scan.T_map_sensor.position();
-    const Eigen::Vector2d from = origin + (a + behind) * directions_[i];
-    const Eigen::Vector2d to = origin + (b + behind) * directions_[i + 1];
-    const double gap = (to - from).norm();
-    const double spacing = std::min(a, b) * std::abs(scan.angle_increment);
-    if (gap < resolution_) continue;
-    if (gap > kSteepest * spacing) {
-      // Seen at a grazing angle: one surface only where a third return lies in line with both, and
-      // that lies about as far from them as they from each other. A return from around a corner,
-      // close by, is in line with anything: it would wall up doorways.
-      const Eigen::Vector2d along = (to - from) / gap;
-      const auto isInLine = [&](std::size_t k, const Eigen::Vector2d& end) {
-        if (k >= n || !isReturn(scan.ranges[k])) return false;
-        const Eigen::Vector2d p = origin + (scan.ranges[k] + behind) * directions_[k];
-        const Eigen::Vector2d offset = p - end;
-        const double reach = std::abs(offset.dot(along)) / gap;
-        return reach > kLeastReach && reach < kMostReach &&
-               std::abs(cross(along, offset)) < kInLine * (1.0 + reach);
-      };
-      if (gap > kWidestGuess || !(isInLine(i - 1, from) || isInLine(i + 2, to))) continue;
-    }
-    walkBeam(from / resolution_, (to - from) / gap, gap / resolution_, [&](Cell c, double) {
-      if (evidence_.at(c) < kWallPresumed) write(c, kWallPresumed);
+// one surface is most likely more of it, not a gap into the unknown. And a wall lies within its
+// cells: beams that meet it farther along pass before it there, which says nothing against it.
+void ExplorationGrid::markSurfaces(const std::vector<SurfacePoint>& points) {
+  const double widest = kWidestGuess / resolution_;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (!points[i].goes_on) continue;
+    const Eigen::Vector2d step = points[(i + 1) % points.size()].inside - points[i].inside;
+    const double gap = step.norm();
+    if (gap == 0.0) continue;
+    walkBeam(points[i].inside, step / gap, gap, [&](Cell c, double) {
+      counted_[c] = scans_;
+      if (evidence_.at(c) < kWallPresumed && gap <= widest) write(c, kWallPresumed);
       return true;
     });
   }

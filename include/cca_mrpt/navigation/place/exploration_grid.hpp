@@ -24,18 +24,21 @@ constexpr bool isFree(CellState state) {
   return state == CellState::kFree || state == CellState::kPresumedFree;
 }
 
+struct SurfacePoint;
+
 /// What is known of each place. It grows as the robot moves.
 ///
-/// A scan counts once in each cell: a return for it, otherwise a beam that passes against it. The
-/// evidence is bounded, so what has moved away is forgotten after eight scans, and more where the
-/// sensor's noise, learned from the scans, is not small beside a cell. A beam counts the less the
-/// farther it may lie from where it is thought to be, and it passes only what its neighbours within
-/// the bearing noise pass as well.
+/// A scan counts once in each cell: a return for it, otherwise a beam that passes against it, but
+/// not where the scan sees a surface in the cell, which is passed before it. The evidence is
+/// bounded, so what has moved away is forgotten after eight scans, and more where the sensor's
+/// noise, learned from the scans, is not small beside a cell. A beam counts the less the farther it
+/// may lie from where it is thought to be, and it passes only what its neighbours within the
+/// bearing noise pass as well.
 class ExplorationGrid {
  public:
-  /// Cells. A return counts for the cell half a cell behind the surface: that cell's edge is the
-  /// one nearest to the surface, and noise must be half a cell to thicken a wall, and with it close
-  /// a passage. So a surface may lie this far before an occupied cell.
+  /// Cells. A return counts for the cell half a cell behind the surface, square to it: that cell's
+  /// edge is the one nearest to the surface, and noise must be half a cell to thicken a wall, and
+  /// with it close a passage. So a surface may lie this far before an occupied cell.
   static constexpr double kBehindSurface = 0.5;
 
   /// @param resolution  m, side of a cell.
@@ -88,7 +91,7 @@ class ExplorationGrid {
   void write(Cell cell, Evidence& evidence, Evidence value);
   void passThrough(const Eigen::Vector2d& origin, const Eigen::Vector2d& direction, double length,
                    double ends_at);
-  void presumeWalls(const Scan& scan);
+  void markSurfaces(const std::vector<SurfacePoint>& points);
   void presumeFree(const Scan& scan);
 
   double resolution_;
