@@ -60,8 +60,7 @@ Raster<float> distanceTransform(const Mask& obstacles) {
   std::vector<float> in(longest), out(longest);
   for (std::size_t row = 0; row < rows; ++row) {
     const std::size_t first = row * columns;
-    for (std::size_t x = 0; x < columns; ++x)
-      in[x + 1] = obstacles.values[first + x] ? 0.0F : kFar;
+    for (std::size_t x = 0; x < columns; ++x) in[x + 1] = obstacles.values[first + x] ? 0.0F : kFar;
     transformLine(envelope, in, out, columns);
     for (std::size_t x = 0; x < columns; ++x) squares.values[first + x] = out[x + 1];
   }

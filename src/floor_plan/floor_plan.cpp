@@ -15,10 +15,10 @@
 namespace cca {
 namespace {
 
-constexpr int kMargin = 2;                          // cells around what is known
-constexpr double kDoor = 1.4, kOpening = 2.5;       // m, the widest of each kind
-constexpr double kStraightBy = 0.06;                // m, where lines do not make a valid polygon
-constexpr double kSmallestHole = 0.05;              // m^2
+constexpr int kMargin = 2;                     // cells around what is known
+constexpr double kDoor = 1.4, kOpening = 2.5;  // m, the widest of each kind
+constexpr double kStraightBy = 0.06;           // m, where lines do not make a valid polygon
+constexpr double kSmallestHole = 0.05;         // m^2
 
 std::vector<Passage> candidatePassages(const Structure& structure, const Raster<float>& clearance,
                                        const std::vector<MapLine>& lines,
@@ -83,7 +83,8 @@ void drawRoom(const Raster<int>& labels, const RegionOutline& border,
   }
 }
 
-/// Cells that a beam ended in or a line crosses: what borders on none of them borders on the unknown.
+/// Cells that a beam ended in or a line crosses: what borders on none of them borders on the
+/// unknown.
 Mask obstaclesSeen(const OccupancyRaster& grid, const std::vector<MapLine>& lines) {
   Mask seen = grid.alike(std::uint8_t{0});
   for (std::size_t k = 0; k < grid.values.size(); ++k)

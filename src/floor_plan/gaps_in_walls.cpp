@@ -9,11 +9,11 @@
 namespace cca {
 namespace {
 
-constexpr double kStep = 0.25;       // cells
+constexpr double kStep = 0.25;         // cells
 constexpr double kCosParallel = 0.97;  // 14 degrees
-constexpr double kViewed = 0.12;     // m before a wall's face, past the cells that its noise fills
+constexpr double kViewed = 0.12;  // m before a wall's face, past the cells that its noise fills
 constexpr double kWall = 0.6;
-constexpr double kSideways = 0.3;    // m; the other wall may be thicker, or stand off by that much
+constexpr double kSideways = 0.3;  // m; the other wall may be thicker, or stand off by that much
 
 /// Follows a ray from inside a wall's end over open cells to the next solid one. Up to the gap the
 /// wall goes on without a line, which its viewer's side shows: there it is open.
@@ -69,8 +69,10 @@ std::vector<Passage> gapsInWalls(const Mask& solid, const std::vector<MapLine>& 
       const Eigen::Vector2d to_viewer = -(tuning.depth + kViewed) * into_wall;
       auto gap = openStretch(solid, from, direction, to_viewer, tuning);
       if (!gap) continue;
-      if (goesOn(*gap, direction, lines, tuning)) gap->evidence = PassageEvidence::kCollinear;
-      else if (s.length() < kWall) continue;
+      if (goesOn(*gap, direction, lines, tuning))
+        gap->evidence = PassageEvidence::kCollinear;
+      else if (s.length() < kWall)
+        continue;
       gaps.push_back(*gap);
     }
   }

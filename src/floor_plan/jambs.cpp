@@ -31,8 +31,7 @@ double shiftOfJamb(const Eigen::Vector2d& jamb, const Eigen::Vector2d& way,
     if (std::abs(direction.dot(way)) < kAcross) {
       const double sine = cross(way, direction);
       const double along = cross(off, direction) / sine, at = cross(off, way) / sine;
-      if (std::abs(along) < tuning.search && at > -tuning.search &&
-          at < s.length() + tuning.search)
+      if (std::abs(along) < tuning.search && at > -tuning.search && at < s.length() + tuning.search)
         across.add(along);
       continue;
     }

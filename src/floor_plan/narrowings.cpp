@@ -15,7 +15,8 @@ namespace {
 
 constexpr double kJambReach = 0.2;  // m, from the end of a wall
 
-/// Basins of the watershed, each a tree of labels; a label's peak is the clearance that it began at.
+/// Basins of the watershed, each a tree of labels; a label's peak is the clearance that it began
+/// at.
 class Basins {
  public:
   int create(float peak) {
@@ -24,7 +25,8 @@ class Basins {
     return parent_.back();
   }
   int root(int label) {
-    while (parent_[at(label)] != label) label = parent_[at(label)] = parent_[at(parent_[at(label)])];
+    while (parent_[at(label)] != label)
+      label = parent_[at(label)] = parent_[at(parent_[at(label)])];
     return label;
   }
   float peak(int root) const { return peak_[at(root)]; }
@@ -114,8 +116,7 @@ bool isWallEnd(const Eigen::Vector2d& jamb, const std::vector<WallEnd>& ends) {
 }  // namespace
 
 std::vector<Passage> narrowings(const Mask& solid, const Raster<float>& clearance,
-                                const std::vector<WallEnd>& ends,
-                                const PassageTuning& tuning) {
+                                const std::vector<WallEnd>& ends, const PassageTuning& tuning) {
   const Raster<int> basins = watershed(clearance, tuning.ridge_drop);
   std::map<std::pair<int, int>, std::vector<std::size_t>> borders;
   for (std::size_t k = 0; k < basins.values.size(); ++k) {
@@ -144,8 +145,7 @@ std::vector<Passage> narrowings(const Mask& solid, const Raster<float>& clearanc
       });
       if (is_near || 2.0 * clearance.values[k] < tuning.narrowest) continue;
       saddles.push_back(p);
-      if (auto passage = between(solid, clearance.cell(k), clearance.values[k]))
-{
+      if (auto passage = between(solid, clearance.cell(k), clearance.values[k])) {
         const int jambs = isWallEnd(passage->a, ends) + isWallEnd(passage->b, ends);
         passage->evidence = static_cast<PassageEvidence>(jambs);
         found.push_back(*passage);

@@ -10,7 +10,8 @@ namespace {
 
 /// Steps along cell sides, counter-clockwise: right, up, left, down.
 constexpr std::array<Cell, 4> kSteps{{{1, 0}, {0, 1}, {-1, 0}, {0, -1}}};
-/// The cell on the left of a step from a corner, relative to it (corner (0, 0) is that of cell (0, 0)).
+/// The cell on the left of a step from a corner, relative to it (corner (0, 0) is that of cell (0,
+/// 0)).
 constexpr std::array<Cell, 4> kLeft{{{0, 0}, {-1, 0}, {-1, -1}, {0, -1}}};
 /// The cell on its right.
 constexpr std::array<Cell, 4> kRight{{{0, -1}, {0, 0}, {-1, 0}, {-1, -1}}};
@@ -36,7 +37,8 @@ Polygon follow(const Raster<int>& labels, Cell corner, int direction, PassedSide
   const int label = labels[corner + kLeft[d0]];
   const auto isIn = [&](Cell c) { return labels.at(c, -1) == label; };
   Polygon chain;
-  while (passed.pass(labels.index(corner + kLeft[static_cast<std::size_t>(direction)]), direction)) {
+  while (
+      passed.pass(labels.index(corner + kLeft[static_cast<std::size_t>(direction)]), direction)) {
     chain.emplace_back(corner.x, corner.y);
     corner = corner + kSteps[static_cast<std::size_t>(direction)];
     // Left first: cells that touch at a corner only do not hang together.

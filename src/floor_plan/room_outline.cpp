@@ -12,7 +12,8 @@ namespace cca {
 namespace {
 
 constexpr int kNone = -1;
-constexpr double kSeenFrom = 0.3;  // cosine; a side of a cell on a slanted line looks aside by 45 degrees
+constexpr double kSeenFrom =
+    0.3;  // cosine; a side of a cell on a slanted line looks aside by 45 degrees
 constexpr double kParallel = 0.2;  // sine of the angle below which two lines do not meet
 
 struct Edge {
@@ -195,7 +196,8 @@ std::vector<Run> cleaned(std::vector<int>& edge_of, const std::vector<Edge>& edg
   };
   for (const Run& run : runsOf(edge_of)) {
     if (run.edge == kNone) continue;
-    const double enough = std::min(tuning.shortest_run, 0.5 * edges[static_cast<std::size_t>(run.edge)].length);
+    const double enough =
+        std::min(tuning.shortest_run, 0.5 * edges[static_cast<std::size_t>(run.edge)].length);
     if (length(run) >= enough) continue;
     for (std::size_t k = run.first; k <= run.last; ++k) edge_of[k % edge_of.size()] = kNone;
   }
@@ -214,7 +216,8 @@ std::vector<Run> cleaned(std::vector<int>& edge_of, const std::vector<Edge>& edg
       joined.push_back(run);
     }
   }
-  if (joined.size() > 1 && joined.front().edge == joined.back().edge && joined.front().edge != kNone) {
+  if (joined.size() > 1 && joined.front().edge == joined.back().edge &&
+      joined.front().edge != kNone) {
     joined.front().first = joined.back().first;
     joined.pop_back();
   }

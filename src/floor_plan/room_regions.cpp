@@ -14,13 +14,13 @@ namespace {
 constexpr double kNiche = 1.001;  // excess
 constexpr double kSmall = 10.0;   // excess: what is no room joins first
 
-constexpr double kNearest = 0.35, kFarthest = 1.0;  // m from a passage: past the wall, before the next
-constexpr double kWidest = 8.0;                     // m to each side; wider is wide
+constexpr double kNearest = 0.35,
+                 kFarthest = 1.0;  // m from a passage: past the wall, before the next
+constexpr double kWidest = 8.0;    // m to each side; wider is wide
 
 /// Cells from wall to wall, with one more at each end.
 std::vector<Cell> cutCells(const Mask& space, const Passage& passage) {
-  const Eigen::Vector2d beyond =
-      1.5 * space.resolution * (passage.b - passage.a).normalized();
+  const Eigen::Vector2d beyond = 1.5 * space.resolution * (passage.b - passage.a).normalized();
   return cellsAlong(space, passage.a - beyond, passage.b + beyond);
 }
 
@@ -57,7 +57,8 @@ void growLabels(const Mask& space, Raster<int>& labels) {
 /// The labels on both sides of a passage: those most often seen some cells off its line.
 std::array<int, 2> sidesOf(const Raster<int>& labels, const Passage& passage) {
   const Eigen::Vector2d way = passage.b - passage.a;
-  const Eigen::Vector2d across = labels.resolution * Eigen::Vector2d(-way.y(), way.x()).normalized();
+  const Eigen::Vector2d across =
+      labels.resolution * Eigen::Vector2d(-way.y(), way.x()).normalized();
   std::array<int, 2> sides{-1, -1};
   for (int side = 0; side < 2; ++side) {
     std::map<int, int> seen;
@@ -116,10 +117,13 @@ double depthBeside(const Passage& passage, double resolution, bool left, IsOpen&
 /// Relative width up to which a passage may be a door.
 double widestDoor(PassageEvidence evidence, const RoomTuning& tuning) {
   switch (evidence) {
-    case PassageEvidence::kNarrowing: return tuning.widest_narrowing;
-    case PassageEvidence::kAbutting: return tuning.widest_abutting;
+    case PassageEvidence::kNarrowing:
+      return tuning.widest_narrowing;
+    case PassageEvidence::kAbutting:
+      return tuning.widest_abutting;
     case PassageEvidence::kCollinear:
-    case PassageEvidence::kBetweenEnds: break;
+    case PassageEvidence::kBetweenEnds:
+      break;
   }
   return tuning.widest_collinear;
 }
@@ -133,8 +137,8 @@ std::vector<Passage> plausible(const Mask& space, const std::vector<Passage>& pa
     const double q0 = passage.width() / widthBeside(passage, space.resolution, false, isOpen);
     const double q1 = passage.width() / widthBeside(passage, space.resolution, true, isOpen);
     const bool is_door = std::max(q0, q1) <= widestDoor(passage.evidence, tuning);
-    const bool is_mouth = passage.evidence != PassageEvidence::kNarrowing &&
-                          std::min(q0, q1) <= tuning.widest_mouth;
+    const bool is_mouth =
+        passage.evidence != PassageEvidence::kNarrowing && std::min(q0, q1) <= tuning.widest_mouth;
     if (is_door || is_mouth) kept.push_back(passage);
   }
   return kept;
@@ -145,8 +149,11 @@ class RegionGraph {
  public:
   RegionGraph(const Raster<int>& labels, int count, const Raster<float>& clearance,
               const std::vector<Passage>& passages, const RoomTuning& tuning)
-      : tuning_(tuning), labels_(labels), joined_(static_cast<std::size_t>(count)),
-        peak_(static_cast<std::size_t>(count), 0.0), area_(peak_) {
+      : tuning_(tuning),
+        labels_(labels),
+        joined_(static_cast<std::size_t>(count)),
+        peak_(static_cast<std::size_t>(count), 0.0),
+        area_(peak_) {
     std::iota(joined_.begin(), joined_.end(), 0);
     const double cell_area = labels.resolution * labels.resolution;
     for (std::size_t k = 0; k < labels.values.size(); ++k) {

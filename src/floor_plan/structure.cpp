@@ -54,8 +54,7 @@ OccupancyRaster cropToKnown(const OccupancyRaster& grid, int margin_cells) {
   part.columns = high.x - low.x + 1;
   part.rows = high.y - low.y + 1;
   part.origin = grid.inMetres({low.x, low.y});
-  part.values.reserve(static_cast<std::size_t>(part.columns) *
-                      static_cast<std::size_t>(part.rows));
+  part.values.reserve(static_cast<std::size_t>(part.columns) * static_cast<std::size_t>(part.rows));
   for (int y = low.y; y <= high.y; ++y) {
     for (int x = low.x; x <= high.x; ++x)
       part.values.push_back(grid.at({x, y}, Occupancy::kUnknown));
@@ -79,10 +78,9 @@ Structure tellStructure(const OccupancyRaster& grid, const std::vector<MapLine>&
   for (std::size_t k = 0; k < grid.values.size(); ++k) {
     const int label = parts.labels.values[k];
     const auto part = static_cast<std::size_t>(label);
-    const bool is_small =
-        label >= 0 && label != outside &&
-        (extent[part] <= tuning.pillar ||
-         (extent[part] <= tuning.group && longest[part] < tuning.pillar));
+    const bool is_small = label >= 0 && label != outside &&
+                          (extent[part] <= tuning.pillar ||
+                           (extent[part] <= tuning.group && longest[part] < tuning.pillar));
     found.open.values[k] = label < 0;
     found.furniture.values[k] = is_small;
     found.solid.values[k] = label >= 0 && !is_small;

@@ -11,8 +11,8 @@ namespace {
 
 constexpr double kCosAntiparallel = -0.97;  // 14 degrees
 constexpr double kCosAcross = 0.5;
-constexpr double kAhead = 0.25;             // m; what lies that far before the end is open
-constexpr double kCap = 0.3;                // m, from the end to a line that begins there
+constexpr double kAhead = 0.25;  // m; what lies that far before the end is open
+constexpr double kCap = 0.3;     // m, from the end to a line that begins there
 
 /// Whether the wall turns: a long line begins at its end, and leads off across.
 bool turns(const WallEnd& end, const std::vector<MapLine>& lines, const WallEndTuning& tuning) {
@@ -36,7 +36,8 @@ std::vector<WallEnd> freeWallEnds(const Mask& solid, const std::vector<MapLine>&
     const Eigen::Vector2d along = a.direction();
     for (const MapLine& other : lines) {
       const LineSegment& b = other.segment;
-      if (b.length() < tuning.shortest_face || along.dot(b.direction()) > kCosAntiparallel) continue;
+      if (b.length() < tuning.shortest_face || along.dot(b.direction()) > kCosAntiparallel)
+        continue;
       // The wall lies on the right of both.
       const Eigen::Vector2d off = b.start - a.end;
       const double thickness = -cross(along, off);

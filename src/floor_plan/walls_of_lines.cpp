@@ -69,16 +69,15 @@ std::vector<FacePair> facePairs(const Mask& solid, const std::vector<MapLine>& l
       if (common.length() < tuning.shortest) continue;
       const double middle = 0.5 * (common.begin + common.end);
       const Eigen::Vector2d p = a.start + middle * along;
-      const double thickness = -cross(b.direction(), Eigen::Vector2d(p - b.start)) /
-                               std::abs(along.dot(b.direction()));
+      const double thickness =
+          -cross(b.direction(), Eigen::Vector2d(p - b.start)) / std::abs(along.dot(b.direction()));
       if (thickness < tuning.thinnest || thickness > tuning.thickest) continue;
       if (!isSolidBetween(solid, p + 0.5 * thickness * into_wall)) continue;
       pairs.push_back({i, j, common, thickness});
     }
   }
-  std::stable_sort(pairs.begin(), pairs.end(), [](const FacePair& p, const FacePair& q) {
-    return p.thickness < q.thickness;
-  });
+  std::stable_sort(pairs.begin(), pairs.end(),
+                   [](const FacePair& p, const FacePair& q) { return p.thickness < q.thickness; });
   return pairs;
 }
 
@@ -90,7 +89,8 @@ PlanWall wallBetween(const MapLine& one, const MapLine& other, const FacePart& s
   const auto thicknessAt = [&](const Eigen::Vector2d& p) {
     return std::max(0.0, -cross(b.direction(), Eigen::Vector2d(p - b.start)));
   };
-  const Eigen::Vector2d start = a.start + stretch.begin * along, end = a.start + stretch.end * along;
+  const Eigen::Vector2d start = a.start + stretch.begin * along,
+                        end = a.start + stretch.end * along;
   wall.start = start + 0.5 * thicknessAt(start) * into_wall;
   wall.end = end + 0.5 * thicknessAt(end) * into_wall;
   wall.thickness = 0.5 * (thicknessAt(start) + thicknessAt(end));
@@ -113,7 +113,7 @@ std::vector<PlanWall> wallsOfLines(const Mask& solid, const std::vector<MapLine>
       for (const FacePart& t : theirs) {
         const FacePart back = seenAlong(b, a, t);
         const FacePart common{std::max({s.begin, back.begin, pair.common.begin}),
-                             std::min({s.end, back.end, pair.common.end})};
+                              std::min({s.end, back.end, pair.common.end})};
         if (common.length() < tuning.shortest) continue;
         walls.push_back(wallBetween(lines[pair.one], lines[pair.other], common));
         left[pair.one].take(common);

@@ -18,8 +18,8 @@ namespace cca {
 /// A straight wall. One that was seen from one side only has no thickness.
 struct PlanWall {
   int id = 0;
-  Eigen::Vector2d start, end;              ///< m, map frame: the centre line; of one face, that face
-  double thickness = 0.0;                  ///< m, between the faces; 0: one face only
+  Eigen::Vector2d start, end;  ///< m, map frame: the centre line; of one face, that face
+  double thickness = 0.0;      ///< m, between the faces; 0: one face only
   std::vector<std::uint64_t> left, right;  ///< ids of the lines of both faces, seen from start
   bool is_presumed = false;                ///< behind furniture, by the wall on both sides of it
 };
@@ -34,8 +34,8 @@ enum class OpeningKind {
 struct PlanOpening {
   int id = 0;
   OpeningKind kind = OpeningKind::kDoor;
-  Eigen::Vector2d a, b;             ///< m, map frame: the jambs, in the middle of the wall
-  std::array<int, 2> rooms{0, 0};   ///< ids
+  Eigen::Vector2d a, b;            ///< m, map frame: the jambs, in the middle of the wall
+  std::array<int, 2> rooms{0, 0};  ///< ids
   double width() const { return (b - a).norm(); }
 };
 
@@ -48,16 +48,17 @@ struct PlanRoom {
   double area = 0.0;           ///< m^2, without the holes
   double perimeter = 0.0;      ///< m, of the outline and the holes, openings included
   double unseen_area = 0.0;    ///< m^2 of its area that no beam has crossed: under furniture
-  double open_border = 0.0;    ///< m of its border that is neither wall nor opening: where the map ends
+  double open_border =
+      0.0;  ///< m of its border that is neither wall nor opening: where the map ends
   Eigen::Vector2d label = Eigen::Vector2d::Zero();  ///< m: a point well inside, for its name
 };
 
 /// An obstacle that is no part of the building.
 struct PlanFurniture {
   int id = 0;
-  Polygon outline;         ///< m, map frame
-  bool leans = false;      ///< on a wall, that is presumed behind it
-  int room = 0;            ///< id; 0: in none
+  Polygon outline;     ///< m, map frame
+  bool leans = false;  ///< on a wall, that is presumed behind it
+  int room = 0;        ///< id; 0: in none
 };
 
 /// A floor plan. Ids count from 1 within each kind; all is in metres of the map frame.
@@ -78,7 +79,8 @@ struct FloorPlanTuning {
 /// The floor plan of a finished map.
 ///
 /// @param grid   occupancy of the place; where nothing is known, the plan is empty.
-/// @param lines  of the same place, the viewer on the left of each; may be empty: then the rooms are
+/// @param lines  of the same place, the viewer on the left of each; may be empty: then the rooms
+/// are
 ///               parted by narrowings alone, and follow the cells.
 /// The same input gives the same plan, and ids. Cost: .5 s for 1000 m^2 at 5 cm.
 FloorPlan floorPlan(const OccupancyRaster& grid, const std::vector<MapLine>& lines,

@@ -26,14 +26,14 @@ struct Passage {
 };
 
 struct PassageTuning {
-  double narrowest = 0.4;     ///< m; no person passes below it
-  double widest = 2.7;        ///< m; of gaps that a wall's line crosses: a double door and some
-  double shortest_wall = 0.3; ///< m; a line below it is no wall that could go on
-  double end_error = 0.3;     ///< m; lines end that much before their wall does
-  double depth = 0.04;        ///< m; a gap is looked for so far inside of a wall's face
-  double merge_within = 0.6;  ///< m; both faces of a wall make one passage
-  double deepest = 1.2;       ///< m; a narrow stretch that is longer is a corridor
-  double ridge_drop = 0.9;    ///< a saddle below this share of the lower peak is a narrowing
+  double narrowest = 0.4;      ///< m; no person passes below it
+  double widest = 2.7;         ///< m; of gaps that a wall's line crosses: a double door and some
+  double shortest_wall = 0.3;  ///< m; a line below it is no wall that could go on
+  double end_error = 0.3;      ///< m; lines end that much before their wall does
+  double depth = 0.04;         ///< m; a gap is looked for so far inside of a wall's face
+  double merge_within = 0.6;   ///< m; both faces of a wall make one passage
+  double deepest = 1.2;        ///< m; a narrow stretch that is longer is a corridor
+  double ridge_drop = 0.9;     ///< a saddle below this share of the lower peak is a narrowing
 };
 
 /// Gaps in walls: each line is followed beyond its ends to the next wall.
@@ -55,8 +55,7 @@ Passage centred(const Mask& solid, const Passage& passage, const PassageTuning& 
 /// the watershed meet at less than `ridge_drop` of the lower of their peaks.
 /// @param clearance  m, distanceTransform(solid). Cost: O(n log n) for n open cells.
 std::vector<Passage> narrowings(const Mask& solid, const Raster<float>& clearance,
-                                const std::vector<WallEnd>& ends,
-                                const PassageTuning& tuning = {});
+                                const std::vector<WallEnd>& ends, const PassageTuning& tuning = {});
 
 /// Gaps, and those narrowings that are none of them. Cost: O(n^2).
 std::vector<Passage> joinPassages(std::vector<Passage> gaps, const std::vector<Passage>& narrowings,

@@ -13,12 +13,12 @@ namespace cca {
 /// both regions, which is twice the greatest clearance in it.
 struct RoomTuning {
   double widest_narrowing = 0.5;  ///< relative width; of PassageEvidence::kNarrowing
-  double widest_abutting = 0.85;    ///< the same of kAbutting
-  double widest_collinear = 0.9;   ///< the same of kCollinear
+  double widest_abutting = 0.85;  ///< the same of kAbutting
+  double widest_collinear = 0.9;  ///< the same of kCollinear
   double widest_mouth = 0.6;
   double shallowest_mouth = 0.7;
   double mouth_area = 2.5;
-  double smallest_room = 1.0;      ///< m^2
+  double smallest_room = 1.0;  ///< m^2
 };
 
 /// A passage between two rooms.

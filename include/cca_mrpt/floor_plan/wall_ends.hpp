@@ -17,7 +17,7 @@ struct WallEnd {
 
 struct WallEndTuning {
   double shortest_face = 0.4;  ///< m; below it a line is no face of a wall
-  double thickest = 0.65;       ///< m; a thicker obstacle is a block with corners
+  double thickest = 0.65;      ///< m; a thicker obstacle is a block with corners
   double uneven = 0.2;         ///< m; one face may end that much before the other
   double turn = 0.7;           ///< m; where a line that long begins across, the wall turns
 };

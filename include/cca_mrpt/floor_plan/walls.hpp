@@ -17,8 +17,8 @@ struct PlanWallTuning {
 /// The walls whose faces the lines are.
 ///
 /// Two lines that face away from each other, with nothing open between them, are the faces of one
-/// wall as far as they lie side by side; of several partners the nearest one counts. What is left of
-/// a line is a wall of one face.
+/// wall as far as they lie side by side; of several partners the nearest one counts. What is left
+/// of a line is a wall of one face.
 /// @param solid  see Structure. @param lines  of the building, see standsOn().
 /// Cost: O(n^2) for n lines.
 std::vector<PlanWall> wallsOfLines(const Mask& solid, const std::vector<MapLine>& lines,
