@@ -136,7 +136,7 @@ void takeLeaning(PlanRoom& room, FloorPlan& plan) {
   }
 }
 
-/// Where a room is widest, for its name; and the area of it that no beam crossed.
+/// Where each room is widest, for its name; and the area of it that no beam crossed.
 void noteCells(const OccupancyRaster& grid, const Raster<float>& clearance,
                const Raster<int>& labels, std::vector<PlanRoom>& rooms) {
   std::vector<float> widest(rooms.size(), -1.0F);

@@ -16,6 +16,8 @@ constexpr std::array<Cell, 4> kLeft{{{0, 0}, {-1, 0}, {-1, -1}, {0, -1}}};
 /// The cell on its right.
 constexpr std::array<Cell, 4> kRight{{{0, -1}, {0, 0}, {-1, 0}, {-1, -1}}};
 
+constexpr double kInset = 0.04;  // cells: apart by more than files round
+
 /// Sides of cells that were passed already, by the cell on the left and the direction.
 class PassedSides {
  public:
@@ -31,6 +33,14 @@ class PassedSides {
   std::vector<unsigned char> passed_;
 };
 
+/// Whether cells of the set touch at a corner only.
+template <class IsIn>
+bool isPinch(Cell corner, IsIn&& is_in) {
+  const bool right = is_in(corner + kLeft[0]), up = is_in(corner + kLeft[1]);
+  const bool left = is_in(corner + kLeft[2]), down = is_in(corner + kLeft[3]);
+  return right == left && up == down && right != up;
+}
+
 /// Follows the border from a corner until it closes.
 Polygon follow(const Raster<int>& labels, Cell corner, int direction, PassedSides& passed) {
   const auto d0 = static_cast<std::size_t>(direction);
@@ -40,6 +50,11 @@ Polygon follow(const Raster<int>& labels, Cell corner, int direction, PassedSide
   while (
       passed.pass(labels.index(corner + kLeft[static_cast<std::size_t>(direction)]), direction)) {
     chain.emplace_back(corner.x, corner.y);
+    if (isPinch(corner, isIn)) {
+      // The chain comes back to this corner, on the other cell's side.
+      chain.back() +=
+          kInset * (middleOf(corner + kLeft[static_cast<std::size_t>(direction)]) - chain.back());
+    }
     corner = corner + kSteps[static_cast<std::size_t>(direction)];
     // Left first: cells that touch at a corner only do not hang together.
     for (const int turn : {1, 0, 3, 2}) {

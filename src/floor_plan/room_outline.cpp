@@ -188,28 +188,10 @@ class OutlineDrawing {
   Polygon drawn_;
 };
 
-/// Runs without chance touches, and without short gaps between runs of edges.
-std::vector<Run> cleaned(std::vector<int>& edge_of, const std::vector<Edge>& edges,
-                         double resolution, const OutlineTuning& tuning) {
-  const auto length = [&](const Run& run) {
-    return resolution * static_cast<double>(run.last - run.first + 1);
-  };
-  for (const Run& run : runsOf(edge_of)) {
-    if (run.edge == kNone) continue;
-    const double enough =
-        std::min(tuning.shortest_run, 0.5 * edges[static_cast<std::size_t>(run.edge)].length);
-    if (length(run) >= enough) continue;
-    for (std::size_t k = run.first; k <= run.last; ++k) edge_of[k % edge_of.size()] = kNone;
-  }
-  std::vector<Run> runs = runsOf(edge_of);
-  if (runs.size() < 3) return runs;
-  std::vector<Run> kept;
-  for (const Run& run : runs) {
-    if (run.edge != kNone || length(run) >= tuning.bridge) kept.push_back(run);
-  }
-  // One line on both sides of a short gap is one run.
+/// One line on both sides of what was left out is one run.
+std::vector<Run> joinedRuns(const std::vector<Run>& runs) {
   std::vector<Run> joined;
-  for (const Run& run : kept) {
+  for (const Run& run : runs) {
     if (!joined.empty() && run.edge != kNone && joined.back().edge == run.edge) {
       joined.back().last = run.last;
     } else {
@@ -222,6 +204,36 @@ std::vector<Run> cleaned(std::vector<int>& edge_of, const std::vector<Edge>& edg
     joined.pop_back();
   }
   return joined;
+}
+
+/// Runs without chance touches, and without short gaps between runs of edges.
+std::vector<Run> cleaned(std::vector<int>& edge_of, const Polygon& chain,
+                         const std::vector<Edge>& edges, double resolution,
+                         const OutlineTuning& tuning) {
+  const auto length = [&](const Run& run) {
+    return resolution * static_cast<double>(run.last - run.first + 1);
+  };
+  for (const Run& run : runsOf(edge_of)) {
+    if (run.edge == kNone) continue;
+    const double enough =
+        std::min(tuning.shortest_run, 0.5 * edges[static_cast<std::size_t>(run.edge)].length);
+    if (length(run) >= enough) continue;
+    for (std::size_t k = run.first; k <= run.last; ++k) edge_of[k % edge_of.size()] = kNone;
+  }
+  const std::vector<Run> runs = runsOf(edge_of);
+  if (runs.size() < 3) return runs;
+  std::vector<Run> kept;
+  for (std::size_t k = 0; k < runs.size(); ++k) {
+    const Run& run = runs[k];
+    const Run &before = runs[(k + runs.size() - 1) % runs.size()],
+              &after = runs[(k + 1) % runs.size()];
+    const double chord =
+        resolution *
+        (chain[(run.last + 1) % chain.size()] - chain[run.first % chain.size()]).norm();
+    const bool is_notch = before.edge != kNone && before.edge == after.edge && chord < tuning.notch;
+    if (run.edge != kNone || (length(run) >= tuning.bridge && !is_notch)) kept.push_back(run);
+  }
+  return joinedRuns(kept);
 }
 
 }  // namespace
@@ -252,7 +264,7 @@ Polygon outlineAlongLines(const Raster<int>& labels, const Polygon& chain,
     const Eigen::Vector2d middle = labels.inMetres(chain[k] + 0.5 * side);
     edge_of.push_back(nearestEdge(edges, index, middle, {-side.y(), side.x()}, tuning.snap));
   }
-  const std::vector<Run> runs = cleaned(edge_of, edges, labels.resolution, tuning);
+  const std::vector<Run> runs = cleaned(edge_of, chain, edges, labels.resolution, tuning);
   if (runs.size() < 3) return straightened(labels, chain, tuning.tolerance);
   return OutlineDrawing(labels, chain, edges, tuning).draw(runs);
 }

@@ -124,7 +124,7 @@ std::vector<PlanWall> wallsOfLines(const Mask& solid, const std::vector<MapLine>
   for (std::size_t k = 0; k < lines.size(); ++k) {
     const LineSegment& s = lines[k].segment;
     for (const FacePart& stretch : left[k].all()) {
-      if (stretch.length() < tuning.shortest) continue;
+      if (stretch.length() < tuning.shortest_face) continue;
       PlanWall wall;
       wall.start = s.start + stretch.begin * s.direction();
       wall.end = s.start + stretch.end * s.direction();

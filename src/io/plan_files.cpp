@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "cca_mrpt/io/plan_files.hpp"
 
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
@@ -51,7 +52,8 @@ OccupancyRaster occupancyOf(const mrpt::maps::COccupancyGridMap2D& grid,
   raster.rows = static_cast<int>(grid.getSizeY());
   // As map.yaml says it: both are single precision there and here.
   raster.resolution = std::stod(std::to_string(grid.getResolution()));
-  raster.origin = p_frame + Eigen::Vector2d(grid.getXMin(), grid.getYMin());
+  const auto rounded = [](double metres) { return std::round(1e6 * metres) / 1e6; };
+  raster.origin = {rounded(p_frame.x() + grid.getXMin()), rounded(p_frame.y() + grid.getYMin())};
   raster.values.reserve(grid.getSizeX() * grid.getSizeY());
   for (int row = 0; row < raster.rows; ++row) {
     for (int column = 0; column < raster.columns; ++column) {

@@ -10,7 +10,7 @@ namespace cca {
 
 /// The border of a set of cells with one label: closed chains of cell corners, in cells, the set on
 /// their left; outlines run counter-clockwise, holes clockwise. A chain names each corner of a cell
-/// that it passes.
+/// that it passes; where it would touch itself, it keeps off by a fraction of a cell.
 struct RegionOutline {
   std::vector<Polygon> outlines, holes;
 };

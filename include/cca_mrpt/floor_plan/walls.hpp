@@ -8,10 +8,11 @@
 namespace cca {
 
 struct PlanWallTuning {
-  double thickest = 0.6;    ///< m; two faces that are farther apart are those of two walls
-  double thinnest = 0.02;   ///< m; nearer ones are one face seen twice
-  double shortest = 0.2;    ///< m; a shorter stretch is left out
-  double parallel_deg = 3;  ///< faces of one wall differ by less
+  double thickest = 0.6;       ///< m; two faces that are farther apart are those of two walls
+  double thinnest = 0.02;      ///< m; nearer ones are one face seen twice
+  double shortest = 0.2;       ///< m; a shorter stretch is left out
+  double shortest_face = 0.5;  ///< m; the same where one face only is known: less may be furniture
+  double parallel_deg = 3;     ///< faces of one wall differ by less
 };
 
 /// The walls whose faces the lines are.
