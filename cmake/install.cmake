@@ -26,6 +26,9 @@ endif()
 
 # The Eigen-only layers stand in an export of their own, so that using them needs no MRPT.
 set(eigen_layers cca_geometry cca_motion cca_sensing cca_localisation cca_mapping cca_slam cca_navigation cca_session)
+if(TARGET cca_floor_plan)
+  list(APPEND eigen_layers cca_floor_plan)
+endif()
 set(mrpt_layers cca_evaluation cca_simulation cca_io)
 if(CCA_WITH_EVIDENCE)
   list(APPEND eigen_layers cca_baselines)

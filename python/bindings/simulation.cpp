@@ -43,9 +43,9 @@ using SharedDrive = Locked<std::unique_ptr<Drive>>;
 World worldOf(nb::handle given, double resolution, int seed) {
   if (nb::isinstance<nb::str>(given)) {
     const std::string name = nb::cast<std::string>(given);
-    const auto kinds = floorPlanKinds();
+    const auto kinds = buildingKinds();
     if (std::find(kinds.begin(), kinds.end(), name) == kinds.end()) return loadWorld(name);
-    return rasterise(generateFloorPlan(name, static_cast<std::uint64_t>(seed)), resolution);
+    return rasterise(generateBuilding(name, static_cast<std::uint64_t>(seed)), resolution);
   }
   const nb::module_ numpy = nb::module_::import_("numpy");
   const auto cells = nb::cast<nb::ndarray<const bool, nb::ndim<2>, nb::c_contig, nb::device::cpu>>(
@@ -149,7 +149,7 @@ Raises:
            nb::sig("def __init__(self, world: str | numpy.typing.ArrayLike, start: "
                    "collections.abc.Sequence[float] | None = None, seed: int = 1, "
                    "resolution: float = 0.05, **parameters) -> None"))
-      .def_static("building_kinds", &floorPlanKinds, "The kinds of building that can be drawn.")
+      .def_static("building_kinds", &buildingKinds, "The kinds of building that can be drawn.")
       .def("observe", &observe, nb::sig("def observe(self) -> numpy.ndarray"),
            "(beams,) ranges [m] of a new scan, float64; each call draws new noise.")
       .def("drive", &driveOn, nb::arg("linear"), nb::arg("angular"), nb::arg("seconds"),

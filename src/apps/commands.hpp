@@ -21,6 +21,7 @@ void addExtractCommand(CLI::App& program);
 void addInfoCommand(CLI::App& program);
 void addMapCommand(CLI::App& program);
 void addMergeCommand(CLI::App& program);
+void addPlanCommand(CLI::App& program);
 void addRenderCommand(CLI::App& program);
 void addGenerateWorldCommand(CLI::App& program);
 void addCompareExtractorsCommand(CLI::App& program);

@@ -22,7 +22,7 @@ struct GenerateOptions {
 };
 
 void generate(const GenerateOptions& options) {
-  FloorPlan plan = generateFloorPlan(options.kind, options.seed);
+  Building plan = generateBuilding(options.kind, options.seed);
   if (!options.name.empty()) plan.name = options.name;
   const std::string stem = options.out + "/" + plan.name, path = stem + ".yaml";
   for (const char* ending : {".yaml", ".png", ".truth.csv"}) {
@@ -41,7 +41,7 @@ void addGenerateWorldCommand(CLI::App& program) {
   auto options = std::make_shared<GenerateOptions>();
   command->add_option("KIND", options->kind, "kind of building")
       ->required()
-      ->check(CLI::IsMember(floorPlanKinds()));
+      ->check(CLI::IsMember(buildingKinds()));
   command->add_option("--seed", options->seed, "varies furniture and random buildings")
       ->check(valueOf("run.seed"))
       ->capture_default_str();

@@ -53,6 +53,7 @@ int main(int argc, char** argv) {
   cca::apps::addInfoCommand(program);
   cca::apps::addMapCommand(program);
   cca::apps::addMergeCommand(program);
+  cca::apps::addPlanCommand(program);
   cca::apps::addRenderCommand(program);
   cca::apps::addGenerateWorldCommand(program);
 #ifdef CCA_EVIDENCE

@@ -15,6 +15,7 @@
 #include "cca_mrpt/io/memory_file.hpp"
 #include "cca_mrpt/io/metric_map.hpp"
 #include "cca_mrpt/io/occupancy_files.hpp"
+#include "cca_mrpt/io/plan_files.hpp"
 #include "cca_mrpt/io/replay.hpp"
 
 namespace cca {
@@ -50,6 +51,26 @@ nlohmann::ordered_json summarize(const MapProducts& products) {
   return summary;
 }
 
+/// Writes the floor plan beside the map, and its numbers into the summary. A map is a map without a
+/// plan, too: what goes wrong with it goes into the summary. @param p_grid  where the grid's frame
+/// lies in the map's. @return  whether the plan was written.
+bool addPlan(const std::string& folder, const MapProducts& map, const Eigen::Vector2d& p_grid,
+             nlohmann::ordered_json& summary) {
+  if (!map.grid) return false;
+  try {
+    const FloorPlan plan = planOfMap(map.lines, *map.grid, p_grid);
+    writePlanFiles(folder, plan, fs::weakly_canonical(folder).filename().string(), true);
+    double area = 0.0;
+    for (const PlanRoom& room : plan.rooms) area += room.area;
+    summary["plan"] = {
+        {"rooms", plan.rooms.size()}, {"openings", plan.openings.size()}, {"floor_m2", area}};
+    return true;
+  } catch (const std::exception& error) {
+    summary["plan"] = {{"error", error.what()}};
+    return false;
+  }
+}
+
 std::vector<StampedPose> stamped(const std::vector<double>& times,
                                  const std::vector<Pose2>& trajectory) {
   std::vector<StampedPose> poses;
@@ -82,6 +103,7 @@ FolderLock prepareMapFolder(const std::string& folder, bool overwrite,
   };
   for (const char* name : kAlways) requireNew(name);
   for (const char* name : kSometimes) requireNew(name);
+  for (const char* name : kPlanFiles) requireNew(name);
   for (const char* name : beside) requireNew(name);
   AtomicFile probe(inFolder(folder, kSummary));  // fails now, not after the work
   removeLeftovers(folder);
@@ -154,13 +176,18 @@ void writeMapFolder(const std::string& folder, const MapProducts& products) {
   if (map.graph.size() > 0) put("graph.g2o", graphG2o(map.graph));
   if (!map.memory.empty()) put(kMemoryFile, map.memory);
   if (!map.replay.empty()) put("replay.html", replayPage({map.replay}));
+  auto summary = summarize(products);
+  if (addPlan(folder, map, products.origin, summary))
+    written.insert(written.end(), kPlanFiles.begin(), kPlanFiles.end());
   // What an earlier run left would be taken for this one's.
-  for (const char* name : kSometimes) {
+  const auto removeOld = [&](const char* name) {
     std::error_code none_there;
     if (std::find(written.begin(), written.end(), name) == written.end())
       fs::remove(inFolder(folder, name), none_there);
-  }
-  put(kSummary, summarize(products).dump(2, ' ', false, kReplace) + "\n");
+  };
+  for (const char* name : kSometimes) removeOld(name);
+  for (const char* name : kPlanFiles) removeOld(name);
+  put(kSummary, summary.dump(2, ' ', false, kReplace) + "\n");
 }
 
 }  // namespace cca

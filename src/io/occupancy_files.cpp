@@ -13,7 +13,6 @@
 namespace cca {
 namespace {
 
-constexpr float kOccupiedFrom = 0.65F, kFreeBelow = 0.196F;  // map_server's customary thresholds
 constexpr char kOccupied = 0, kFree = static_cast<char>(254), kUnknown = static_cast<char>(205);
 
 char shade(float free) {

@@ -29,7 +29,7 @@ void requirePlainName(const std::string& name) {
   }
 }
 
-std::string yamlText(const FloorPlan& plan) {
+std::string yamlText(const Building& plan) {
   char text[400];
   std::snprintf(text, sizeof text,
                 "image: %s.png\nresolution: %g\norigin: [0.0, 0.0, 0.0]\noccupied_thresh: 0.65\n"
@@ -48,7 +48,7 @@ mrpt::img::CImage picture(const World& world) {
   return image;
 }
 
-std::string truthText(const FloorPlan& plan) {
+std::string truthText(const Building& plan) {
   std::string text = "x1,y1,x2,y2\n";
   for (const auto& [a, b] : wallFaces(plan, kWorldResolution)) {
     char line[120];
@@ -62,7 +62,7 @@ std::string truthText(const FloorPlan& plan) {
 
 }  // namespace
 
-void writeWorldFiles(const FloorPlan& plan, const std::string& folder) {
+void writeWorldFiles(const Building& plan, const std::string& folder) {
   requirePlainName(plan.name);
   makeFolder(folder);
   const std::string stem = folder + "/" + plan.name;

@@ -79,7 +79,7 @@ bool fits(const Piece& piece, const Room& room, const std::vector<Piece>& pieces
   });
 }
 
-void build(FloorPlan& plan, const Piece& piece, Random& random) {
+void build(Building& plan, const Piece& piece, Random& random) {
   const Box& place = piece.place;
   switch (piece.form) {
     case Piece::Form::kBox:
@@ -106,7 +106,7 @@ void build(FloorPlan& plan, const Piece& piece, Random& random) {
 
 double onRaster(double value) { return std::round(value * 20.0) / 20.0; }
 
-void furnish(FloorPlan& plan, const Room& room, int count, Random& random) {
+void furnish(Building& plan, const Room& room, int count, Random& random) {
   std::vector<Piece> pieces;
   for (int tries = 0; tries < kTries * count && static_cast<int>(pieces.size()) < count; ++tries) {
     const bool at_wall = random.uniform() < 0.65;
@@ -117,7 +117,7 @@ void furnish(FloorPlan& plan, const Room& room, int count, Random& random) {
   }
 }
 
-void clutter(FloorPlan& plan, const Box& floor, const Box& kept_free, int count, Random& random) {
+void clutter(Building& plan, const Box& floor, const Box& kept_free, int count, Random& random) {
   for (int i = 0; i < count; ++i) {
     const double kind = random.uniform();
     if (kind < 0.3) {

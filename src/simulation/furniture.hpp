@@ -4,7 +4,7 @@
 #include <Eigen/Geometry>
 #include <vector>
 
-#include "cca_mrpt/simulation/floor_plan.hpp"
+#include "cca_mrpt/simulation/building.hpp"
 #include "cca_mrpt/simulation/random.hpp"
 
 namespace cca {
@@ -22,11 +22,11 @@ struct Room {
 
 /// Sets up to `count` pieces against the walls (desks, shelves, cupboards) and free-standing ones
 /// (tables, round tables, pillars), wherever kPassage stays free around them.
-void furnish(FloorPlan& plan, const Room& room, int count, Random& random);
+void furnish(Building& plan, const Room& room, int count, Random& random);
 
 /// Sets `count` pieces (cupboards against the walls, chairs and tables on legs, boxes) anywhere but
 /// in `kept_free`: they may overlap and shut ways.
-void clutter(FloorPlan& plan, const Box& floor, const Box& kept_free, int count, Random& random);
+void clutter(Building& plan, const Box& floor, const Box& kept_free, int count, Random& random);
 
 /// The value on the 5 cm raster that the worlds are made for.
 double onRaster(double value);

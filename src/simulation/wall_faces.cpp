@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "cca_mrpt/geometry/cross.hpp"
-#include "cca_mrpt/simulation/floor_plan.hpp"
+#include "cca_mrpt/simulation/building.hpp"
 
 namespace cca {
 
@@ -58,7 +58,7 @@ std::vector<double> cutsAlong(const Eigen::Vector2d& a, const Eigen::Vector2d& b
 
 class FreeSide {
  public:
-  FreeSide(const FloorPlan& plan, double resolution)
+  FreeSide(const Building& plan, double resolution)
       : plan_(plan), world_(rasterise(plan, resolution)), reached_(floodFromStart(world_)) {}
 
   /// Whether the place just in front of a face is free, and open to the start.
@@ -82,7 +82,7 @@ class FreeSide {
   }
 
  private:
-  const FloorPlan& plan_;
+  const Building& plan_;
   World world_;
   std::vector<char> reached_;
 };
@@ -115,7 +115,7 @@ std::vector<WallFace> joined(std::vector<WallFace> faces) {
 
 }  // namespace
 
-std::vector<WallFace> wallFaces(const FloorPlan& plan, double resolution) {
+std::vector<WallFace> wallFaces(const Building& plan, double resolution) {
   const FreeSide free_side(plan, resolution);
   std::vector<WallFace> faces;
   for (const Polygon& solid : plan.solids) {

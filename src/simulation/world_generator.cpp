@@ -3,13 +3,13 @@
 
 #include <stdexcept>
 
-#include "floor_plan_kinds.hpp"
+#include "building_kinds.hpp"
 
 namespace cca {
 
 namespace {
 
-const std::vector<std::pair<std::string, FloorPlan (*)(Random&)>> kKinds = {
+const std::vector<std::pair<std::string, Building (*)(Random&)>> kKinds = {
     {"two_rooms", twoRooms},
     {"office", office},
     {"apartment", apartment},
@@ -24,19 +24,19 @@ const std::vector<std::pair<std::string, FloorPlan (*)(Random&)>> kKinds = {
 
 }  // namespace
 
-std::vector<std::string> floorPlanKinds() {
+std::vector<std::string> buildingKinds() {
   std::vector<std::string> names;
   for (const auto& [name, make] : kKinds) names.push_back(name);
   return names;
 }
 
-FloorPlan generateFloorPlan(const std::string& kind, std::uint64_t seed) {
+Building generateBuilding(const std::string& kind, std::uint64_t seed) {
   std::string known;
   for (const auto& [name, make] : kKinds) {
     known += (known.empty() ? "" : ", ") + name;
     if (name != kind) continue;
     Random random(seed);
-    FloorPlan plan = make(random);
+    Building plan = make(random);
     plan.name = name;
     return plan;
   }

@@ -6,8 +6,8 @@
 #include "cca_mrpt/io/parameters.hpp"
 #include "cca_mrpt/localisation/given_poses.hpp"
 #include "cca_mrpt/session/exploration_session.hpp"
+#include "cca_mrpt/simulation/building.hpp"
 #include "cca_mrpt/simulation/coverage.hpp"
-#include "cca_mrpt/simulation/floor_plan.hpp"
 #include "cca_mrpt/simulation/simulation.hpp"
 #include "cca_mrpt/simulation/world_generator.hpp"
 
@@ -75,7 +75,7 @@ double longestStandstill(const std::vector<TimedPose>& trajectory) {
 
 /// Two rooms, and a passage of 1.5 m length between them.
 World roomsWithAPassage(double passage) {
-  FloorPlan plan;
+  Building plan;
   plan.name = "passage";
   plan.width = 8.0;
   plan.height = 5.0;
@@ -115,7 +115,7 @@ TEST(CrowdedPlaces, AreLookedIntoFromWhereverTheRobotCanGo) {
   constexpr int kWorlds = 15;
   double sum = 0.0;
   for (std::uint64_t seed = 1; seed <= kWorlds; ++seed) {
-    const World world = rasterise(generateFloorPlan("crowded", seed), 0.05);
+    const World world = rasterise(generateBuilding("crowded", seed), 0.05);
     const Result result = explore(world, *world.start, 1, 900.0);
     EXPECT_TRUE(result.finished) << seed;
     EXPECT_EQ(result.collisions, 0) << seed;
@@ -134,7 +134,7 @@ TEST(NoisyPlaces, EndWithoutALongStandstill) {
   simulated.laser.range_noise = 0.03;
   simulated.laser.angle_noise_deg = 0.5;
   simulated.laser.dropout = 0.01;
-  const World world = rasterise(generateFloorPlan("apartment", 2), 0.05);
+  const World world = rasterise(generateBuilding("apartment", 2), 0.05);
   const Result result = explore(world, *world.start, 1, 1200.0, {}, simulated);
   EXPECT_TRUE(result.finished);
   EXPECT_GE(result.coverage, 0.995);

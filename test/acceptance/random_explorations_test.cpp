@@ -12,8 +12,8 @@
 #include <string>
 
 #include "cca_mrpt/io/parameters.hpp"
+#include "cca_mrpt/simulation/building.hpp"
 #include "cca_mrpt/simulation/coverage.hpp"
-#include "cca_mrpt/simulation/floor_plan.hpp"
 #include "cca_mrpt/simulation/simulation.hpp"
 
 namespace cca {
@@ -28,7 +28,7 @@ int setting(const char* name, int usual) {
 /// keeps passages wide: some are too narrow for the robot, and parts may be cut off.
 World randomPlace(int seed) {
   Random random(static_cast<std::uint64_t>(seed));
-  FloorPlan plan;
+  Building plan;
   plan.name = "place " + std::to_string(seed);
   plan.width = 8.0;
   plan.height = 6.0;

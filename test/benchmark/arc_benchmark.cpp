@@ -72,12 +72,12 @@ double shareBeside(const Curve& curve, const Curve& other) {
 
 /// A world of faces, each the chord of an arc of the plan or none (-1).
 struct Faces {
-  FloorPlan plan;
+  Building plan;
   World world;
   std::vector<WallFace> faces;
   std::vector<int> arc_of;
 
-  explicit Faces(const FloorPlan& of)
+  explicit Faces(const Building& of)
       : plan(of), world(rasterise(of, kResolution)), faces(wallFaces(of, kResolution)) {
     constexpr double kOnCircle = 0.01;  // m
     for (const WallFace& face : faces) {
@@ -253,8 +253,8 @@ void match(const std::vector<TrueFeature>& truth, const std::vector<Curve>& foun
 }
 
 /// 12 x 9 m: five pillars of 0.1 to 0.5 m, and turned boxes of 0.4 to 1 m, half a metre apart.
-FloorPlan pillarRoom(int boxes, Random& random) {
-  FloorPlan plan;
+Building pillarRoom(int boxes, Random& random) {
+  Building plan;
   plan.width = 12.0;
   plan.height = 9.0;
   plan.addOuterWalls(0.2);
@@ -323,7 +323,7 @@ void judgePillars(double sigma, int boxes, int scans) {
 
 void judgeGallery(double sigma, int scans) {
   Random random(7);
-  const Faces faces(generateFloorPlan("gallery", 1));
+  const Faces faces(generateBuilding("gallery", 1));
   Tally t;
   for (int k = 0; k < scans; ++k) {
     const Look look = lookFrom(faces, placeIn(faces, random), sigma, random);

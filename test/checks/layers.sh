@@ -5,11 +5,11 @@ set -u
 cd "$(dirname "$0")/../.."
 failed=0
 
-# check LAYER ALLOWED_LAYERS: every #include of the layer is allowed.
+# check LAYER ALLOWED_LAYERS [ALLOWED_HEADERS|]: every #include of the layer is allowed.
 check() {
   local found
   found=$(grep -nE '^\s*#\s*include' -r "include/cca_mrpt/$1" "src/$1" |
-    grep -vE "#include (<Eigen/[A-Za-z]+>|<[a-z_]+>|\"cca_mrpt/($2)/[a-z0-9_]+\.hpp\"|\"[a-z0-9_]+\.hpp\")")
+    grep -vE "#include (<Eigen/[A-Za-z]+>|${3:-}<[a-z_]+>|\"cca_mrpt/($2)/[a-z0-9_]+\.hpp\"|\"[a-z0-9_]+\.hpp\")")
   [ -z "$found" ] || { echo "$1 includes what it may not:"; echo "$found"; failed=1; }
   found=$(grep -nE '<(chrono|ctime|filesystem|fstream|iostream|cstdio|thread|mutex|random)>|std::rand\b|\bs?rand\(|random_device' \
     -r "include/cca_mrpt/$1" "src/$1" | grep -vE '<random>.*// seeded')
@@ -28,5 +28,6 @@ check navigation/drive 'geometry|motion|sensing|navigation/place|navigation/driv
 check navigation 'geometry|motion|sensing|navigation|navigation/[a-z_/]+'
 check session 'geometry|motion|sensing|mapping|localisation|slam|navigation|session'
 check baselines 'geometry|sensing|mapping|baselines'
+check floor_plan 'geometry|mapping|floor_plan' '<boost/geometry[a-z_/]*\.hpp>|'
 [ $failed -eq 0 ] && echo "layers: clean"
 exit $failed

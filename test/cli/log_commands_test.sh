@@ -54,10 +54,11 @@ check "its JSON is valid" python3 -c 'import json; i = json.load(open("info.json
 
 check "map makes a map" "$program" map room.log.gz --out map
 for file in lines.csv arcs.csv lines.geojson lines.svg lines.dxf map.png map.pgm map.yaml map.gridmap.gz \
-            map.linemap.gz scene.3Dscene poses.csv poses.tum graph.g2o map.slam replay.html summary.json; do
+            map.linemap.gz scene.3Dscene poses.csv poses.tum graph.g2o map.slam replay.html summary.json \
+            plan.geojson plan.svg plan.dxf plan.pdf rooms.csv rooms.png; do
   [ -s "map/$file" ] || { echo "FAILED: no map/$file"; failed=1; }
 done
-[ "$(ls -A map | wc -l)" -eq 17 ] || { echo "FAILED: map holds more than its files"; failed=1; }
+[ "$(ls -A map | wc -l)" -eq 23 ] || { echo "FAILED: map holds more than its files"; failed=1; }
 check "three walls of 12, 12 and 6 m are found" python3 - <<'END'
 import csv, math
 walls = [tuple(float(r[k]) for k in ("x1", "y1", "x2", "y2")) for r in csv.DictReader(open("map/lines.csv"))]

@@ -17,7 +17,7 @@ class Shipped : public testing::TestWithParam<std::string> {};
 
 TEST_P(Shipped, WorldIsWhatTheGeneratorMakesByteForByte) {
   const std::string folder = testing::TempDir() + "cca_worlds";
-  writeWorldFiles(generateFloorPlan(GetParam(), 1), folder);
+  writeWorldFiles(generateBuilding(GetParam(), 1), folder);
   for (const char* extension : {".yaml", ".png", ".truth.csv"}) {
     const std::string name = "/" + GetParam() + extension;
     EXPECT_EQ(bytesOf(folder + name), bytesOf(CCA_MAPS_FOLDER + name)) << name;
@@ -25,7 +25,7 @@ TEST_P(Shipped, WorldIsWhatTheGeneratorMakesByteForByte) {
 }
 
 TEST_P(Shipped, WorldLoadsAsItWasDrawn) {
-  const FloorPlan plan = generateFloorPlan(GetParam(), 1);
+  const Building plan = generateBuilding(GetParam(), 1);
   const World drawn = rasterise(plan, kWorldResolution);
   const World loaded = loadWorld(std::string(CCA_MAPS_FOLDER) + "/" + GetParam() + ".yaml");
   ASSERT_EQ(loaded.width(), drawn.width());
@@ -37,7 +37,7 @@ TEST_P(Shipped, WorldLoadsAsItWasDrawn) {
 }
 
 std::vector<std::string> shippedKinds() {
-  std::vector<std::string> kinds = floorPlanKinds();
+  std::vector<std::string> kinds = buildingKinds();
   kinds.erase(std::remove(kinds.begin(), kinds.end(), "crowded"), kinds.end());
   return kinds;
 }
@@ -47,7 +47,7 @@ INSTANTIATE_TEST_SUITE_P(Worlds, Shipped, testing::ValuesIn(shippedKinds()),
 
 TEST(WorldFiles, RefusesNamesThatLeaveTheFolderOrBreakTheYaml) {
   const TemporaryFolder folder;
-  FloorPlan plan = generateFloorPlan("two_rooms", 1);
+  Building plan = generateBuilding("two_rooms", 1);
   for (const char* name : {"", "../a", "a/b", "a: b", ".hidden", "caf\xE9"}) {
     plan.name = name;
     EXPECT_THROW(writeWorldFiles(plan, folder.path()), std::runtime_error) << name;

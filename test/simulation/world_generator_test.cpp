@@ -44,7 +44,7 @@ class EveryKind : public testing::TestWithParam<std::string> {};
 
 TEST_P(EveryKind, IsOneRegionForARobotWithItsMarginUnlessCrowded) {
   for (std::uint64_t seed : {1, 2}) {
-    const World world = rasterise(generateFloorPlan(GetParam(), seed), kResolution);
+    const World world = rasterise(generateBuilding(GetParam(), seed), kResolution);
     const int regions = regionsFor(world, 0.25 + 0.1);
     if (GetParam() == "crowded") {
       EXPECT_GT(regions, 1) << "of seed " << seed;
@@ -58,7 +58,7 @@ TEST_P(EveryKind, IsOneRegionForARobotWithItsMarginUnlessCrowded) {
 // Rooms whose middle is another start would be filled a little differently.
 TEST(CrowdedBuilding, BeginsInItsLargestPart) {
   for (std::uint64_t seed = 1; seed <= 12; ++seed) {
-    const World world = rasterise(generateFloorPlan("crowded", seed), kResolution);
+    const World world = rasterise(generateBuilding("crowded", seed), kResolution);
     const double share = shareReached(world, world.start->position(), 0.25);
     double most = 0.0;
     for (double x = 1.0; x < world.width() * kResolution; x += 1.5) {
@@ -70,7 +70,7 @@ TEST(CrowdedBuilding, BeginsInItsLargestPart) {
 }
 
 TEST_P(EveryKind, HasFreeSpaceBeforeEachTrueFaceAndSolidBehind) {
-  const FloorPlan plan = generateFloorPlan(GetParam(), 1);
+  const Building plan = generateBuilding(GetParam(), 1);
   const World world = rasterise(plan, kResolution);
   const auto faces = wallFaces(plan, kResolution);
   ASSERT_GE(faces.size(), 4U);
@@ -88,11 +88,11 @@ TEST_P(EveryKind, HasFreeSpaceBeforeEachTrueFaceAndSolidBehind) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Worlds, EveryKind, testing::ValuesIn(floorPlanKinds()),
+INSTANTIATE_TEST_SUITE_P(Worlds, EveryKind, testing::ValuesIn(buildingKinds()),
                          [](const auto& kind) { return kind.param; });
 
 TEST(WallFaces, OfTwoRoomsAreTheTwelveThatOneSees) {
-  const auto faces = wallFaces(generateFloorPlan("two_rooms", 1), kResolution);
+  const auto faces = wallFaces(generateBuilding("two_rooms", 1), kResolution);
   EXPECT_EQ(faces.size(), 12u);
   double length = 0.0;
   for (const auto& [a, b] : faces) length += (b - a).norm();
@@ -101,7 +101,7 @@ TEST(WallFaces, OfTwoRoomsAreTheTwelveThatOneSees) {
 }
 
 TEST(GenerateFloorPlan, GivesTheSameForTheSameSeedAndElseAnother) {
-  const auto corners = [](const FloorPlan& plan) {
+  const auto corners = [](const Building& plan) {
     std::vector<double> all;
     for (const auto& solid : plan.solids) {
       for (const auto& p : solid) all.insert(all.end(), {p.x(), p.y()});
@@ -109,14 +109,14 @@ TEST(GenerateFloorPlan, GivesTheSameForTheSameSeedAndElseAnother) {
     return all;
   };
   for (const char* kind : {"office", "maze", "random", "crowded"}) {
-    EXPECT_EQ(corners(generateFloorPlan(kind, 4)), corners(generateFloorPlan(kind, 4)));
-    EXPECT_NE(corners(generateFloorPlan(kind, 4)), corners(generateFloorPlan(kind, 5)));
+    EXPECT_EQ(corners(generateBuilding(kind, 4)), corners(generateBuilding(kind, 4)));
+    EXPECT_NE(corners(generateBuilding(kind, 4)), corners(generateBuilding(kind, 5)));
   }
 }
 
 TEST(GenerateFloorPlan, NamesTheKindsThatThereAreForOneThatIsNot) {
   try {
-    generateFloorPlan("castle", 1);
+    generateBuilding("castle", 1);
     FAIL();
   } catch (const std::runtime_error& error) {
     EXPECT_NE(std::string(error.what()).find("castle"), std::string::npos);

@@ -9,6 +9,9 @@
 
 namespace cca {
 
+/// Probabilities of being occupied, map_server's customary thresholds.
+inline constexpr float kOccupiedFrom = 0.65F, kFreeBelow = 0.196F;
+
 /// Writes NAME.pgm and NAME.yaml in map_server's trinary format: occupied 0, free 254, unknown 205;
 /// rows from the top, origin at the lower left corner. NAME is a path without extension.
 /// MRPT's loadFromROSMapServerYAML() and ROS's map_server read them.

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "cca_mrpt/simulation/floor_plan.hpp"
+#include "cca_mrpt/simulation/building.hpp"
 
 namespace cca {
 
@@ -14,6 +14,6 @@ constexpr double kWorldResolution = 0.05;  // m
 /// the true wall faces, header `x1,y1,x2,y2` (m, map frame). Same plan, same bytes.
 /// @throws std::runtime_error naming the file that cannot be written, or for a name that is not of
 ///         plain letters, digits, '_', '-' and '.'.
-void writeWorldFiles(const FloorPlan& plan, const std::string& folder);
+void writeWorldFiles(const Building& plan, const std::string& folder);
 
 }  // namespace cca

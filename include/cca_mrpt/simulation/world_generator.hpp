@@ -5,12 +5,12 @@
 #include <string>
 #include <vector>
 
-#include "cca_mrpt/simulation/floor_plan.hpp"
+#include "cca_mrpt/simulation/building.hpp"
 
 namespace cca {
 
-/// The kinds of building that generateFloorPlan() knows; `crowded` is not among the shipped ones.
-std::vector<std::string> floorPlanKinds();
+/// The kinds of building that generateBuilding() knows; `crowded` is not among the shipped ones.
+std::vector<std::string> buildingKinds();
 
 /// A building of a kind; the seed varies its furniture, or all of it (maze, random, crowded).
 ///
@@ -18,6 +18,6 @@ std::vector<std::string> floorPlanKinds();
 /// the floor is one region for a robot of 0.25 m radius with a margin of 0.1 m; but in `crowded`,
 /// where any gap may be anything, half a metre around the start is all that is kept free.
 /// @throws std::runtime_error for an unknown kind, naming those that there are.
-FloorPlan generateFloorPlan(const std::string& kind, std::uint64_t seed);
+Building generateBuilding(const std::string& kind, std::uint64_t seed);
 
 }  // namespace cca

@@ -3,9 +3,9 @@
 #include <cmath>
 #include <vector>
 
+#include "building_kinds.hpp"
 #include "cca_mrpt/motion/robot.hpp"
 #include "cca_mrpt/simulation/coverage.hpp"
-#include "floor_plan_kinds.hpp"
 #include "furniture.hpp"
 
 namespace cca {
@@ -24,7 +24,7 @@ constexpr double kResolution = 0.05;  // m, to see where the robot gets to
 class Divider {
  public:
   /// Doors are `narrowest` to `widest` m wide.
-  Divider(FloorPlan& plan, Random& random, double narrowest, double widest)
+  Divider(Building& plan, Random& random, double narrowest, double widest)
       : plan_(plan), random_(random), narrowest_(narrowest), widest_(widest) {
     divide(Box(Eigen::Vector2d(kOuterWall, kOuterWall),
                Eigen::Vector2d(plan.width - kOuterWall, plan.height - kOuterWall)));
@@ -87,16 +87,15 @@ class Divider {
     doors_.push_back(door);
   }
 
-  FloorPlan& plan_;
+  Building& plan_;
   Random& random_;
   double narrowest_, widest_;
   std::vector<Box> rooms_, doors_;
 };
 
 /// Outer walls around a floor that is `lowest` to `highest` m wide and high.
-FloorPlan emptyFloor(const Eigen::Vector2d& lowest, const Eigen::Vector2d& highest,
-                     Random& random) {
-  FloorPlan plan;
+Building emptyFloor(const Eigen::Vector2d& lowest, const Eigen::Vector2d& highest, Random& random) {
+  Building plan;
   plan.width = onRaster(random.uniform(lowest.x(), highest.x()));
   plan.height = onRaster(random.uniform(lowest.y(), highest.y()));
   plan.addOuterWalls(kOuterWall);
@@ -104,8 +103,7 @@ FloorPlan emptyFloor(const Eigen::Vector2d& lowest, const Eigen::Vector2d& highe
 }
 
 /// Fills rooms with things, except around the start.
-FloorPlan crowd(FloorPlan plan, const Divider& divider, const Eigen::Vector2d& start,
-                Random random) {
+Building crowd(Building plan, const Divider& divider, const Eigen::Vector2d& start, Random random) {
   const Eigen::Vector2d aside(kStartsFree, kStartsFree);
   plan.start = {start.x(), start.y(), 0.0};
   for (const Box& floor : divider.rooms()) {
@@ -128,8 +126,8 @@ FloorPlan crowd(FloorPlan plan, const Divider& divider, const Eigen::Vector2d& s
 }  // namespace
 
 /// 16 to 32 by 12 to 24 m of rooms and corridors, furnished.
-FloorPlan randomBuilding(Random& random) {
-  FloorPlan plan = emptyFloor({16.0, 12.0}, {32.0, 24.0}, random);
+Building randomBuilding(Random& random) {
+  Building plan = emptyFloor({16.0, 12.0}, {32.0, 24.0}, random);
   const Divider divider(plan, random, 0.9, 1.4);
   for (const Box& floor : divider.rooms()) {
     Room room{floor, divider.doors()};
@@ -145,12 +143,12 @@ FloorPlan randomBuilding(Random& random) {
 /// 14 to 30 by 10 to 20 m of rooms that are full of things: legs of chairs and tables, gaps too
 /// narrow for a robot, and posts in every seventh door. Much of it can only be looked into; but the
 /// start is in the first room from which the robot gets to most places where it could stand.
-FloorPlan crowdedBuilding(Random& random) {
-  FloorPlan empty = emptyFloor({14.0, 10.0}, {30.0, 20.0}, random), best;
+Building crowdedBuilding(Random& random) {
+  Building empty = emptyFloor({14.0, 10.0}, {30.0, 20.0}, random), best;
   const Divider divider(empty, random, 0.7, 1.1);
   double most = 0.0;
   for (const Box& room : divider.rooms()) {
-    FloorPlan plan = crowd(empty, divider, room.center(), random);
+    Building plan = crowd(empty, divider, room.center(), random);
     const double share =
         shareReached(rasterise(plan, kResolution), room.center(), RobotParameters{}.radius);
     if (share <= most) continue;

@@ -21,7 +21,7 @@ inline constexpr double kOuterWall = 0.2, kInnerWall = 0.1;
 
 /// A building as vectors: solid polygons in a free rectangle from (0, 0) to (width, height). The
 /// lines that a perfect mapper would find follow from it exactly.
-struct FloorPlan {
+struct Building {
   std::string name;
   double width = 0.0, height = 0.0;  ///< m
   Pose2 start;                       ///< where a robot stands when nobody says otherwise
@@ -44,11 +44,11 @@ struct FloorPlan {
 };
 
 /// The plan's cells: solid where the cell's centre lies in a solid.
-World rasterise(const FloorPlan& plan, double resolution);
+World rasterise(const Building& plan, double resolution);
 
 /// The faces of the solids that border on free space which a point can get to from the start:
 /// the parts of the polygons' edges with no other solid in front of them, collinear neighbours
 /// joined. Ordered as the solids are. Cost: edges squared.
-std::vector<WallFace> wallFaces(const FloorPlan& plan, double resolution);
+std::vector<WallFace> wallFaces(const Building& plan, double resolution);
 
 }  // namespace cca

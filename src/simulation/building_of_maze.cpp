@@ -3,7 +3,7 @@
 #include <array>
 #include <vector>
 
-#include "floor_plan_kinds.hpp"
+#include "building_kinds.hpp"
 
 namespace cca {
 
@@ -48,8 +48,8 @@ Passages carve(Random& random) {
 }  // namespace
 
 /// 16 x 12 m of corridors 1.9 m wide.
-FloorPlan maze(Random& random) {
-  FloorPlan plan;
+Building maze(Random& random) {
+  Building plan;
   plan.width = kColumns * kPitch + kWall;
   plan.height = kRows * kPitch + kWall;
   plan.start = {1.0, 1.0, 0.0};

@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "cca_mrpt/simulation/floor_plan.hpp"
+#include "cca_mrpt/simulation/building.hpp"
 
 #include <algorithm>
 #include <cmath>
 
 namespace cca {
 
-void FloorPlan::addBox(const Eigen::Vector2d& lowest, const Eigen::Vector2d& highest) {
+void Building::addBox(const Eigen::Vector2d& lowest, const Eigen::Vector2d& highest) {
   solids.push_back({lowest, {highest.x(), lowest.y()}, highest, {lowest.x(), highest.y()}});
 }
 
-void FloorPlan::addTurnedBox(const Eigen::Vector2d& centre, const Eigen::Vector2d& size,
-                             double angle) {
+void Building::addTurnedBox(const Eigen::Vector2d& centre, const Eigen::Vector2d& size,
+                            double angle) {
   const Pose2 T_map_box{centre.x(), centre.y(), angle};
   const double x = 0.5 * size.x(), y = 0.5 * size.y();
   Polygon box;
@@ -22,7 +22,7 @@ void FloorPlan::addTurnedBox(const Eigen::Vector2d& centre, const Eigen::Vector2
   solids.push_back(box);
 }
 
-void FloorPlan::addDisc(const Eigen::Vector2d& centre, double radius, int corners) {
+void Building::addDisc(const Eigen::Vector2d& centre, double radius, int corners) {
   Polygon disc;
   for (int i = 0; i < corners; ++i) {
     const double angle = 2.0 * M_PI * i / corners;
@@ -32,8 +32,8 @@ void FloorPlan::addDisc(const Eigen::Vector2d& centre, double radius, int corner
   arcs.push_back({centre, radius, 0.0, 2.0 * M_PI});
 }
 
-void FloorPlan::addWall(const Eigen::Vector2d& from, const Eigen::Vector2d& to, double thickness,
-                        const std::vector<Opening>& openings) {
+void Building::addWall(const Eigen::Vector2d& from, const Eigen::Vector2d& to, double thickness,
+                       const std::vector<Opening>& openings) {
   const double length = (to - from).norm();
   const Eigen::Vector2d along = (to - from) / length;
   const Eigen::Vector2d side = 0.5 * thickness * Eigen::Vector2d(-along.y(), along.x());
@@ -48,8 +48,8 @@ void FloorPlan::addWall(const Eigen::Vector2d& from, const Eigen::Vector2d& to, 
   }
 }
 
-void FloorPlan::addArcWall(const Eigen::Vector2d& centre, double radius, double from_angle,
-                           double to_angle, double thickness) {
+void Building::addArcWall(const Eigen::Vector2d& centre, double radius, double from_angle,
+                          double to_angle, double thickness) {
   constexpr double kChord = 0.25;  // m, of the polygon that stands for the arc
   const int pieces =
       std::max(2, static_cast<int>(std::ceil(radius * (to_angle - from_angle) / kChord)));
@@ -66,14 +66,14 @@ void FloorPlan::addArcWall(const Eigen::Vector2d& centre, double radius, double 
   }
 }
 
-void FloorPlan::addOuterWalls(double thickness) {
+void Building::addOuterWalls(double thickness) {
   addBox({0.0, 0.0}, {width, thickness});
   addBox({0.0, height - thickness}, {width, height});
   addBox({0.0, 0.0}, {thickness, height});
   addBox({width - thickness, 0.0}, {width, height});
 }
 
-World rasterise(const FloorPlan& plan, double resolution) {
+World rasterise(const Building& plan, double resolution) {
   const int width = static_cast<int>(std::lround(plan.width / resolution));
   const int height = static_cast<int>(std::lround(plan.height / resolution));
   std::vector<unsigned char> obstacle(static_cast<std::size_t>(width) * height, 0);

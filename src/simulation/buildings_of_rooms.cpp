@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <vector>
 
-#include "floor_plan_kinds.hpp"
+#include "building_kinds.hpp"
 #include "furniture.hpp"
 
 namespace cca {
@@ -20,7 +20,7 @@ Box doorInWallAlongY(double x, double y, double wide) {
 
 /// A row of rooms between y = low and y = high, with doors to a corridor at y = corridor_wall.
 /// @return  the doors.
-std::vector<Box> roomRow(FloorPlan& plan, double low, double high, double corridor_wall,
+std::vector<Box> roomRow(Building& plan, double low, double high, double corridor_wall,
                          const std::vector<double>& dividers, Random& random) {
   std::vector<Opening> openings;
   std::vector<Box> doors;
@@ -44,8 +44,8 @@ std::vector<Box> roomRow(FloorPlan& plan, double low, double high, double corrid
 }  // namespace
 
 /// Two rooms of 5 x 6 m and one door.
-FloorPlan twoRooms(Random&) {
-  FloorPlan plan;
+Building twoRooms(Random&) {
+  Building plan;
   plan.width = 10.0;
   plan.height = 6.0;
   plan.start = {2.0, 3.0, 0.0};
@@ -55,8 +55,8 @@ FloorPlan twoRooms(Random&) {
 }
 
 /// 40 x 25 m: a corridor from end to end, seven rooms on either side, furniture.
-FloorPlan office(Random& random) {
-  FloorPlan plan;
+Building office(Random& random) {
+  Building plan;
   plan.width = 40.0;
   plan.height = 25.0;
   plan.start = {2.0, 12.5, 0.0};
@@ -74,8 +74,8 @@ FloorPlan office(Random& random) {
 }
 
 /// 25 x 20 m: eight rooms, some reached only through others, and much furniture.
-FloorPlan apartment(Random& random) {
-  FloorPlan plan;
+Building apartment(Random& random) {
+  Building plan;
   plan.width = 25.0;
   plan.height = 20.0;
   plan.start = {12.0, 9.5, 0.0};

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <cmath>
 
-#include "floor_plan_kinds.hpp"
+#include "building_kinds.hpp"
 #include "furniture.hpp"
 
 namespace cca {
@@ -11,8 +11,8 @@ constexpr double kRadPerDeg = M_PI / 180.0;
 }  // namespace
 
 /// 60 x 40 m: two blocks of six racks 22 m long, an office in a corner, pallets.
-FloorPlan warehouse(Random& random) {
-  FloorPlan plan;
+Building warehouse(Random& random) {
+  Building plan;
   plan.width = 60.0;
   plan.height = 40.0;
   plan.start = {3.0, 3.0, 0.0};
@@ -36,8 +36,8 @@ FloorPlan warehouse(Random& random) {
 }
 
 /// 24 x 16 m: one corridor around a solid core, with three niches.
-FloorPlan corridorLoop(Random&) {
-  FloorPlan plan;
+Building corridorLoop(Random&) {
+  Building plan;
   plan.width = 24.0;
   plan.height = 16.0;
   plan.start = {1.2, 1.2, 0.0};
@@ -54,8 +54,8 @@ FloorPlan corridorLoop(Random&) {
 }
 
 /// 24 x 18 m: round and turned pillars, cut corners, oblique partitions.
-FloorPlan pillarHall(Random& random) {
-  FloorPlan plan;
+Building pillarHall(Random& random) {
+  Building plan;
   plan.width = 24.0;
   plan.height = 18.0;
   plan.start = {3.0, 9.0, 0.0};
@@ -79,8 +79,8 @@ FloorPlan pillarHall(Random& random) {
 }
 
 /// 26 x 16 m: a rotunda, curved partitions, a curved end wall.
-FloorPlan gallery(Random&) {
-  FloorPlan plan;
+Building gallery(Random&) {
+  Building plan;
   plan.width = 26.0;
   plan.height = 16.0;
   plan.start = {2.0, 8.0, 0.0};

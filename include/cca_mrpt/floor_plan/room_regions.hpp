@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "cca_mrpt/floor_plan/passages.hpp"
+#include "cca_mrpt/floor_plan/raster.hpp"
+
+namespace cca {
+
+/// When a passage parts two rooms. Its relative width is its width over that of the narrower of
+/// both regions, which is twice the greatest clearance in it.
+struct RoomTuning {
+  double widest_narrowing = 0.5;  ///< relative width; of PassageEvidence::kNarrowing
+  double widest_abutting = 0.85;  ///< the same of kAbutting
+  double widest_collinear = 0.9;  ///< the same of kCollinear
+  double widest_mouth = 0.6;
+  double shallowest_mouth = 0.7;
+  double mouth_area = 2.5;
+  double smallest_room = 1.0;  ///< m^2
+};
+
+/// A passage between two rooms.
+struct RoomBorder {
+  Passage passage;
+  std::array<int, 2> rooms{-1, -1};  ///< labels
+};
+
+struct RoomRegions {
+  Raster<int> labels;  ///< 0 .. count - 1; -1: no room
+  int count = 0;
+  std::vector<RoomBorder> borders;
+};
+
+/// Parts the space between the walls into rooms.
+///
+/// All passages cut it; then regions join again, the two with the widest passage between them
+/// first, until each passage that is left is narrow enough for its evidence.
+/// @param space      where rooms may be: what is neither wall nor unknown.
+/// @param clearance  m, distanceTransform() of the walls.
+/// Cost: O(cells + regions x passages).
+RoomRegions partitionIntoRooms(const Mask& space, const Raster<float>& clearance,
+                               const std::vector<Passage>& passages, const RoomTuning& tuning = {});
+
+}  // namespace cca

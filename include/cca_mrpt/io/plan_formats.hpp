@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "cca_mrpt/floor_plan/floor_plan.hpp"
+
+namespace cca {
+
+/// A floor plan as a GeoJSON FeatureCollection in metres of the map frame (not longitude,
+/// latitude). Each feature has `kind` and `id`:
+/// - "room": Polygon with holes; `name` ("" unless given), `area_m2`, `perimeter_m`,
+///   `unseen_area_m2`, `open_border_m`, `label_point`;
+/// - "door", "opening": LineString from jamb to jamb; `width_m`, `rooms` (two ids), and of an
+///   opening `type` ("passage", "wide");
+/// - "wall": LineString, the centre line, or the face of a wall of one face; `thickness_m` (null
+/// for
+///   one face), `faces` (2, 1, or 0 where presumed), `left_line_ids`, `right_line_ids`, `presumed`;
+/// - "furniture": Polygon; `leaning`, `room` (id or null).
+std::string planGeoJson(const FloorPlan& plan);
+
+/// Rooms as CSV, header `id,name,x,y,area_m2,perimeter_m,unseen_area_m2,open_border_m,doors`: a
+/// point inside of each [m, map frame], measures, and its doors and openings by number.
+std::string roomsCsv(const FloorPlan& plan);
+
+/// A floor plan as DXF R12, one drawing unit a metre. Layers: A-WALL (faces of walls), A-WALL-PRSM
+/// (presumed ones), A-DOOR, A-OPNG, A-AREA (rooms), A-AREA-IDEN (their names and areas), A-FURN.
+std::string planDxf(const FloorPlan& plan);
+
+/// A floor plan to scale as SVG, with names, areas, widths of doors, dimensions and a legend.
+/// @param title  for people.
+std::string planSvg(const FloorPlan& plan, const std::string& title);
+
+/// The same sheet as PDF. @throws std::runtime_error with Cairo's reason.
+std::string planPdf(const FloorPlan& plan, const std::string& title);
+
+/// The same sheet as PNG of `longest_side` pixels.
+/// @throws std::runtime_error naming the file and the reason.
+void writePlanPng(const std::string& path, const FloorPlan& plan, const std::string& title,
+                  int longest_side = 1600);
+
+/// Names for rooms: a point in the room [m, map frame], and its name.
+using RoomLabels = std::vector<std::pair<Eigen::Vector2d, std::string>>;
+
+/// Reads a CSV whose header names x, y and name; a name may stand in double quotes.
+/// @param file  its name, for messages.
+/// @throws std::runtime_error naming file, row and column of what is missing or no finite number.
+RoomLabels readRoomLabels(const std::string& text, const std::string& file);
+
+/// Gives rooms the names of the labels that lie in them; of several in one room the first counts.
+/// @return  the labels that lie in no room.
+RoomLabels nameRooms(FloorPlan& plan, const RoomLabels& labels);
+
+}  // namespace cca

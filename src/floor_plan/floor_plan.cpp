@@ -1,0 +1,223 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "cca_mrpt/floor_plan/floor_plan.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "cca_mrpt/floor_plan/distance_transform.hpp"
+#include "cca_mrpt/floor_plan/furniture.hpp"
+#include "cca_mrpt/floor_plan/jambs.hpp"
+#include "cca_mrpt/floor_plan/polygon_measures.hpp"
+#include "cca_mrpt/floor_plan/region_outline.hpp"
+#include "cca_mrpt/floor_plan/room_outline.hpp"
+#include "cca_mrpt/floor_plan/walls.hpp"
+
+namespace cca {
+namespace {
+
+constexpr int kMargin = 2;                     // cells around what is known
+constexpr double kDoor = 1.4, kOpening = 2.5;  // m, the widest of each kind
+constexpr double kStraightBy = 0.06;           // m, where lines do not make a valid polygon
+constexpr double kSmallestHole = 0.05;         // m^2
+
+std::vector<Passage> candidatePassages(const Structure& structure, const Raster<float>& clearance,
+                                       const std::vector<MapLine>& lines,
+                                       const PassageTuning& tuning) {
+  const std::vector<WallEnd> ends = freeWallEnds(structure.solid, lines);
+  std::vector<Passage> gaps = gapsInWalls(structure.solid, lines, tuning);
+  for (const Passage& gap : gapsBetweenEnds(structure.solid, ends, tuning)) gaps.push_back(gap);
+  std::vector<Passage> narrow = narrowings(structure.solid, clearance, ends, tuning);
+  for (Passage& gap : gaps) gap = centred(structure.solid, gap, tuning);
+  for (Passage& gap : narrow) gap = centred(structure.solid, gap, tuning);
+  return joinPassages(std::move(gaps), narrow, tuning);
+}
+
+OpeningKind kindOf(double width) {
+  if (width <= kDoor) return OpeningKind::kDoor;
+  return width <= kOpening ? OpeningKind::kPassage : OpeningKind::kWide;
+}
+
+std::vector<PlanOpening> openingsOf(const RoomRegions& regions) {
+  std::vector<PlanOpening> openings;
+  for (const RoomBorder& border : regions.borders) {
+    PlanOpening opening;
+    opening.id = static_cast<int>(openings.size()) + 1;
+    opening.kind = kindOf(border.passage.width());
+    opening.a = border.passage.a;
+    opening.b = border.passage.b;
+    opening.rooms = {border.rooms[0] + 1, border.rooms[1] + 1};
+    openings.push_back(opening);
+  }
+  return openings;
+}
+
+/// The openings of one room, as segments.
+std::vector<Passage> passagesOf(const RoomRegions& regions, int label) {
+  std::vector<Passage> passages;
+  for (const RoomBorder& border : regions.borders) {
+    if (border.rooms[0] == label || border.rooms[1] == label) passages.push_back(border.passage);
+  }
+  return passages;
+}
+
+/// The outline and the holes of a room: along lines, or else straightened, or else along cells.
+void drawRoom(const Raster<int>& labels, const RegionOutline& border,
+              const std::vector<MapLine>& lines, const std::vector<Passage>& openings,
+              PlanRoom& room) {
+  const auto largest = std::max_element(
+      border.outlines.begin(), border.outlines.end(),
+      [](const Polygon& a, const Polygon& b) { return signedArea(a) < signedArea(b); });
+  if (largest == border.outlines.end()) return;
+  for (const int attempt : {0, 1, 2}) {
+    const auto drawn = [&](const Polygon& chain) {
+      if (attempt == 0) return outlineAlongLines(labels, chain, lines, openings);
+      return straightened(labels, chain, attempt == 1 ? kStraightBy : 0.0);
+    };
+    room.outline = drawn(*largest);
+    room.holes.clear();
+    for (const Polygon& chain : border.holes) {
+      Polygon hole = drawn(chain);
+      if (-signedArea(hole) > kSmallestHole) room.holes.push_back(std::move(hole));
+    }
+    if (isValidPolygon(room.outline, room.holes)) return;
+  }
+}
+
+/// Cells that a beam ended in or a line crosses: what borders on none of them borders on the
+/// unknown.
+Mask obstaclesSeen(const OccupancyRaster& grid, const std::vector<MapLine>& lines) {
+  Mask seen = grid.alike(std::uint8_t{0});
+  for (std::size_t k = 0; k < grid.values.size(); ++k)
+    seen.values[k] = grid.values[k] == Occupancy::kOccupied;
+  for (const MapLine& line : lines) {
+    for (const Cell c : cellsAlong(seen, line.segment.start, line.segment.end)) seen[c] = 1;
+  }
+  return seen;
+}
+
+/// m of a room's border with cells beyond that are unknown, and no obstacle within two cells.
+double openBorder(const Mask& obstacles, const Raster<int>& labels, const RegionOutline& border) {
+  double length = 0.0;
+  for (const Polygon& chain : border.outlines) {
+    for (std::size_t k = 0; k < chain.size(); ++k) {
+      const Eigen::Vector2d side = chain[(k + 1) % chain.size()] - chain[k];
+      const Eigen::Vector2d beyond = chain[k] + 0.5 * side + Eigen::Vector2d(side.y(), -side.x());
+      const Cell c = cellAt(beyond);
+      if (labels.at(c, -1) >= 0) continue;
+      bool is_seen = false;
+      for (int y = -2; y <= 2 && !is_seen; ++y) {
+        for (int x = -2; x <= 2 && !is_seen; ++x) is_seen = obstacles.at(c + Cell{x, y}, 0);
+      }
+      if (!is_seen) length += labels.resolution;
+    }
+  }
+  return length;
+}
+
+PlanWall presumedWall(const PlanFurniture& piece) {
+  PlanWall wall;
+  wall.start = piece.outline.back();
+  wall.end = piece.outline.front();
+  wall.is_presumed = true;
+  return wall;
+}
+
+/// Cuts what leans on the walls of a room from its outline, where that leaves it valid.
+void takeLeaning(PlanRoom& room, FloorPlan& plan) {
+  Polygon outline = room.outline;
+  std::vector<PlanFurniture> leaning = cutLeaning(outline, plan.room_of);
+  if (leaning.empty() || !isValidPolygon(outline, room.holes)) return;
+  room.outline = outline;
+  for (PlanFurniture& piece : leaning) {
+    piece.room = room.id;
+    room.unseen_area += areaOf(piece.outline, {});
+    plan.walls.push_back(presumedWall(piece));
+    plan.furniture.push_back(std::move(piece));
+  }
+}
+
+/// Where each room is widest, for its name; and the area of it that no beam crossed.
+void noteCells(const OccupancyRaster& grid, const Raster<float>& clearance,
+               const Raster<int>& labels, std::vector<PlanRoom>& rooms) {
+  std::vector<float> widest(rooms.size(), -1.0F);
+  const double cell = grid.resolution * grid.resolution;
+  for (std::size_t k = 0; k < labels.values.size(); ++k) {
+    if (labels.values[k] < 0) continue;
+    const auto room = static_cast<std::size_t>(labels.values[k]);
+    if (grid.values[k] == Occupancy::kUnknown) rooms[room].unseen_area += cell;
+    if (clearance.values[k] <= widest[room]) continue;
+    widest[room] = clearance.values[k];
+    rooms[room].label = labels.centreOf(labels.cell(k));
+  }
+}
+
+void numberAll(FloorPlan& plan) {
+  int id = 0;
+  for (PlanWall& wall : plan.walls) wall.id = ++id;
+  id = 0;
+  for (PlanFurniture& piece : plan.furniture) {
+    piece.id = ++id;
+    if (piece.room == 0) piece.room = roomAt(plan, boundsOf(piece.outline).center());
+  }
+}
+
+/// The faces of the building: lines of furniture bound no room.
+std::vector<MapLine> facesOf(const Mask& solid, const std::vector<MapLine>& lines) {
+  std::vector<MapLine> faces;
+  std::copy_if(lines.begin(), lines.end(), std::back_inserter(faces),
+               [&](const MapLine& line) { return standsOn(solid, line.segment); });
+  return faces;
+}
+
+}  // namespace
+
+FloorPlan floorPlan(const OccupancyRaster& whole, const std::vector<MapLine>& all_lines,
+                    const FloorPlanTuning& tuning) {
+  FloorPlan plan;
+  const OccupancyRaster grid = cropToKnown(whole, kMargin);
+  plan.room_of = grid.alike(0);
+  if (grid.values.empty()) return plan;
+  const Structure structure = tellStructure(grid, all_lines, tuning.structure);
+  const std::vector<MapLine> lines = facesOf(structure.solid, all_lines);
+  Mask space = structure.open;
+  for (std::size_t k = 0; k < space.values.size(); ++k)
+    space.values[k] = space.values[k] || structure.furniture.values[k];
+  const Raster<float> clearance = distanceTransform(structure.solid);
+  RoomRegions regions = partitionIntoRooms(
+      space, clearance, candidatePassages(structure, clearance, lines, tuning.passages),
+      tuning.rooms);
+  for (RoomBorder& border : regions.borders)
+    border.passage = withJambsOfLines(border.passage, lines);
+  plan.openings = openingsOf(regions);
+  for (std::size_t k = 0; k < regions.labels.values.size(); ++k)
+    plan.room_of.values[k] = regions.labels.values[k] + 1;
+  plan.walls = wallsOfLines(structure.solid, lines);
+  plan.furniture = freeStanding(structure.furniture);
+  plan.rooms.resize(static_cast<std::size_t>(regions.count));
+  noteCells(grid, clearance, regions.labels, plan.rooms);
+  const std::vector<RegionOutline> borders = outlinesOfRegions(regions.labels, regions.count);
+  const Mask obstacles = obstaclesSeen(grid, lines);
+  for (std::size_t k = 0; k < plan.rooms.size(); ++k) {
+    PlanRoom& room = plan.rooms[k];
+    room.id = static_cast<int>(k) + 1;
+    drawRoom(regions.labels, borders[k], lines, passagesOf(regions, static_cast<int>(k)), room);
+    takeLeaning(room, plan);
+    room.area = areaOf(room.outline, room.holes);
+    room.perimeter = perimeterOf(room.outline, room.holes);
+    room.open_border = openBorder(obstacles, regions.labels, borders[k]);
+  }
+  numberAll(plan);
+  return plan;
+}
+
+int roomAt(const FloorPlan& plan, const Eigen::Vector2d& p) {
+  for (const PlanRoom& room : plan.rooms) {
+    if (!isInside(room.outline, p)) continue;
+    if (std::none_of(room.holes.begin(), room.holes.end(),
+                     [&](const Polygon& hole) { return isInside(hole, p); }))
+      return room.id;
+  }
+  return 0;
+}
+
+}  // namespace cca

@@ -1,0 +1,297 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "cca_mrpt/floor_plan/room_regions.hpp"
+
+#include <algorithm>
+#include <map>
+#include <numeric>
+#include <utility>
+
+#include "cca_mrpt/floor_plan/components.hpp"
+
+namespace cca {
+namespace {
+
+constexpr double kNiche = 1.001;  // excess
+constexpr double kSmall = 10.0;   // excess: what is no room joins first
+
+constexpr double kNearest = 0.35,
+                 kFarthest = 1.0;  // m from a passage: past the wall, before the next
+constexpr double kWidest = 8.0;    // m to each side; wider is wide
+
+/// Cells from wall to wall, with one more at each end.
+std::vector<Cell> cutCells(const Mask& space, const Passage& passage) {
+  const Eigen::Vector2d beyond = 1.5 * space.resolution * (passage.b - passage.a).normalized();
+  return cellsAlong(space, passage.a - beyond, passage.b + beyond);
+}
+
+/// Space with all passages closed.
+Mask cutSpace(const Mask& space, const std::vector<Passage>& passages) {
+  Mask parted = space;
+  for (const Passage& passage : passages) {
+    for (const Cell c : cutCells(space, passage)) parted[c] = 0;
+  }
+  return parted;
+}
+
+/// Gives each cell of the space that has no label that of its next neighbour, step by step.
+void growLabels(const Mask& space, Raster<int>& labels) {
+  std::vector<std::size_t> front, next;
+  for (std::size_t k = 0; k < space.values.size(); ++k) {
+    if (labels.values[k] >= 0) front.push_back(k);
+  }
+  while (!front.empty()) {
+    next.clear();
+    for (const std::size_t k : front) {
+      const Cell c = labels.cell(k);
+      for (int side = 0; side < 4; ++side) {
+        const Cell beside = c + kNeighbours[static_cast<std::size_t>(side)];
+        if (!space.at(beside, 0) || labels[beside] >= 0) continue;
+        labels[beside] = labels.values[k];
+        next.push_back(labels.index(beside));
+      }
+    }
+    front.swap(next);
+  }
+}
+
+/// The labels on both sides of a passage: those most often seen some cells off its line.
+std::array<int, 2> sidesOf(const Raster<int>& labels, const Passage& passage) {
+  const Eigen::Vector2d way = passage.b - passage.a;
+  const Eigen::Vector2d across =
+      labels.resolution * Eigen::Vector2d(-way.y(), way.x()).normalized();
+  std::array<int, 2> sides{-1, -1};
+  for (int side = 0; side < 2; ++side) {
+    std::map<int, int> seen;
+    for (double t = 0.1; t < 0.95; t += 0.1) {
+      for (const double off : {1.5, 2.5}) {
+        const Eigen::Vector2d p = passage.a + t * way + (side ? off : -off) * across;
+        const int label = labels.at(labels.cellOf(p), -1);
+        if (label >= 0) ++seen[label];
+      }
+    }
+    int most = 0;
+    for (const auto& [label, times] : seen) {
+      if (times <= most) continue;
+      most = times;
+      sides[static_cast<std::size_t>(side)] = label;
+    }
+  }
+  return sides;
+}
+
+/// m, how wide the space is beside a passage: the median over sections parallel to it.
+/// @param is_open  bool(Eigen::Vector2d): whether a point belongs to the space.
+template <class IsOpen>
+double widthBeside(const Passage& passage, double resolution, bool left, IsOpen&& is_open) {
+  const Eigen::Vector2d way = (passage.b - passage.a).normalized();
+  const Eigen::Vector2d across = (left ? 1.0 : -1.0) * Eigen::Vector2d(-way.y(), way.x());
+  const double step = 0.5 * resolution;
+  std::vector<double> widths;
+  for (double off = kNearest; off <= kFarthest; off += resolution) {
+    const Eigen::Vector2d p = passage.middle() + off * across;
+    if (!is_open(p)) break;
+    double width = 0.0;
+    for (const double sign : {-1.0, 1.0}) {
+      double s = 0.0;
+      while (s < kWidest && is_open(p + sign * s * way)) s += step;
+      width += s;
+    }
+    widths.push_back(width);
+  }
+  if (widths.empty()) return resolution;
+  const auto middle = widths.begin() + static_cast<long>(widths.size() / 2);
+  std::nth_element(widths.begin(), middle, widths.end());
+  return *middle;
+}
+
+/// m, how deep the space is before a passage: the way straight ahead to the next wall.
+template <class IsOpen>
+double depthBeside(const Passage& passage, double resolution, bool left, IsOpen&& is_open) {
+  const Eigen::Vector2d way = (passage.b - passage.a).normalized();
+  const Eigen::Vector2d across = (left ? 1.0 : -1.0) * Eigen::Vector2d(-way.y(), way.x());
+  double depth = 2.0 * resolution;
+  while (depth < kWidest && is_open(passage.middle() + depth * across)) depth += resolution;
+  return depth;
+}
+
+/// Relative width up to which a passage may be a door.
+double widestDoor(PassageEvidence evidence, const RoomTuning& tuning) {
+  switch (evidence) {
+    case PassageEvidence::kNarrowing:
+      return tuning.widest_narrowing;
+    case PassageEvidence::kAbutting:
+      return tuning.widest_abutting;
+    case PassageEvidence::kCollinear:
+    case PassageEvidence::kBetweenEnds:
+      break;
+  }
+  return tuning.widest_collinear;
+}
+
+/// The passages that are narrower than the space on one side at least; of mere narrowings, on both.
+std::vector<Passage> plausible(const Mask& space, const std::vector<Passage>& passages,
+                               const RoomTuning& tuning) {
+  const auto isOpen = [&](const Eigen::Vector2d& p) { return space.at(space.cellOf(p), 0) != 0; };
+  std::vector<Passage> kept;
+  for (const Passage& passage : passages) {
+    const double q0 = passage.width() / widthBeside(passage, space.resolution, false, isOpen);
+    const double q1 = passage.width() / widthBeside(passage, space.resolution, true, isOpen);
+    const bool is_door = std::max(q0, q1) <= widestDoor(passage.evidence, tuning);
+    const bool is_mouth =
+        passage.evidence != PassageEvidence::kNarrowing && std::min(q0, q1) <= tuning.widest_mouth;
+    if (is_door || is_mouth) kept.push_back(passage);
+  }
+  return kept;
+}
+
+/// Regions that join until no passage is too wide.
+class RegionGraph {
+ public:
+  RegionGraph(const Raster<int>& labels, int count, const Raster<float>& clearance,
+              const std::vector<Passage>& passages, const RoomTuning& tuning)
+      : tuning_(tuning),
+        labels_(labels),
+        joined_(static_cast<std::size_t>(count)),
+        peak_(static_cast<std::size_t>(count), 0.0),
+        area_(peak_) {
+    std::iota(joined_.begin(), joined_.end(), 0);
+    const double cell_area = labels.resolution * labels.resolution;
+    for (std::size_t k = 0; k < labels.values.size(); ++k) {
+      if (labels.values[k] < 0) continue;
+      const auto region = static_cast<std::size_t>(labels.values[k]);
+      peak_[region] = std::max(peak_[region], static_cast<double>(clearance.values[k]));
+      area_[region] += cell_area;
+    }
+    for (const Passage& passage : passages) {
+      const auto rooms = sidesOf(labels, passage);
+      if (rooms[0] >= 0 && rooms[1] >= 0 && rooms[0] != rooms[1]) {
+        borders_.push_back({passage, rooms});
+        beside_.push_back({0.0, 0.0});
+        depth_.push_back({0.0, 0.0});
+      }
+    }
+  }
+
+  void joinAll() {
+    for (std::size_t k = 0; k < borders_.size(); ++k) measure(k);
+    while (joinWorst()) {
+    }
+  }
+
+  int root(int region) const {
+    while (joined_[at(region)] != region) region = joined_[at(region)];
+    return region;
+  }
+  double area(int region) const { return area_[at(root(region))]; }
+  const std::vector<RoomBorder>& borders() const { return borders_; }
+
+ private:
+  static std::size_t at(int region) { return static_cast<std::size_t>(region); }
+
+  /// The width of both regions beside a passage.
+  void measure(std::size_t k) {
+    for (const bool left : {false, true}) {
+      const int region = root(borders_[k].rooms[left]);
+      const auto isIn = [&](const Eigen::Vector2d& p) {
+        const int label = labels_.at(labels_.cellOf(p), -1);
+        return label >= 0 && root(label) == region;
+      };
+      beside_[k][left] = widthBeside(borders_[k].passage, labels_.resolution, left, isIn);
+      depth_[k][left] = depthBeside(borders_[k].passage, labels_.resolution, left, isIn);
+    }
+  }
+
+  /// Above 1: too wide to part rooms.
+  double excess(std::size_t k) const {
+    const RoomBorder& border = borders_[k];
+    const int a = root(border.rooms[0]), b = root(border.rooms[1]);
+    const double width = border.passage.width();
+    const auto narrower = [&](int side) {  // relative width
+      const double region = 2.0 * peak_[at(side ? b : a)];
+      return width / std::max(1e-9, std::min(region, beside_[k][static_cast<std::size_t>(side)]));
+    };
+    const double q0 = narrower(0), q1 = narrower(1);
+    const double door = std::max(q0, q1);
+    const double as_door = door / widestDoor(border.passage.evidence, tuning_);
+    if (border.passage.evidence == PassageEvidence::kNarrowing) return as_door;
+    // A corridor's mouth.
+    const int arm = q0 > q1 ? a : b;
+    const double arm_area = area_[at(arm)];
+    const double other = width / depth_[k][q0 > q1 ? 1 : 0];
+    const bool is_front = border.passage.evidence == PassageEvidence::kBetweenEnds;
+    double as_mouth = std::max(std::min(q0, q1) / tuning_.widest_mouth,
+                               is_front ? 0.0 : other / tuning_.shallowest_mouth);
+    // A niche joins last: it may be a piece of a corridor still.
+    if (arm_area < tuning_.mouth_area * width * width) as_mouth = std::max(as_mouth, kNiche);
+    return std::min(as_door, as_mouth);
+  }
+
+  bool isSmall(const RoomBorder& border) const {
+    return std::min(area(border.rooms[0]), area(border.rooms[1])) < tuning_.smallest_room;
+  }
+
+  bool joinWorst() {
+    double worst = 1.0, widest = 0.0;
+    const RoomBorder* found = nullptr;
+    for (std::size_t k = 0; k < borders_.size(); ++k) {
+      const RoomBorder& border = borders_[k];
+      if (root(border.rooms[0]) == root(border.rooms[1])) continue;
+      const double e = excess(k) + (isSmall(border) ? kSmall : 0.0), width = border.passage.width();
+      if (e <= worst && !(e == worst && width > widest)) continue;
+      worst = e;
+      widest = width;
+      found = &border;
+    }
+    if (!found) return false;
+    const int a = root(found->rooms[0]), b = root(found->rooms[1]);
+    joined_[at(b)] = a;
+    peak_[at(a)] = std::max(peak_[at(a)], peak_[at(b)]);
+    area_[at(a)] += area_[at(b)];
+    for (std::size_t k = 0; k < borders_.size(); ++k) {
+      if (root(borders_[k].rooms[0]) == a || root(borders_[k].rooms[1]) == a) measure(k);
+    }
+    return true;
+  }
+
+  RoomTuning tuning_;
+  const Raster<int>& labels_;
+  std::vector<int> joined_;
+  std::vector<double> peak_, area_;
+  std::vector<RoomBorder> borders_;
+  std::vector<std::array<double, 2>> beside_, depth_;
+};
+
+}  // namespace
+
+RoomRegions partitionIntoRooms(const Mask& space, const Raster<float>& clearance,
+                               const std::vector<Passage>& passages, const RoomTuning& tuning) {
+  const std::vector<Passage> cuts = plausible(space, passages, tuning);
+  Components parts = connectedComponents(cutSpace(space, cuts), 4);
+  growLabels(space, parts.labels);
+  RegionGraph graph(parts.labels, static_cast<int>(parts.sizes.size()), clearance, cuts, tuning);
+  graph.joinAll();
+  RoomRegions rooms;
+  rooms.labels = parts.labels;
+  std::map<int, int> number;
+  for (int& label : rooms.labels.values) {
+    if (label < 0) continue;
+    const int root = graph.root(label);
+    if (graph.area(root) < tuning.smallest_room) {
+      label = -1;
+      continue;
+    }
+    label = number.emplace(root, static_cast<int>(number.size())).first->second;
+  }
+  rooms.count = static_cast<int>(number.size());
+  growLabels(space, rooms.labels);
+  for (RoomBorder border : graph.borders()) {
+    const auto a = number.find(graph.root(border.rooms[0]));
+    const auto b = number.find(graph.root(border.rooms[1]));
+    if (a == number.end() || b == number.end() || a == b) continue;
+    border.rooms = {a->second, b->second};
+    rooms.borders.push_back(border);
+  }
+  return rooms;
+}
+
+}  // namespace cca

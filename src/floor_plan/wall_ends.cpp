@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "cca_mrpt/floor_plan/wall_ends.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "cca_mrpt/geometry/cross.hpp"
+
+namespace cca {
+namespace {
+
+constexpr double kCosAntiparallel = -0.97;  // 14 degrees
+constexpr double kCosAcross = 0.5;
+constexpr double kAhead = 0.25;  // m; what lies that far before the end is open
+constexpr double kCap = 0.3;     // m, from the end to a line that begins there
+
+/// Whether the wall turns: a long line begins at its end, and leads off across.
+bool turns(const WallEnd& end, const std::vector<MapLine>& lines, const WallEndTuning& tuning) {
+  return std::any_of(lines.begin(), lines.end(), [&](const MapLine& line) {
+    const LineSegment& s = line.segment;
+    if (s.length() < tuning.turn) return false;
+    if (std::abs(s.direction().dot(end.direction)) > kCosAcross) return false;
+    const double nearest = std::min((s.start - end.point).norm(), (s.end - end.point).norm());
+    return nearest < kCap;
+  });
+}
+
+}  // namespace
+
+std::vector<WallEnd> freeWallEnds(const Mask& solid, const std::vector<MapLine>& lines,
+                                  const WallEndTuning& tuning) {
+  std::vector<WallEnd> ends;
+  for (const MapLine& one : lines) {
+    const LineSegment& a = one.segment;
+    if (a.length() < tuning.shortest_face) continue;
+    const Eigen::Vector2d along = a.direction();
+    for (const MapLine& other : lines) {
+      const LineSegment& b = other.segment;
+      if (b.length() < tuning.shortest_face || along.dot(b.direction()) > kCosAntiparallel)
+        continue;
+      // The wall lies on the right of both.
+      const Eigen::Vector2d off = b.start - a.end;
+      const double thickness = -cross(along, off);
+      if (thickness < 0.0 || thickness > tuning.thickest) continue;
+      if (std::abs(off.dot(along)) > tuning.uneven) continue;
+      const WallEnd end{0.5 * (a.end + b.start), along, thickness};
+      const Cell ahead = solid.cellOf(end.point + (0.5 * tuning.uneven + kAhead) * along);
+      if (solid.at(ahead, 1) == 0 && !turns(end, lines, tuning)) ends.push_back(end);
+    }
+  }
+  return ends;
+}
+
+}  // namespace cca

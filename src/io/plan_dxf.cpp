@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "cca_mrpt/io/plan_formats.hpp"
+#include "dxf.hpp"
+#include "plan_sheet.hpp"
+
+namespace cca {
+namespace {
+
+constexpr int kRed = 1, kYellow = 2, kGreen = 3, kCyan = 4, kMagenta = 6, kWhite = 7, kGrey = 8;
+constexpr double kTextHeight = 0.2;  // m
+
+void addPlanLayers(Dxf& dxf) {
+  dxf.group(999, "Floor plan; drawing unit 1 m");
+  dxf.beginLayers(7);
+  dxf.layer("A-WALL", kWhite);
+  dxf.layer("A-WALL-PRSM", kGrey);
+  dxf.layer("A-DOOR", kRed);
+  dxf.layer("A-OPNG", kCyan);
+  dxf.layer("A-AREA", kGreen);
+  dxf.layer("A-AREA-IDEN", kYellow);
+  dxf.layer("A-FURN", kMagenta);
+  dxf.beginEntities();
+}
+
+void addWall(Dxf& dxf, const PlanWall& wall) {
+  if (wall.thickness <= 0.0) {
+    dxf.line(wall.start, wall.end, wall.is_presumed ? "A-WALL-PRSM" : "A-WALL");
+    return;
+  }
+  const Eigen::Vector2d along = (wall.end - wall.start).normalized();
+  const Eigen::Vector2d half = 0.5 * wall.thickness * Eigen::Vector2d(-along.y(), along.x());
+  dxf.polyLine({wall.start + half, wall.end + half, wall.end - half, wall.start - half}, "A-WALL",
+               true);
+}
+
+/// R12 is ASCII: other characters as AutoCAD writes them.
+std::string inDxf(const std::string& utf8) {
+  std::string text;
+  for (std::size_t k = 0; k < utf8.size();) {
+    const auto lead = static_cast<unsigned char>(utf8[k]);
+    const std::size_t bytes = lead < 0x80 ? 1 : lead < 0xE0 ? 2 : lead < 0xF0 ? 3 : 4;
+    if (bytes == 1) {
+      if (lead >= 0x20) text += utf8[k];
+    } else if (k + bytes <= utf8.size()) {
+      unsigned code = lead & (0xFFU >> (bytes + 1));
+      for (std::size_t i = 1; i < bytes; ++i)
+        code = code << 6 | (static_cast<unsigned char>(utf8[k + i]) & 0x3FU);
+      char escape[16];
+      std::snprintf(escape, sizeof escape, "\\U+%04X", code);
+      text += escape;
+    }
+    k += bytes;
+  }
+  return text;
+}
+
+void addRoom(Dxf& dxf, const PlanRoom& room) {
+  dxf.polyLine(room.outline, "A-AREA", true);
+  for (const Polygon& hole : room.holes) dxf.polyLine(hole, "A-AREA", true);
+  char area[32];
+  std::snprintf(area, sizeof area, "%.2f m2", room.area);
+  const Eigen::Vector2d down(0.0, -1.4 * kTextHeight);
+  dxf.text(room.label, kTextHeight, inDxf(nameOf(room)), "A-AREA-IDEN");
+  dxf.text(room.label + down, kTextHeight, area, "A-AREA-IDEN");
+}
+
+}  // namespace
+
+std::string planDxf(const FloorPlan& plan) {
+  Dxf dxf;
+  addPlanLayers(dxf);
+  for (const PlanRoom& room : plan.rooms) addRoom(dxf, room);
+  for (const PlanFurniture& piece : plan.furniture) dxf.polyLine(piece.outline, "A-FURN", true);
+  for (const PlanWall& wall : plan.walls) addWall(dxf, wall);
+  for (const PlanOpening& opening : plan.openings)
+    dxf.line(opening.a, opening.b, opening.kind == OpeningKind::kDoor ? "A-DOOR" : "A-OPNG");
+  return dxf.finished();
+}
+
+}  // namespace cca

@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "cca_mrpt/floor_plan/components.hpp"
+#include "cca_mrpt/floor_plan/distance_transform.hpp"
+#include "cca_mrpt/floor_plan/furniture.hpp"
+#include "cca_mrpt/floor_plan/jambs.hpp"
+#include "cca_mrpt/floor_plan/passages.hpp"
+#include "cca_mrpt/floor_plan/region_outline.hpp"
+#include "cca_mrpt/floor_plan/room_outline.hpp"
+#include "cca_mrpt/floor_plan/structure.hpp"
+#include "cca_mrpt/floor_plan/walls.hpp"
+#include "drawn_map.hpp"
+
+namespace cca {
+namespace {
+
+Mask randomMask(unsigned seed, int columns, int rows, unsigned one_in) {
+  std::mt19937 random(seed);  // seeded
+  Mask mask;
+  mask.columns = columns;
+  mask.rows = rows;
+  for (int k = 0; k < columns * rows; ++k) mask.values.push_back(random() % one_in == 0);
+  return mask;
+}
+
+TEST(DistanceTransform, EqualsTheSearchOfAllCells) {
+  const Mask mask = randomMask(3, 23, 17, 15);
+  const Raster<float> field = distanceTransform(mask);
+  for (std::size_t k = 0; k < mask.values.size(); ++k) {
+    const Cell c = mask.cell(k);
+    double least = 1e9;
+    for (int y = -1; y <= mask.rows; ++y) {
+      for (int x = -1; x <= mask.columns; ++x) {
+        if (mask.at({x, y}, 1)) least = std::min(least, distanceBetween(c, {x, y}));
+      }
+    }
+    EXPECT_NEAR(field.values[k], 0.05 * least, 1e-5);
+  }
+}
+
+TEST(Components, PartWhatTouchesAtACornerOnlyByTheirNeighbours) {
+  Mask mask;
+  mask.columns = mask.rows = 2;
+  mask.values = {1, 0, 0, 1};
+  EXPECT_EQ(connectedComponents(mask, 4).sizes.size(), 2u);
+  EXPECT_EQ(connectedComponents(mask, 8).sizes.size(), 1u);
+}
+
+TEST(RegionOutline, EnclosesAsManyCellsAsThereAreButForPinches) {
+  for (unsigned seed = 1; seed < 20; ++seed) {
+    const Components parts = connectedComponents(randomMask(seed, 15, 12, 2), 4);
+    const auto outlines = outlinesOfRegions(parts.labels, static_cast<int>(parts.sizes.size()));
+    for (std::size_t k = 0; k < outlines.size(); ++k) {
+      ASSERT_EQ(outlines[k].outlines.size(), 1u);
+      double area = signedArea(outlines[k].outlines.front());
+      for (const Polygon& hole : outlines[k].holes) area += signedArea(hole);
+      EXPECT_NEAR(area, static_cast<double>(parts.sizes[k]),
+                  0.05 * static_cast<double>(parts.sizes[k]));
+    }
+  }
+}
+
+TEST(Structure, TellsAPillarFromAWallInTheMiddleOfAHall) {
+  const Polygon hall{{0, 0}, {10, 0}, {10, 8}, {0, 8}};
+  const Polygon pillar{{2, 2}, {2, 2.5}, {2.5, 2.5}, {2.5, 2}};
+  const Polygon wall{{5, 2}, {5, 6}, {5.2, 6}, {5.2, 2}};
+  const DrawnMap map = drawMap({hall, pillar, wall}, {0.0, 0.0, 0.4});
+  const Structure found = tellStructure(cropToKnown(map.grid, 2), map.lines);
+  const Pose2 T{0.0, 0.0, 0.4};
+  const auto at = [&](const Mask& mask, double x, double y) {
+    return mask[mask.cellOf(T * Eigen::Vector2d(x, y))] != 0;
+  };
+  EXPECT_TRUE(at(found.furniture, 2.25, 2.25));
+  EXPECT_FALSE(at(found.solid, 2.25, 2.25));
+  EXPECT_TRUE(at(found.solid, 5.1, 4.0));
+  EXPECT_TRUE(at(found.open, 8.0, 4.0));
+}
+
+TEST(WallEnds, AreBothJambsOfADoor) {
+  const DrawnMap map = drawMap({twoRooms()}, {0.3, 0.1, 0.6});
+  const Structure found = tellStructure(cropToKnown(map.grid, 2), map.lines);
+  const std::vector<WallEnd> ends = freeWallEnds(found.solid, map.lines);
+  ASSERT_EQ(ends.size(), 2u);
+  for (const WallEnd& end : ends) EXPECT_NEAR(end.thickness, 0.12, 1e-6);
+  EXPECT_NEAR((ends[0].point - ends[1].point).norm(), 0.9, 1e-6);
+  EXPECT_LT(ends[0].direction.dot(ends[1].direction), -0.999);
+}
+
+TEST(GapsInWalls, AreNotBehindTheCornerOfARoom) {
+  // The side walls of a room end in its corners: their lines do not go on through the wall.
+  const Polygon room{{0, 0}, {4, 0}, {4, 3}, {0, 3}},
+      corridor{{0, 3.15}, {4, 3.15}, {4, 4.6}, {0, 4.6}};
+  const DrawnMap map = drawMap({room, corridor}, {0.02, 0.01, 0.25});
+  const Structure found = tellStructure(cropToKnown(map.grid, 2), map.lines);
+  EXPECT_TRUE(gapsInWalls(found.solid, map.lines).empty());
+}
+
+TEST(Jambs, MoveToTheEndsOfTheFaces) {
+  const DrawnMap map = drawMap({twoRooms()}, {0.0, 0.0, 0.0});
+  const Passage rough{{5.06, 1.46}, {5.06, 2.45}, PassageEvidence::kCollinear};
+  const Passage exact = withJambsOfLines(rough, map.lines);
+  EXPECT_NEAR(exact.a.y(), 1.5, 1e-9);
+  EXPECT_NEAR(exact.b.y(), 2.4, 1e-9);
+  const Passage alone{{1.0, 1.0}, {1.0, 2.0}, PassageEvidence::kNarrowing};
+  EXPECT_EQ(withJambsOfLines(alone, map.lines).a, alone.a);
+}
+
+TEST(Walls, OfOneFaceHaveNoThickness) {
+  const DrawnMap map = drawMap({{{0, 0}, {5, 0}, {5, 4}, {0, 4}}}, {0.0, 0.0, 0.0});
+  const Structure found = tellStructure(cropToKnown(map.grid, 2), map.lines);
+  const std::vector<PlanWall> walls = wallsOfLines(found.solid, map.lines);
+  ASSERT_EQ(walls.size(), 4u);
+  for (const PlanWall& wall : walls) {
+    EXPECT_EQ(wall.thickness, 0.0);
+    EXPECT_TRUE(wall.right.empty());
+  }
+}
+
+TEST(Walls, AreNotPairedAcrossOpenFloor) {
+  // A passage of 0.5 m between two blocks: its faces look at each other, not away.
+  const DrawnMap map = drawMap({{{0, 0}, {5, 0}, {5, 0.5}, {0, 0.5}}}, {0.0, 0.0, 0.1});
+  const Structure found = tellStructure(cropToKnown(map.grid, 2), map.lines);
+  for (const PlanWall& wall : wallsOfLines(found.solid, map.lines)) EXPECT_EQ(wall.thickness, 0.0);
+}
+
+TEST(Furniture, IsNotCutWhereAnotherRoomLiesInside) {
+  Polygon outline{{0, 0}, {2, 0}, {2, 0.9}, {3.2, 0.9}, {3.2, 0}, {6, 0}, {6, 4}, {0, 4}};
+  Raster<int> rooms;
+  rooms.columns = 140;
+  rooms.rows = 100;
+  rooms.values.assign(14000, 1);
+  EXPECT_TRUE(cutLeaning(outline, rooms).empty());
+  EXPECT_EQ(outline.size(), 8u);
+  rooms.values.assign(14000, 0);
+  EXPECT_EQ(cutLeaning(outline, rooms).size(), 1u);
+  EXPECT_EQ(outline.size(), 4u);
+}
+
+TEST(RoomOutline, FollowsTheLinesAndNotTheCells) {
+  const Pose2 T{0.013, 0.021, 0.3};
+  const Polygon room{{0, 0}, {4, 0}, {4, 3}, {0, 3}};
+  const DrawnMap map = drawMap({room}, T);
+  Mask open = map.grid.alike(std::uint8_t{0});
+  for (std::size_t k = 0; k < open.values.size(); ++k)
+    open.values[k] = map.grid.values[k] == Occupancy::kFree;
+  const Components parts = connectedComponents(open, 4);
+  const auto border = outlinesOfRegions(parts.labels, 1).front();
+  const Polygon drawn = outlineAlongLines(parts.labels, border.outlines.front(), map.lines, {});
+  ASSERT_EQ(drawn.size(), 4u);
+  for (const auto& corner : drawn) {
+    double least = 1e9;
+    for (const auto& p : room) least = std::min(least, (T * p - corner).norm());
+    EXPECT_LT(least, 1e-9);
+  }
+}
+
+}  // namespace
+}  // namespace cca

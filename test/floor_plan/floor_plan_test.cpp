@@ -1,0 +1,238 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "cca_mrpt/floor_plan/floor_plan.hpp"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "cca_mrpt/floor_plan/polygon_measures.hpp"
+#include "drawn_map.hpp"
+
+namespace cca {
+namespace {
+
+const Pose2 kPlaces[] = {{0.0, 0.0, 0.0},
+                         {0.013, 0.027, 0.0},
+                         {3.21, -1.17, 0.35},
+                         {-2.2, 0.41, 0.785},
+                         {1.0, 2.0, 1.9}};
+
+class FloorPlanAt : public testing::TestWithParam<Pose2> {};
+
+TEST_P(FloorPlanAt, FindsTwoRoomsAndTheirDoor) {
+  const DrawnMap map = drawMap({twoRooms()}, GetParam());
+  const FloorPlan plan = floorPlan(map.grid, map.lines);
+  ASSERT_EQ(plan.rooms.size(), 2u);
+  const PlanRoom& large = plan.rooms[plan.rooms[0].area > plan.rooms[1].area ? 0 : 1];
+  const PlanRoom& small = plan.rooms[&large == &plan.rooms[0] ? 1 : 0];
+  // Each with half of the reveal, 0.9 m x 0.06 m.
+  EXPECT_NEAR(large.area, 20.0 + 0.054, 0.01 * 20.0);
+  EXPECT_NEAR(small.area, 12.0 + 0.054, 0.01 * 12.0);
+  EXPECT_NEAR(large.perimeter, 18.0 + 0.12,
+              0.2);  // the reveal is too short for a line, and follows the cells
+  ASSERT_EQ(plan.openings.size(), 1u);
+  const PlanOpening& door = plan.openings.front();
+  EXPECT_EQ(door.kind, OpeningKind::kDoor);
+  EXPECT_NEAR(door.width(), 0.9, 0.04);
+  const Eigen::Vector2d middle = GetParam() * Eigen::Vector2d(5.06, 1.95);
+  EXPECT_LT((0.5 * (door.a + door.b) - middle).norm(), 0.08);
+  EXPECT_NE(door.rooms[0], door.rooms[1]);
+}
+
+TEST_P(FloorPlanAt, KnowsTheThicknessOfTheWallBetween) {
+  const DrawnMap map = drawMap({twoRooms()}, GetParam());
+  int two_faced = 0;
+  for (const PlanWall& wall : floorPlan(map.grid, map.lines).walls) {
+    if (wall.thickness <= 0.0) continue;
+    ++two_faced;
+    EXPECT_NEAR(wall.thickness, 0.12, 0.005);
+    EXPECT_EQ(wall.left.size(), 1u);
+    EXPECT_EQ(wall.right.size(), 1u);
+  }
+  EXPECT_EQ(two_faced, 2);  // on both sides of the door
+}
+
+TEST_P(FloorPlanAt, KnowsACorridorFromItsRooms) {
+  // 12 m x 1.6 m, three rooms of 3.9 m x 3 m above, their doors of 0.85 m off the middle.
+  Polygon outline{{0, 0}, {12, 0}, {12, 1.6}};
+  for (const double x : {8.1, 4.05, 0.0}) {
+    for (const auto& p : Polygon{{x + 2.0, 1.6},
+                                 {x + 2.0, 1.75},
+                                 {x + 3.9, 1.75},
+                                 {x + 3.9, 4.75},
+                                 {x, 4.75},
+                                 {x, 1.75},
+                                 {x + 1.15, 1.75},
+                                 {x + 1.15, 1.6}})
+      outline.push_back(p);
+  }
+  outline.emplace_back(0, 1.6);
+  const DrawnMap map = drawMap({outline}, GetParam());
+  const FloorPlan plan = floorPlan(map.grid, map.lines);
+  EXPECT_EQ(plan.rooms.size(), 4u);
+  EXPECT_EQ(plan.openings.size(), 3u);
+  for (const PlanOpening& door : plan.openings) EXPECT_NEAR(door.width(), 0.85, 0.05);
+}
+
+TEST_P(FloorPlanAt, KeepsAnLShapedRoomWhole) {
+  const DrawnMap map = drawMap({{{0, 0}, {6, 0}, {6, 3}, {3, 3}, {3, 6}, {0, 6}}}, GetParam());
+  const FloorPlan plan = floorPlan(map.grid, map.lines);
+  ASSERT_EQ(plan.rooms.size(), 1u);
+  EXPECT_NEAR(plan.rooms[0].area, 27.0, 0.27);
+  EXPECT_EQ(plan.rooms[0].outline.size(), 6u);
+}
+
+TEST_P(FloorPlanAt, TakesAFreeStandingTableForFurniture) {
+  const Polygon table{{2.0, 2.0}, {2.0, 2.8}, {2.7, 2.8}, {2.7, 2.0}};
+  const DrawnMap map = drawMap({{{0, 0}, {6, 0}, {6, 5}, {0, 5}}, table}, GetParam());
+  const FloorPlan plan = floorPlan(map.grid, map.lines);
+  ASSERT_EQ(plan.rooms.size(), 1u);
+  EXPECT_NEAR(plan.rooms[0].area, 30.0, 0.3);
+  EXPECT_TRUE(plan.rooms[0].holes.empty());
+  ASSERT_EQ(plan.furniture.size(), 1u);
+  EXPECT_FALSE(plan.furniture[0].leans);
+  EXPECT_EQ(plan.furniture[0].room, 1);
+}
+
+TEST_P(FloorPlanAt, PresumesTheWallBehindACabinet) {
+  const DrawnMap map = drawMap(
+      {{{0, 0}, {2, 0}, {2, 0.5}, {3.2, 0.5}, {3.2, 0}, {6, 0}, {6, 4}, {0, 4}}}, GetParam());
+  const FloorPlan plan = floorPlan(map.grid, map.lines);
+  ASSERT_EQ(plan.rooms.size(), 1u);
+  EXPECT_NEAR(plan.rooms[0].area, 24.0, 0.24);
+  EXPECT_NEAR(plan.rooms[0].unseen_area, 0.6, 0.2);
+  ASSERT_EQ(plan.furniture.size(), 1u);
+  EXPECT_TRUE(plan.furniture[0].leans);
+  EXPECT_NEAR(areaOf(plan.furniture[0].outline, {}), 0.6, 0.03);
+  const auto presumed = std::find_if(plan.walls.begin(), plan.walls.end(),
+                                     [](const PlanWall& wall) { return wall.is_presumed; });
+  ASSERT_NE(presumed, plan.walls.end());
+  EXPECT_NEAR((presumed->end - presumed->start).norm(), 1.2, 0.03);
+}
+
+INSTANTIATE_TEST_SUITE_P(Places, FloorPlanAt, testing::ValuesIn(kPlaces));
+
+TEST(FloorPlan, SurvivesNoiseOfTheLines) {
+  const DrawnMap map = drawMap({twoRooms()}, {0.4, 0.3, 0.5}, 0.25, 0.01);
+  const FloorPlan plan = floorPlan(map.grid, map.lines);
+  ASSERT_EQ(plan.rooms.size(), 2u);
+  EXPECT_NEAR(plan.rooms[0].area + plan.rooms[1].area, 32.1, 0.4);
+}
+
+TEST(FloorPlan, PartsRoomsWithoutLinesByTheirNarrowing) {
+  const DrawnMap map = drawMap({twoRooms()}, {0.0, 0.0, 0.3});
+  const FloorPlan plan = floorPlan(map.grid, {});
+  ASSERT_EQ(plan.rooms.size(), 2u);
+  EXPECT_NEAR(plan.rooms[0].area + plan.rooms[1].area, 32.1, 1.0);
+  EXPECT_TRUE(plan.walls.empty());
+}
+
+TEST(FloorPlan, TakesARoundHallForOneRoom) {
+  Polygon hall;
+  for (int k = 0; k < 48; ++k)
+    hall.push_back(6.0 * Eigen::Vector2d(std::cos(k * M_PI / 24), std::sin(k * M_PI / 24)));
+  const DrawnMap map = drawMap({hall}, {0.01, 0.02, 0.0});
+  const FloorPlan plan = floorPlan(map.grid, map.lines);
+  ASSERT_EQ(plan.rooms.size(), 1u);
+  EXPECT_NEAR(plan.rooms[0].area, M_PI * 36.0, 1.5);
+}
+
+TEST(FloorPlan, FindsTheRoomsOfTwoBuildings) {
+  Polygon far = twoRooms();
+  for (auto& p : far) p += Eigen::Vector2d(30.0, 5.0);
+  const DrawnMap map = drawMap({twoRooms(), far}, {0.0, 0.0, 0.1});
+  const FloorPlan plan = floorPlan(map.grid, map.lines);
+  EXPECT_EQ(plan.rooms.size(), 4u);
+  EXPECT_EQ(plan.openings.size(), 2u);
+}
+
+TEST(FloorPlan, SaysWhereAnUnfinishedMapEnds) {
+  DrawnMap map = drawMap({{{0, 0}, {8, 0}, {8, 4}, {0, 4}}}, {0.0, 0.0, 0.0});
+  const double whole = floorPlan(map.grid, map.lines).rooms.at(0).open_border;
+  EXPECT_LT(whole, 0.3);
+  for (std::size_t k = 0; k < map.grid.values.size(); ++k) {
+    if (map.grid.centreOf(map.grid.cell(k)).x() > 5.0) map.grid.values[k] = Occupancy::kUnknown;
+  }
+  map.lines.erase(std::remove_if(map.lines.begin(), map.lines.end(),
+                                 [](const MapLine& line) {
+                                   return line.segment.start.x() > 7.0 &&
+                                          line.segment.end.x() > 7.0;
+                                 }),
+                  map.lines.end());
+  const FloorPlan plan = floorPlan(map.grid, map.lines);
+  ASSERT_EQ(plan.rooms.size(), 1u);
+  EXPECT_NEAR(plan.rooms[0].open_border, 4.0, 0.5);
+  EXPECT_NEAR(plan.rooms[0].area, 20.0, 0.5);  // no room over what is unknown
+}
+
+TEST(FloorPlan, IsEmptyWhereNothingIsKnown) {
+  EXPECT_TRUE(floorPlan({}, {}).rooms.empty());
+  OccupancyRaster unknown;
+  unknown.columns = unknown.rows = 40;
+  unknown.values.assign(1600, Occupancy::kUnknown);
+  MapLine line;
+  line.segment.end = {1.0, 1.0};
+  EXPECT_TRUE(floorPlan(unknown, {line}).rooms.empty());
+}
+
+TEST(FloorPlan, TakesASingleWallForAWallAndItsForegroundForAnOpenRoom) {
+  DrawnMap map = drawMap({{{0, 0}, {5, 0}, {5, 2}, {0, 2}}}, {0.0, 0.0, 0.2});
+  map.lines.resize(1);
+  for (auto& cell : map.grid.values) {
+    if (cell == Occupancy::kOccupied) cell = Occupancy::kUnknown;
+  }
+  const FloorPlan plan = floorPlan(map.grid, map.lines);
+  ASSERT_EQ(plan.walls.size(), 1u);
+  EXPECT_EQ(plan.walls[0].thickness, 0.0);
+  ASSERT_EQ(plan.rooms.size(), 1u);
+  EXPECT_GT(plan.rooms[0].open_border, 7.0);
+}
+
+TEST(FloorPlan, GivesValidPolygonsOfAnyClutter) {
+  // As of raw odometry: walls many times over, at all angles, cells at random.
+  for (unsigned seed = 1; seed <= 12; ++seed) {
+    std::mt19937 random(seed);  // seeded
+    std::uniform_real_distribution<double> anywhere(-1.0, 9.0);
+    DrawnMap map = drawMap({twoRooms()}, {0.0, 0.0, 0.1 * seed});
+    for (auto& cell : map.grid.values) {
+      if (random() % 12 == 0) cell = static_cast<Occupancy>(random() % 3);
+    }
+    for (int k = 0; k < 60; ++k) {
+      MapLine line;
+      line.id = 100 + static_cast<std::uint64_t>(k);
+      line.segment.start = {anywhere(random), anywhere(random)};
+      line.segment.end =
+          k % 10 ? Eigen::Vector2d(anywhere(random), anywhere(random)) : line.segment.start;
+      map.lines.push_back(line);
+    }
+    const FloorPlan plan = floorPlan(map.grid, map.lines);
+    for (const PlanRoom& room : plan.rooms) {
+      EXPECT_TRUE(isValidPolygon(room.outline, room.holes))
+          << "seed " << seed << ", room " << room.id;
+      EXPECT_GT(room.area, 0.0);
+    }
+  }
+}
+
+TEST(FloorPlan, IsTheSameEachTime) {
+  const DrawnMap map = drawMap({twoRooms()}, {0.1, 0.2, 0.3});
+  const FloorPlan one = floorPlan(map.grid, map.lines), other = floorPlan(map.grid, map.lines);
+  ASSERT_EQ(one.rooms.size(), other.rooms.size());
+  for (std::size_t k = 0; k < one.rooms.size(); ++k) {
+    ASSERT_EQ(one.rooms[k].outline.size(), other.rooms[k].outline.size());
+    for (std::size_t i = 0; i < one.rooms[k].outline.size(); ++i)
+      EXPECT_EQ(one.rooms[k].outline[i], other.rooms[k].outline[i]);
+  }
+}
+
+TEST(FloorPlan, TellsTheRoomOfAPoint) {
+  const DrawnMap map = drawMap({twoRooms()}, {0.0, 0.0, 0.0});
+  const FloorPlan plan = floorPlan(map.grid, map.lines);
+  EXPECT_NE(roomAt(plan, {1.0, 1.0}), 0);
+  EXPECT_NE(roomAt(plan, {7.0, 1.0}), 0);
+  EXPECT_NE(roomAt(plan, {1.0, 1.0}), roomAt(plan, {7.0, 1.0}));
+  EXPECT_EQ(roomAt(plan, {5.06, 0.5}), 0);  // in the wall
+}
+
+}  // namespace
+}  // namespace cca
