@@ -1,24 +1,35 @@
 #!/usr/bin/env bash
-# Builds the Python package in an environment of its own and runs its tests: python/test.sh [PYTHON]
-# Says so and ends well where pip can fetch no packages: the build tools are on PyPI alone.
+# The Python package as its user meets it: python/test.sh [PYTHON]
+#
+# Does what docs/python.md says, word for word, in a copy of the sources and an environment of its own that sees
+# nothing of the system's: installs, runs the examples; then the package's tests. What was compiled is kept for the
+# next time. Says so and ends well where pip can fetch no packages: the build tools are on PyPI alone.
 set -eu
 cd "$(dirname "$0")/.."
-python=${1:-/usr/bin/python3}
-where=build-python/$("$python" -c 'import sys; print("%d.%d" % sys.version_info[:2])')
-pip="$where/venv/bin/pip --disable-pip-version-check -q"
+python=$(command -v "${1:-/usr/bin/python3}")
+where=$PWD/build-python/$("$python" -c 'import sys; print("%d.%d" % sys.version_info[:2])')
+copy=$where/copy
+rm -rf "$copy"
+mkdir -p "$copy"
+git ls-files -z --cached --others --exclude-standard | tar --null --ignore-failed-read -T - -cf - 2>/dev/null | tar -xf - -C "$copy"
 
-[ -x "$where/venv/bin/pip" ] || "$python" -m venv --system-site-packages "$where/venv"
-if ! $pip install --timeout 10 --retries 1 'scikit-build-core>=0.10' 'nanobind>=2.4' 'pytest>=7' 'distributed>=2021.9' 'gymnasium>=0.29' numpy 2>"$where/pip.log"; then
+export PIP_DISABLE_PIP_VERSION_CHECK=1 PIP_QUIET=1 MPLBACKEND=Agg
+"$python" -m venv --clear "$where/probe"
+if ! "$where/probe/bin/pip" download --timeout 10 --retries 1 --no-deps -d "$where/probe" nanobind 2>"$where/pip.log"; then
   cat "$where/pip.log"
   echo "python: SKIPPED (pip cannot fetch what builds the package)"
   exit 0
 fi
+
 # Hardly optimised: compiling takes most of the time here, and the C++ tests see what is optimised.
-CMAKE_BUILD_PARALLEL_LEVEL=$(nproc) $pip install --no-build-isolation --no-deps --force-reinstall \
-  --config-settings=build-dir="$where/build" \
-  --config-settings=cmake.build-type=None \
-  --config-settings=cmake.define.CMAKE_CXX_FLAGS=-O1 \
-  --config-settings=cmake.define.CMAKE_CXX_COMPILER_LAUNCHER="$(command -v ccache || true)" \
-  --config-settings=cmake.define.CCA_WARNINGS_AS_ERRORS="${CI:+ON}" .
-# What runs the program itself needs one that was built before.
-PATH="$PWD/build/devel/lib/cca_mrpt:$PWD/build/src/apps:$PATH" "$where/venv/bin/python" -m pytest -q -p no:cacheprovider python/tests
+export SKBUILD_BUILD_DIR=$where/build SKBUILD_CMAKE_BUILD_TYPE=None CXXFLAGS=-O1 CMAKE_BUILD_PARALLEL_LEVEL=$(nproc)
+export SKBUILD_CMAKE_DEFINE="CCA_WARNINGS_AS_ERRORS=${CI:+ON}"
+PATH="$(dirname "$python"):$PATH" "$python" python/run_page.py docs/python.md "$copy" install
+
+# The package's commands come first, then the program, where it was built before.
+export PATH="$copy/venv/bin:$PWD/build/devel/lib/cca_mrpt:$PWD/build/src/apps:$PATH"
+pip install pytest mypy distributed gymnasium rosbags mcap
+mkdir "$where/examples" 2>/dev/null || rm -rf "$where"/examples/*
+python python/tests/room_log.py "$where/examples/intel.log.gz"
+python python/run_page.py docs/python.md "$where/examples" examples
+python -m pytest -q -p no:cacheprovider python/tests

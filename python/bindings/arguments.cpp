@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "arguments.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <limits>
 #include <string>
 
 namespace cca::python {
@@ -47,14 +49,25 @@ class LentMemory {
 
 std::string text(nb::handle object) { return nb::str(object).c_str(); }
 
-/// An array of float64; whatever is no array of real numbers is refused.
+/// What no sensor measures.
+constexpr double kFarthestBearing = 4.0 * M_PI;  // rad
+constexpr double kFarthestReturn = 200.0;        // m: few 2-D lasers see half as far
+
+bool mayHaveMask(nb::handle from) { return nb::hasattr(from, "mask"); }
+
+/// An array of float64, NaN where it is masked; whatever is no array of real numbers is refused.
 nb::object asNumbers(nb::handle from, const char* argument, const char* expected) {
   const nb::module_ numpy = nb::module_::import_("numpy");
   try {
     const nb::object array = numpy.attr("asarray")(from);
     const std::string kind = nb::str(array.attr("dtype").attr("kind")).c_str();
-    if (kind == "f" || kind == "i" || kind == "u")
-      return array.attr("astype")(numpy.attr("float64"));
+    if (kind == "f" || kind == "i" || kind == "u") {
+      const nb::object numbers = array.attr("astype")(numpy.attr("float64"));
+      if (!mayHaveMask(from)) return numbers;
+      const nb::object ma = numpy.attr("ma");
+      return ma.attr("array")(numbers, nb::arg("mask") = ma.attr("getmask")(from))
+          .attr("filled")(std::numeric_limits<double>::quiet_NaN());
+    }
     refuse(argument, std::string(expected) + " needed, not dtype " + text(array.attr("dtype")));
   } catch (nb::python_error& error) {
     refuse(argument, std::string(expected) + " needed (" + text(error.value()) + ")");
@@ -65,10 +78,45 @@ void requireFinite(double value, const char* argument) {
   if (!std::isfinite(value)) refuse(argument, "a finite number is needed");
 }
 
+std::string inRadians(double value) {
+  const nb::str written = nb::str("{:g} rad").format(value);
+  return written.c_str();
+}
+
+/// @throws nb::value_error where these are no radians.
+void requireRadians(double angle_min, double angle_increment, std::size_t beams) {
+  if (std::abs(angle_min) > kFarthestBearing)
+    refuse("angle_min", inRadians(angle_min) + " is more than two turns; are these degrees?");
+  const double step = std::abs(angle_increment);
+  const double field_of_view = step * static_cast<double>(beams > 0 ? beams - 1 : 0);
+  // A whole turn may end where it began, or a step further.
+  if (field_of_view > 2.0 * M_PI + step * 1.001 || step > 2.0 * M_PI) {
+    refuse("angle_increment", inRadians(angle_increment) + " make " + std::to_string(beams) +
+                                  " beams cover " + inRadians(field_of_view) +
+                                  ", more than a turn; are these degrees?");
+  }
+}
+
+/// @throws nb::value_error where most returns are farther away than lasers see.
+void requireMetres(const std::vector<double>& ranges) {
+  std::size_t returns = 0, far = 0;
+  double nearest = HUGE_VAL;
+  for (const double range : ranges) {
+    if (!(range > 0.0 && range < HUGE_VAL)) continue;
+    ++returns;
+    far += range > kFarthestReturn;
+    nearest = std::min(nearest, range);
+  }
+  if (2 * far <= returns) return;
+  const nb::str text = nb::str("{} of {} returns lie beyond {:g} m, the nearest at {:g} m; ")
+                           .format(far, returns, kFarthestReturn, nearest);
+  refuse("ranges", text.c_str() + std::string("are these millimetres?"));
+}
+
 }  // namespace
 
 void readRanges(nb::handle from, std::vector<double>& ranges) {
-  {
+  if (!mayHaveMask(from)) {
     const LentMemory memory(from);
     if (memory.isRowOf("d")) return memory.copyTo<double>(ranges);
     if (memory.isRowOf("f")) return memory.copyTo<float>(ranges);
@@ -86,6 +134,8 @@ void readScan(nb::handle ranges, double angle_min, double angle_increment, Scan&
   requireFinite(angle_increment, "angle_increment");
   if (angle_increment == 0.0) refuse("angle_increment", "must not be 0");
   readRanges(ranges, scan.ranges);
+  requireRadians(angle_min, angle_increment, scan.ranges.size());
+  requireMetres(scan.ranges);
   scan.angle_min = angle_min;
   scan.angle_increment = angle_increment;
 }

@@ -12,12 +12,14 @@ namespace cca::python {
 namespace nb = nanobind;
 
 /// Takes the ranges out of any one-dimensional array of numbers; one copy, and no other where they
-/// are float64 or float32.
+/// are float64 or float32. A masked array's masked beams are NaN: invalid.
 /// @throws nb::value_error where they are none.
 void readRanges(nb::handle from, std::vector<double>& ranges);
 
 /// A scan from what the Python functions take.
-/// @throws nb::value_error naming the argument: angles that are not finite, an increment of 0.
+/// @throws nb::value_error naming the argument: angles that are not finite, an increment of 0,
+///         what looks like degrees (a first beam beyond two turns, a field of view beyond one) or
+///         like millimetres (most returns beyond 200 m).
 void readScan(nb::handle ranges, double angle_min, double angle_increment, Scan& scan);
 
 /// Sets where a scan was taken, and how far its beams saw.

@@ -30,7 +30,8 @@ void addBaselines(nb::module_& module) {
       .def("extract_lines", &extractBy, nb::arg("ranges").none(), nb::arg("angle_min"),
            nb::arg("angle_increment"), nb::arg("tuned") = false,
            nb::sig("def extract_lines(self, ranges: numpy.typing.ArrayLike, angle_min: float, "
-                   "angle_increment: float, tuned: bool = False) -> numpy.ndarray"),
+                   "angle_increment: float, tuned: bool = False) -> "
+                   "numpy.typing.NDArray[numpy.void]"),
            R"(Lines of one scan; arguments and result as in `cca_mrpt.extract_lines`.
 
 Args:
@@ -38,10 +39,15 @@ Args:
       .def("__repr__", [](const baselines::Baseline& baseline) {
         return "Baseline(" + baseline.name + ": " + baseline.paper + ")";
       });
-  nb::dict by_name;
-  for (const baselines::Baseline& baseline : baselines::all())
-    by_name[baseline.name.c_str()] = nb::cast(baseline, nb::rv_policy::reference);
-  module.attr("baselines") = by_name;
+  module.def(
+      "all_baselines",
+      [] {
+        nb::list all;
+        for (const baselines::Baseline& baseline : baselines::all())
+          all.append(nb::cast(baseline, nb::rv_policy::reference));
+        return all;
+      },
+      nb::sig("def all_baselines() -> list[Baseline]"), "In the order of the comparison.");
 }
 
 }  // namespace cca::python

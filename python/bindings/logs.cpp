@@ -5,11 +5,16 @@
 #include <nanobind/stl/tuple.h>
 #include <nanobind/stl/unique_ptr.h>
 
+#include <algorithm>
+#include <cmath>
 #include <stdexcept>
+#include <utility>
 
+#include "arguments.hpp"
 #include "carmen_reader.hpp"
 #include "cca_mrpt/io/atomic_file.hpp"
 #include "cca_mrpt/io/log_reader.hpp"
+#include "cca_mrpt/sensing/missing_returns.hpp"
 #include "locked.hpp"
 #include "module.hpp"
 
@@ -41,17 +46,83 @@ LogRecord next(Log& log) {
   return std::move(*record);
 }
 
+void construct(LogRecord* self, nb::handle ranges, double angle_min, double angle_increment,
+               std::optional<double> time, nb::handle odometry, nb::handle robot_pose,
+               nb::handle sensor_pose, nb::handle pose, double free_range_without_return) {
+  LogRecord record;
+  readScan(ranges, angle_min, angle_increment, record.scan);
+  readPlace(nb::make_tuple(0.0, 0.0, 0.0), free_range_without_return, record.scan);
+  record.has_time = time.has_value();
+  record.time = time.value_or(0.0);
+  if (!std::isfinite(record.time)) throw nb::value_error("time: a finite number is needed");
+  record.T_robot_sensor = readPose(sensor_pose, "sensor_pose");
+  if (!odometry.is_none()) record.odometry = readPose(odometry, "odometry");
+  if (!robot_pose.is_none()) record.corrected = readPose(robot_pose, "robot_pose");
+  const Pose2 T_map_robot =
+      record.corrected ? *record.corrected : record.odometry.value_or(Pose2());
+  record.scan.T_map_sensor =
+      pose.is_none() ? T_map_robot * record.T_robot_sensor : readPose(pose, "pose");
+  new (self) LogRecord(std::move(record));
+}
+
+nb::object rangesOf(LogRecord& record) {
+  std::vector<double>& ranges = record.scan.ranges;
+  return nb::cast(nb::ndarray<nb::numpy, double, nb::ndim<1>>(ranges.data(), {ranges.size()},
+                                                              nb::find(record)));
+}
+
+nb::tuple stateOf(LogRecord& r) {
+  return nb::make_tuple(rangesOf(r).attr("copy")(), r.scan.angle_min, r.scan.angle_increment,
+                        r.has_time ? std::optional<double>(r.time) : std::nullopt,
+                        triple(r.odometry), triple(r.corrected), triple(r.T_robot_sensor),
+                        triple(r.scan.T_map_sensor), r.scan.free_range_without_return);
+}
+
+void restore(LogRecord& self, const nb::tuple& state) {
+  construct(&self, state[0], nb::cast<double>(state[1]), nb::cast<double>(state[2]),
+            nb::cast<std::optional<double>>(state[3]), state[4], state[5], state[6], state[7],
+            nb::cast<double>(state[8]));
+}
+
+std::string describe(LogRecord& record) {
+  const auto& ranges = record.scan.ranges;
+  const auto returns = std::count_if(ranges.begin(), ranges.end(),
+                                     [](double r) { return r > 0.0 && std::isfinite(r); });
+  const nb::str text = nb::str("LogRecord({} beams, {} returns, time={:.3f})")
+                           .format(ranges.size(), returns, record.time);
+  return text.c_str();
+}
+
 void addRecord(nb::module_& module) {
-  nb::class_<LogRecord>(module, "LogRecord", "One laser scan of a log.")
-      .def_prop_ro(
-          "ranges",
-          [](LogRecord& record) {
-            std::vector<double>& ranges = record.scan.ranges;
-            return nb::ndarray<nb::numpy, double, nb::ndim<1>>(ranges.data(), {ranges.size()},
-                                                               nb::find(record));
-          },
-          nb::sig("def ranges(self) -> numpy.ndarray"),
-          "(N,) m; +inf: no return; 0: invalid. The record's own memory.")
+  nb::class_<LogRecord>(module, "LogRecord", R"(One laser scan of a log.
+
+Args:
+    ranges, angle_min, angle_increment, free_range_without_return: as in `LineMap.insert`.
+    time: s, never falling; None: unknown.
+    odometry: (x, y, theta) of the robot by its wheels, in any frame that stays; None: unknown.
+    robot_pose: (x, y, theta) of the robot in the map frame, where somebody knows it.
+    sensor_pose: (x, y, theta) of the laser in the robot's frame; m, m, rad.
+    pose: (x, y, theta) of the laser in the map frame; None: by `robot_pose`, else `odometry`.)")
+      .def("__init__", &construct, nb::arg("ranges").none(), nb::arg("angle_min"),
+           nb::arg("angle_increment"), nb::kw_only(), nb::arg("time").none() = nb::none(),
+           nb::arg("odometry").none() = nb::none(), nb::arg("robot_pose").none() = nb::none(),
+           nb::arg("sensor_pose").none() = nb::make_tuple(0.0, 0.0, 0.0),
+           nb::arg("pose").none() = nb::none(), nb::arg("free_range_without_return") = 0.0,
+           nb::sig("def __init__(self, ranges: numpy.typing.ArrayLike, angle_min: float, "
+                   "angle_increment: float, *, time: float | None = None, odometry: "
+                   "collections.abc.Sequence[float] | None = None, robot_pose: "
+                   "collections.abc.Sequence[float] | None = None, sensor_pose: "
+                   "collections.abc.Sequence[float] = (0.0, 0.0, 0.0), pose: "
+                   "collections.abc.Sequence[float] | None = None, free_range_without_return: "
+                   "float = 0.0) -> None"))
+      .def("__getstate__", &stateOf, nb::sig("def __getstate__(self) -> tuple[typing.Any, ...]"))
+      .def("__setstate__", &restore, nb::arg("state"),
+           nb::sig("def __setstate__(self, state: tuple[typing.Any, ...]) -> None"))
+      .def("__len__", [](const LogRecord& record) { return record.scan.ranges.size(); })
+      .def("__repr__", &describe)
+      .def_prop_ro("ranges", &rangesOf,
+                   nb::sig("def ranges(self) -> numpy.typing.NDArray[numpy.float64]"),
+                   "(N,) m; +inf: no return; 0: invalid. The record's own memory.")
       .def_prop_ro(
           "angle_min", [](const LogRecord& record) { return record.scan.angle_min; },
           "rad, bearing of beam 0 in the sensor frame.")
@@ -67,6 +138,9 @@ void addRecord(nb::module_& module) {
       .def_prop_ro(
           "odometry", [](const LogRecord& record) { return triple(record.odometry); },
           "(x, y, theta) of the robot by odometry, or None.")
+      .def_prop_ro(
+          "sensor_pose", [](const LogRecord& record) { return triple(record.T_robot_sensor); },
+          "(x, y, theta) of the laser in the robot's frame; m, m, rad.")
       .def_ro("time", &LogRecord::time, "s; 0 where the log does not tell.");
 }
 
@@ -74,11 +148,18 @@ void addRecord(nb::module_& module) {
 
 void addLogs(nb::module_& module) {
   addRecord(module);
-  nb::class_<Log>(module, "Log", "The scans of a log, one after the other.")
+  nb::class_<MissingReturns>(module, "MissingReturns",
+                             "Learns what it means when a beam of one laser does not return.")
+      .def(nb::init<>())
+      .def(
+          "judge", [](MissingReturns& own, LogRecord& record) { own.judge(record.scan); },
+          nb::arg("record"),
+          "Judge a scan by those before it: whether a missing return tells of free space.");
+  nb::class_<Log>(module, "CarmenLog", "The scans of a CARMEN log, one after the other, once.")
       .def("__init__", &open, nb::arg("path"))
       .def(
           "__iter__", [](nb::handle self) { return nb::borrow(self); },
-          nb::sig("def __iter__(self) -> Log"))
+          nb::sig("def __iter__(self) -> CarmenLog"))
       .def("__next__", &next)
       .def_prop_ro(
           "progress",
@@ -100,6 +181,7 @@ void addLogs(nb::module_& module) {
           writeFile(folder + "/" + nb::cast<std::string>(name), nb::cast<std::string>(content));
       },
       nb::arg("folder"), nb::arg("files"),
+      nb::sig("def write_files_into(folder: str, files: dict[str, str]) -> None"),
       "Write texts by file name, each whole or not at all; the folder is made where it is "
       "missing.");
 }

@@ -5,6 +5,9 @@
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/vector.h>
 
+#include <cmath>
+#include <optional>
+
 #include "arguments.hpp"
 #include "cca_mrpt/io/line_formats.hpp"
 #include "cca_mrpt/mapping/line_extraction.hpp"
@@ -14,6 +17,8 @@
 
 namespace cca::python {
 namespace {
+
+constexpr const char* kLines = "numpy.typing.NDArray[numpy.void]";  ///< of dtype LINE or MAP_LINE
 
 nb::object extract(nb::handle ranges, double angle_min, double angle_increment,
                    nb::kwargs keywords) {
@@ -57,6 +62,25 @@ std::vector<Pose2> readTrajectory(nb::handle from) {
   return poses;
 }
 
+std::optional<GeoReference> readOrigin(nb::handle from) {
+  if (from.is_none()) return std::nullopt;
+  double n[3];
+  readNumbers(from, "origin", "(latitude, longitude, turn) in degrees", 3, n);
+  if (std::abs(n[0]) > 89.9 || std::abs(n[1]) > 180.0 || std::abs(n[2]) > 360.0)
+    throw nb::value_error("origin: must be in [-89.9, 89.9], [-180, 180] and [-360, 360] degrees");
+  return GeoReference{n[0], n[1], n[2]};
+}
+
+template <class Write>
+auto placedWriter(Write write) {
+  return [write](SharedLineMap& map, nb::handle trajectory, nb::handle origin) {
+    const std::vector<Pose2> poses = readTrajectory(trajectory);
+    const std::optional<GeoReference> place = readOrigin(origin);
+    const LinesAndChains all = everything(map);
+    return write(all.lines, all.poly_lines, poses, all.arcs, place);
+  };
+}
+
 template <class Write>
 auto writer(Write write) {
   return [write](SharedLineMap& map, nb::handle trajectory) {
@@ -70,6 +94,13 @@ void addLineMap(nb::module_& module) {
   static const std::string docs = parameterDocs<CcaParameters>(
       "A line map that grows scan by scan, in the frame of the poses [m].\n\n"
       "May be used by several threads: their calls wait for each other.");
+  static const std::string signature = parameterSignature<CcaParameters>("__init__(self", "None");
+  const auto copyOf = [](SharedLineMap& map) {
+    return new SharedLineMap(map.with([](LineMap& own) { return own; }));
+  };
+  const auto count = [](SharedLineMap& map) {
+    return map.with([](LineMap& own) { return own.lines().size(); });
+  };
   nb::class_<SharedLineMap>(module, "LineMap", docs.c_str())
       .def(
           "__init__",
@@ -78,7 +109,7 @@ void addLineMap(nb::module_& module) {
             readParameters(keywords, parameters);
             new (self) SharedLineMap(LineMap(parameters));
           },
-          nb::arg("parameters"))
+          nb::arg("parameters"), nb::sig(signature.c_str()))
       .def("insert", &insertIntoMap, nb::arg("ranges").none(), nb::arg("angle_min"),
            nb::arg("angle_increment"), nb::arg("pose").none(),
            nb::arg("free_range_without_return") = 0.0,
@@ -101,7 +132,7 @@ Raises:
           [](SharedLineMap& map) {
             return lineArray(map.with([](LineMap& own) { return own.lines(); }));
           },
-          nb::sig("def lines(self) -> numpy.ndarray"),
+          nb::sig("def lines(self) -> numpy.typing.NDArray[numpy.void]"),
           R"(The lines as they stand, by rising id: structured array of dtype `MAP_LINE`.
 
 Fields: `id`, stable while the line exists; `ends` (2, 2), [[x1, y1], [x2, y2]] in m, map frame, seen
@@ -111,22 +142,89 @@ of the returns [m], orientation [rad]); `returns`, laser returns that it stands 
           "poly_lines",
           [](SharedLineMap& map) { return map.with([](LineMap& own) { return own.polyLines(); }); },
           "The same lines, chained where their ends meet; a line alone is a chain of one.")
-      .def("to_geojson", writer(linesGeoJson), nb::arg("trajectory").none() = nb::none(),
-           nb::sig("def to_geojson(self, trajectory: numpy.typing.ArrayLike | None = None) -> str"),
-           "GeoJSON FeatureCollection of lines and poly-lines, in metres of the map frame.\n\n"
-           "Args:\n    trajectory: (N, 3) poses (x, y, theta), added as a LineString.")
-      .def("to_svg", writer(linesSvg), nb::arg("trajectory").none() = nb::none(),
-           nb::sig("def to_svg(self, trajectory: numpy.typing.ArrayLike | None = None) -> str"),
-           "Floor plan at 1 : 100 as SVG. See `to_geojson` for the argument.")
+      .def("to_geojson", placedWriter(linesGeoJson), nb::arg("trajectory").none() = nb::none(),
+           nb::arg("origin").none() = nb::none(),
+           nb::sig("def to_geojson(self, trajectory: numpy.typing.ArrayLike | None = None, "
+                   "origin: collections.abc.Sequence[float] | None = None) -> str"),
+           R"(GeoJSON FeatureCollection of lines, poly-lines and arcs.
+
+Args:
+    trajectory: (N, 3) poses (x, y, theta), added as a LineString.
+    origin: (latitude, longitude, turn) in degrees: where the map's (0, 0) lies on the Earth (WGS 84),
+        and how far its x axis is turned from east to the left. Coordinates are longitude and
+        latitude then; without it they are metres of the map frame.)")
+      .def("to_svg", placedWriter(linesSvg), nb::arg("trajectory").none() = nb::none(),
+           nb::arg("origin").none() = nb::none(),
+           nb::sig("def to_svg(self, trajectory: numpy.typing.ArrayLike | None = None, "
+                   "origin: collections.abc.Sequence[float] | None = None) -> str"),
+           "Floor plan at 1 : 100 as SVG, with a scale bar and, where there is an origin, north. "
+           "See\n`to_geojson` for the arguments.")
+      .def(
+          "_repr_svg_",
+          [](SharedLineMap& map) {
+            const LinesAndChains all = everything(map);
+            return linesSvg(all.lines, all.poly_lines, {}, all.arcs);
+          },
+          "The floor plan, for notebooks.")
       .def("to_dxf", writer(linesDxf), nb::arg("trajectory").none() = nb::none(),
            nb::sig("def to_dxf(self, trajectory: numpy.typing.ArrayLike | None = None) -> str"),
-           "Floor plan in metres as DXF R12. See `to_geojson` for the argument.")
+           "Floor plan in metres as DXF of AutoCAD 2000. See `to_geojson` for the argument.")
+      .def("__len__", count)
+      .def("__repr__",
+           [count](SharedLineMap& map) {
+             return "LineMap(" + std::to_string(count(map)) + " lines)";
+           })
+      .def("__copy__", copyOf)
+      .def(
+          "__deepcopy__", [copyOf](SharedLineMap& map, nb::handle) { return copyOf(map); },
+          nb::arg("memo"), nb::sig("def __deepcopy__(self, memo: object) -> LineMap"))
       .def(
           "to_csv",
           [](SharedLineMap& map) {
             return linesCsv(map.with([](LineMap& own) { return own.lines(); }));
           },
           "The lines as CSV, with the header that `cca-mrpt map` writes to lines.csv.");
+}
+
+void addPolyLine(nb::module_& module) {
+  const auto make = [](PolyLine* self, nb::handle vertices, std::vector<std::uint64_t> line_ids) {
+    PolyLine chain;
+    for (const nb::handle vertex : nb::iter(vertices)) {
+      double p[2];
+      readNumbers(vertex, "vertices", "(x, y)", 2, p);
+      chain.vertices.emplace_back(p[0], p[1]);
+    }
+    chain.line_ids = std::move(line_ids);
+    new (self) PolyLine(std::move(chain));
+  };
+  nb::class_<PolyLine>(module, "PolyLine", "A chain of map lines; closed where first equals last.")
+      .def("__init__", make, nb::arg("vertices"), nb::arg("line_ids"),
+           nb::sig("def __init__(self, vertices: numpy.typing.ArrayLike, line_ids: "
+                   "collections.abc.Sequence[int]) -> None"))
+      .def_prop_ro(
+          "vertices", [](const PolyLine& chain) { return pointArray(chain.vertices); },
+          nb::sig("def vertices(self) -> numpy.typing.NDArray[numpy.float64]"),
+          "(n, 2) m, map frame.")
+      .def_prop_ro(
+          "line_ids", [](const PolyLine& chain) { return chain.line_ids; },
+          "Ids of the lines between neighbouring vertices.")
+      .def("__len__", [](const PolyLine& chain) { return chain.vertices.size(); })
+      .def("__repr__",
+           [](const PolyLine& chain) {
+             double length = 0.0;
+             for (std::size_t k = 1; k < chain.vertices.size(); ++k)
+               length += (chain.vertices[k] - chain.vertices[k - 1]).norm();
+             const nb::str text =
+                 nb::str("PolyLine({} vertices, {:.2f} m)").format(chain.vertices.size(), length);
+             return std::string(text.c_str());
+           })
+      .def(
+          "__reduce__",
+          [](nb::handle self) {
+            return nb::make_tuple(self.type(),
+                                  nb::make_tuple(self.attr("vertices"), self.attr("line_ids")));
+          },
+          nb::sig("def __reduce__(self) -> tuple[typing.Any, ...]"));
 }
 
 }  // namespace
@@ -148,18 +246,13 @@ Returns:
 
 Raises:
     ValueError: naming the argument.)");
+  static const std::string signature = parameterSignature<CcaParameters>(
+      "extract_lines(ranges: numpy.typing.ArrayLike, angle_min: float, angle_increment: float",
+      kLines);
   module.def("extract_lines", &extract, nb::arg("ranges").none(), nb::arg("angle_min"),
-             nb::arg("angle_increment"), nb::arg("parameters"),
-             nb::sig("def extract_lines(ranges: numpy.typing.ArrayLike, angle_min: float, "
-                     "angle_increment: float, **parameters) -> numpy.ndarray"),
+             nb::arg("angle_increment"), nb::arg("parameters"), nb::sig(signature.c_str()),
              docs.c_str());
-  nb::class_<PolyLine>(module, "PolyLine", "A chain of map lines; closed where first equals last.")
-      .def_prop_ro(
-          "vertices", [](const PolyLine& chain) { return pointArray(chain.vertices); },
-          nb::sig("def vertices(self) -> numpy.ndarray"), "(n, 2) m, map frame.")
-      .def_prop_ro(
-          "line_ids", [](const PolyLine& chain) { return chain.line_ids; },
-          "Ids of the lines between neighbouring vertices.");
+  addPolyLine(module);
   addLineMap(module);
 }
 

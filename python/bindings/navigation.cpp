@@ -119,6 +119,9 @@ void addGrid(nb::module_& module) {
              "between two returns of one surface, or in line with returns on both sides")
       .value("FREE", CellState::kFree)
       .value("OCCUPIED", CellState::kOccupied);
+  const auto copyOf = [](SharedGrid& grid) {
+    return new SharedGrid(grid.with([](ExplorationGrid& own) { return own; }));
+  };
   nb::class_<SharedGrid>(module, "ExplorationGrid", "What is known of each place; grows by itself.")
       .def(
           "__init__",
@@ -135,17 +138,27 @@ void addGrid(nb::module_& module) {
                    "angle_increment: float, pose: collections.abc.Sequence[float], "
                    "free_range_without_return: float = 0.0) -> None"),
            "Take a scan; arguments as in `LineMap.insert`.")
-      .def("states", &statesArray, nb::sig("def states(self) -> numpy.ndarray"),
+      .def("states", &statesArray, nb::sig("def states(self) -> numpy.typing.NDArray[numpy.uint8]"),
            "(rows, columns) uint8 of `CellState`, from the lowest known x and y on: [0, 0] is the "
            "cell whose\nlower left corner is `origin`.")
       .def(
           "states_around", &statesAround, nb::arg("place"), nb::arg("cells"),
           nb::sig("def states_around(self, place: collections.abc.Sequence[float], cells: int) "
-                  "-> numpy.ndarray"),
+                  "-> numpy.typing.NDArray[numpy.uint8]"),
           "(cells, cells) uint8 of `CellState` about (x, y): its cell is [cells // 2, cells // 2].")
       .def_prop_ro("origin", &origin, "(x, y) m, map frame, of the lower left corner of [0, 0].")
       .def_prop_ro("resolution", &resolution, "m, side of a cell.")
-      .def_prop_ro("revealed", &revealed, "Number of cells that have ever been seen.");
+      .def_prop_ro("revealed", &revealed, "Number of cells that have ever been seen.")
+      .def("__repr__",
+           [](SharedGrid& grid) {
+             const nb::str text = nb::str("ExplorationGrid({} cells of {:g} m seen)")
+                                      .format(revealed(grid), resolution(grid));
+             return std::string(text.c_str());
+           })
+      .def("__copy__", copyOf)
+      .def(
+          "__deepcopy__", [copyOf](SharedGrid& grid, nb::handle) { return copyOf(grid); },
+          nb::arg("memo"), nb::sig("def __deepcopy__(self, memo: object) -> ExplorationGrid"));
 }
 
 void addAction(nb::module_& module) {
@@ -165,7 +178,13 @@ void addAction(nb::module_& module) {
       .def_prop_ro(
           "status", [](const Action& a) { return nameOf(a.status); },
           "'exploring', 'returning', 'paused' or 'finished'.")
-      .def_ro("reason", &Action::reason, "Why it drives there, or why it has finished.");
+      .def_ro("reason", &Action::reason, "Why it drives there, or why it has finished.")
+      .def("__repr__", [](const Action& a) {
+        const nb::str text =
+            nb::str("Action({}, {:.3f} m/s, {:.3f} rad/s, {!r})")
+                .format(nameOf(a.status), a.velocity.linear, a.velocity.angular, a.reason);
+        return std::string(text.c_str());
+      });
 }
 
 Action explore(SharedExplorer& explorer, nb::handle ranges, double angle_min,
@@ -194,6 +213,9 @@ Action explore(SharedExplorer& explorer, nb::handle ranges, double angle_min,
 void addExplorer(nb::module_& module) {
   static const std::string docs = parameterDocs<CcaParameters, RobotParameters, ExplorerParameters>(
       "Maps and explores: give it what the robot sees, drive as it says.");
+  static const std::string signature =
+      parameterSignature<CcaParameters, RobotParameters, ExplorerParameters>("__init__(self",
+                                                                             "None");
   nb::class_<SharedExplorer>(module, "Explorer", docs.c_str())
       .def(
           "__init__",
@@ -205,7 +227,7 @@ void addExplorer(nb::module_& module) {
             new (self) SharedExplorer(Exploration{
                 ExplorationSession(std::make_unique<GivenPoses>(), {mapping, robot, parameters})});
           },
-          nb::arg("parameters"))
+          nb::arg("parameters"), nb::sig(signature.c_str()))
       .def("step", &explore, nb::arg("ranges").none(), nb::arg("angle_min"),
            nb::arg("angle_increment"), nb::arg("pose").none(), nb::arg("time"),
            nb::arg("velocity").none() = nb::make_tuple(0.0, 0.0),

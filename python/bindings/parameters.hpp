@@ -104,6 +104,45 @@ class ParameterList {
   std::string text_ = "\n\nKeyword parameters:\n";
 };
 
+/// Writes each described parameter as a keyword argument of a signature: "name: type = default".
+class ParameterSignature {
+ public:
+  template <class Number>
+  void operator()(const char* name, Number& value, Number, Number, const char*, const char*) {
+    add(name, std::is_same_v<Number, int> ? "int" : "float", nb::repr(nb::cast(value)).c_str());
+  }
+  void operator()(const char* name, bool& value, const char*) {
+    add(name, "bool", value ? "True" : "False");
+  }
+  template <class Choice, std::size_t N>
+  void operator()(const char* name, Choice& value, const std::pair<const char*, Choice> (&names)[N],
+                  const char*) {
+    std::string preset, known;
+    for (const auto& [word, choice] : names) {
+      const std::string quoted = std::string("'") + word + "'";
+      if (choice == value) preset = quoted;
+      known += (known.empty() ? "" : ", ") + quoted;
+    }
+    add(name, "typing.Literal[" + known + "]", preset);
+  }
+  const std::string& text() const { return text_; }
+
+ private:
+  void add(const char* name, const std::string& type, const std::string& preset) {
+    text_ += std::string(text_.empty() ? "*, " : ", ") + name + ": " + type + " = " + preset;
+  }
+  std::string text_;
+};
+
+/// "def HEAD, *, name: type = default, ...) -> RESULT", by the described parameters.
+template <class... Parameters>
+std::string parameterSignature(const char* head, const char* result) {
+  ParameterSignature list;
+  const auto append = [&list](auto parameters) { describe(parameters, list); };
+  (append(Parameters{}), ...);
+  return std::string("def ") + head + ", " + list.text() + ") -> " + result;
+}
+
 template <class... Parameters>
 std::string parameterDocs(const char* docs) {
   ParameterList list;

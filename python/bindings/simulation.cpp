@@ -143,14 +143,17 @@ Args:
 
 Raises:
     ValueError: naming the argument.)");
+  static const std::string signature =
+      parameterSignature<LaserParameters, RobotParameters, OdometryParameters>(
+          "__init__(self, world: str | numpy.typing.ArrayLike, start: "
+          "collections.abc.Sequence[float] | None = None, seed: int = 1, resolution: float = 0.05",
+          "None");
   nb::class_<SharedDrive>(module, "Simulation", docs.c_str())
       .def("__init__", &construct, nb::arg("world"), nb::arg("start").none() = nb::none(),
            nb::arg("seed") = 1, nb::arg("resolution") = 0.05, nb::arg("parameters"),
-           nb::sig("def __init__(self, world: str | numpy.typing.ArrayLike, start: "
-                   "collections.abc.Sequence[float] | None = None, seed: int = 1, "
-                   "resolution: float = 0.05, **parameters) -> None"))
+           nb::sig(signature.c_str()))
       .def_static("building_kinds", &buildingKinds, "The kinds of building that can be drawn.")
-      .def("observe", &observe, nb::sig("def observe(self) -> numpy.ndarray"),
+      .def("observe", &observe, nb::sig("def observe(self) -> numpy.typing.NDArray[numpy.float64]"),
            "(beams,) ranges [m] of a new scan, float64; each call draws new noise.")
       .def("drive", &driveOn, nb::arg("linear"), nb::arg("angular"), nb::arg("seconds"),
            "Drive towards a commanded velocity [m/s, rad/s] within the robot's limits. Obstacles "
@@ -187,9 +190,10 @@ Raises:
       .def_prop_ro("share_seen", &shareSeen,
                    "Of all that can be seen from where the robot gets to, what `observe` has seen: "
                    "[0, 1].")
-      .def_prop_ro("obstacles", &obstacles,
-                   nb::for_getter(nb::sig("def obstacles(self) -> numpy.ndarray")),
-                   "(rows, columns) uint8, 1 where an obstacle is, from `origin` on.")
+      .def_prop_ro(
+          "obstacles", &obstacles,
+          nb::for_getter(nb::sig("def obstacles(self) -> numpy.typing.NDArray[numpy.uint8]")),
+          "(rows, columns) uint8, 1 where an obstacle is, from `origin` on.")
       .def_prop_ro("origin", of([](const Simulation& s) {
                      return Pair{s.world().origin().x(), s.world().origin().y()};
                    }),

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "cca_mrpt/slam/slam.hpp"
 
+#include <nanobind/stl/string.h>
 #include <nanobind/stl/vector.h>
 
 #include <algorithm>
@@ -55,13 +56,40 @@ void addSlam(nb::module_& module) {
           "(x, y, theta) of the robot in the map frame; m, m, rad.")
       .def_prop_ro(
           "covariance", [](const SlamPose& p) { return array(p.covariance.data(), 3); },
-          nb::sig("def covariance(self) -> numpy.ndarray"),
+          nb::sig("def covariance(self) -> numpy.typing.NDArray[numpy.float64]"),
           "(3, 3) of (x, y, theta) in the map's axes, of the last match.")
       .def_ro("agreement", &SlamPose::agreement, "Of the scan with what was seen before, [0, 1].")
       .def_ro("version", &SlamPose::version, "Counts corrections of the past by more than 5 cm.")
-      .def_ro(
-          "is_lost", &SlamPose::is_lost,
-          "Whether the scan contradicts what was seen before: nobody knows where it was taken.");
+      .def_ro("is_lost", &SlamPose::is_lost,
+              "Whether the scan contradicts what was seen before: nobody knows where it was taken.")
+      .def(
+          "__getstate__",
+          [](const SlamPose& p) {
+            return nb::make_tuple(
+                nb::make_tuple(p.T_map_robot.x, p.T_map_robot.y, p.T_map_robot.theta),
+                array(p.covariance.data(), 3), p.agreement, p.version, p.is_lost);
+          },
+          nb::sig("def __getstate__(self) -> tuple[typing.Any, ...]"))
+      .def(
+          "__setstate__",
+          [](SlamPose& self, const nb::tuple& state) {
+            SlamPose p;
+            p.T_map_robot = readPose(state[0], "pose");
+            readNumbers(nb::object(state[1]).attr("ravel")(), "covariance", "(3, 3)", 9,
+                        p.covariance.data());
+            p.agreement = nb::cast<double>(state[2]);
+            p.version = nb::cast<int>(state[3]);
+            p.is_lost = nb::cast<bool>(state[4]);
+            new (&self) SlamPose(p);
+          },
+          nb::arg("state"),
+          nb::sig("def __setstate__(self, state: tuple[typing.Any, ...]) -> None"))
+      .def("__repr__", [](const SlamPose& p) {
+        const Pose2& at = p.T_map_robot;
+        const nb::str text = nb::str("SlamPose(x={:.3f}, y={:.3f}, theta={:.4f}, agreement={:.3f})")
+                                 .format(at.x, at.y, at.theta, p.agreement);
+        return std::string(text.c_str());
+      });
   nb::class_<SharedSlam>(module, "Slam", R"(Line SLAM: poses from wheels and laser, with loops.
 
 Args:
@@ -98,7 +126,8 @@ Raises:
       .def(
           "finish", [](SharedSlam& slam) { slam.with([](Slam& own) { own.finish(); }); },
           "The last pass over a whole log: all poses made to agree with all lines.")
-      .def("trajectory", &trajectory, nb::sig("def trajectory(self) -> numpy.ndarray"),
+      .def("trajectory", &trajectory,
+           nb::sig("def trajectory(self) -> numpy.typing.NDArray[numpy.float64]"),
            "(N, 3) poses (x, y, theta) of the robot at each scan so far, as they are known now.")
       .def(
           "start_anywhere",
@@ -116,7 +145,13 @@ Raises:
       .def_prop_ro(
           "version",
           [](SharedSlam& slam) { return slam.with([](Slam& own) { return own.version(); }); },
-          "Counts corrections of the past by more than 5 cm.");
+          "Counts corrections of the past by more than 5 cm.")
+      .def("__repr__", [](SharedSlam& slam) {
+        return slam.with([](Slam& own) {
+          return "Slam(" + std::to_string(own.trajectory().size()) + " scans, " +
+                 std::to_string(own.loops().size()) + " loops)";
+        });
+      });
 }
 
 }  // namespace cca::python

@@ -4,8 +4,9 @@
 Metres, radians and seconds; bearings are counter-clockwise, x points forwards, and a beam without return
 is +inf. Poses are (x, y, theta). Wrong values raise ValueError, which names the argument.
 """
-import os
+import copyreg
 from importlib.metadata import version
+from typing import TYPE_CHECKING, Dict
 
 from ._core import (
     LINE,
@@ -16,20 +17,34 @@ from ._core import (
     ExplorationGrid,
     Explorer,
     LineMap,
-    Log,
     LogRecord,
     PolyLine,
     Slam,
     SlamPose,
-    baselines,
+    all_baselines,
     extract_lines,
 )
+from .logs import Log, read_log
 from .plotting import plot
 
-try:
+_no_simulation = ""
+if TYPE_CHECKING:
     from ._simulation import Simulation
-except ImportError as error:  # built, or installed, where MRPT is not
-    _no_simulation = str(error)
+else:
+    try:
+        from ._simulation import Simulation
+    except ImportError as error:  # built, or installed, where MRPT is not
+        _no_simulation = str(error)
+
+baselines: Dict[str, Baseline] = {baseline.name: baseline for baseline in all_baselines()}
+"""The classical line extractors, by their names."""
+
+
+def _baseline(name: str) -> Baseline:
+    return baselines[name]
+
+
+copyreg.pickle(Baseline, lambda baseline: (_baseline, (baseline.name,)))
 
 __version__ = version("cca-mrpt")
 __all__ = [
@@ -62,16 +77,3 @@ def __getattr__(name: str) -> object:
     if name == "Simulation":
         raise AttributeError(f"cca_mrpt.Simulation needs MRPT, here and where it was built ({_no_simulation})")
     raise AttributeError(f"module 'cca_mrpt' has no attribute {name!r}")
-
-
-def read_log(path: "str | os.PathLike[str]") -> Log:
-    """Open a CARMEN log (FLASER, RLASER, ROBOTLASER1; also .gz): an iterator over its scans.
-
-    Raises:
-        FileNotFoundError: there is no such file.
-        ValueError: it holds no whole laser scan, or cannot be read; names the file and the reason.
-    """
-    name = os.fspath(path)
-    if not os.path.exists(name):
-        raise FileNotFoundError(f"{name}: no such file")
-    return Log(name)

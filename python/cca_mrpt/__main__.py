@@ -1,14 +1,17 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The command line: python -m cca_mrpt map LOG [--out FOLDER], and batch for many logs or worlds."""
+from __future__ import annotations
+
 import argparse
 import sys
 from pathlib import Path
+from typing import Any, Callable, List, Optional, Sequence, Tuple
 
 from . import LineMap, read_log
 from ._core import write_files_into
 
 
-def write_map(out: Path, line_map: LineMap, trajectory) -> None:
+def write_map(out: Path, line_map: LineMap, trajectory: List[Tuple[float, float, float]]) -> None:
     """Write the files of a line map into a folder."""
     write_files_into(
         str(out),
@@ -34,11 +37,11 @@ def map_log(log: str, out: Path) -> str:
     return f"{len(line_map.lines())} lines from {len(trajectory)} scans; lines.csv, .geojson and .svg are in {out}"
 
 
-def run_batch(options) -> str:
+def run_batch(options: argparse.Namespace) -> str:
     """Map or explore all that the command line names; what was done, in a sentence."""
     from . import batch
 
-    where = dict(workers=options.workers, scheduler=options.scheduler)
+    where: Any = dict(workers=options.workers, scheduler=options.scheduler)
     if options.what == "map":
         results = batch.map_logs(options.jobs, options.out, **where)
     else:
@@ -53,7 +56,7 @@ def run_batch(options) -> str:
     return f"{len(results)} done, in {options.out}"
 
 
-def add_batch(commands) -> None:
+def add_batch(commands: Any) -> None:
     command = commands.add_parser("batch", help="many logs or worlds, on all cores or a Dask cluster")
     command.add_argument("what", choices=["map", "explore"])
     command.add_argument("jobs", metavar="LOG|WORLD", nargs="+")
@@ -65,7 +68,7 @@ def add_batch(commands) -> None:
     command.add_argument("--program", default="cca-mrpt", help="explore: the program, on the workers")
 
 
-def told(work) -> int:
+def told(work: Callable[[], str]) -> int:
     """Do it and say what was done, or what is wrong; the exit status."""
     try:
         print(work())
@@ -75,8 +78,8 @@ def told(work) -> int:
     return 0
 
 
-def main(arguments=None) -> int:
-    parser = argparse.ArgumentParser(prog="cca_mrpt", description="line maps of laser logs")
+def main(arguments: Optional[Sequence[str]] = None) -> int:
+    parser = argparse.ArgumentParser(prog="cca-mrpt", description="line maps of laser logs")
     commands = parser.add_subparsers(dest="command", required=True)
     map_command = commands.add_parser("map", help="line map of a whole CARMEN log")
     map_command.add_argument("log", metavar="LOG", help="CARMEN .log or .log.gz with corrected poses")

@@ -8,6 +8,8 @@ do not depend on how many workers there are.
 
 Needs `dask.distributed` (`pip install 'cca-mrpt[batch]'`). On a cluster, workers and caller see the same files.
 """
+from __future__ import annotations
+
 import glob
 import json
 import os
@@ -15,11 +17,20 @@ import shutil
 import subprocess
 import uuid
 from pathlib import Path
+from typing import TYPE_CHECKING, Any, Callable, Dict, Iterable, List, Optional, Sequence, Tuple, Union
+
+if TYPE_CHECKING:
+    from typing_extensions import Unpack
+
+    from .parameters import MapParameters
+
+PathLike = Union[str, "os.PathLike[str]"]
+Result = Dict[str, Any]
 
 SUMMARY = "summary.json"
 
 
-def _make_whole(folder: str, fill) -> None:
+def _make_whole(folder: str, fill: Callable[[Path], None]) -> None:
     """Let fill(path) make a folder, where it is not there yet."""
     done = Path(folder)
     if done.exists():
@@ -35,16 +46,17 @@ def _make_whole(folder: str, fill) -> None:
         shutil.rmtree(part, ignore_errors=True)
 
 
-def _summary(folder: str) -> dict:
-    return json.loads((Path(folder) / SUMMARY).read_text())
+def _summary(folder: str) -> Result:
+    summary: Result = json.loads((Path(folder) / SUMMARY).read_text())
+    return summary
 
 
-def _map_job(job) -> dict:
+def _map_job(job: Tuple[str, str, MapParameters]) -> Result:
     log, folder, parameters = job
     from . import LineMap, read_log
     from .__main__ import write_map
 
-    def fill(part):
+    def fill(part: Path) -> None:
         line_map, trajectory, scans = LineMap(**parameters), [], read_log(log)
         for scan in scans:
             line_map.insert(scan.ranges, scan.angle_min, scan.angle_increment, scan.pose)
@@ -60,48 +72,50 @@ def _map_job(job) -> dict:
         return {"log": log, "folder": folder, "error": str(error)}
 
 
-def _call(arguments) -> None:
+def _call(arguments: Sequence[str]) -> None:
     """Run a program; what it complains about is raised."""
     run = subprocess.run(arguments, capture_output=True, text=True)
     if run.returncode not in (0, 3):  # 3: done, and short of something that summary.json tells
         raise RuntimeError(run.stderr.strip() or f"{arguments[0]}: exit status {run.returncode}")
 
 
-def _program_job(job) -> "str | None":
+def _program_job(job: Tuple[List[str], str]) -> Optional[str]:
     """Let the program write a folder; what went wrong."""
     arguments, folder = job
     try:
         _make_whole(folder, lambda part: _call([*arguments, "--out", str(part)]))
     except (OSError, RuntimeError) as error:
         return str(error)
+    return None
 
 
-def _run_all(jobs, workers, scheduler) -> None:
+def _run_all(jobs: Sequence[Tuple[List[str], str]], workers: Optional[int], scheduler: Optional[str]) -> None:
     """Program jobs that are of no use one by one. @raises RuntimeError: naming the first that failed."""
     for (_, folder), error in zip(jobs, _run(_program_job, jobs, workers, scheduler)):
         if error:
             raise RuntimeError(f"{folder}: {error}")
 
 
-def _clear_parts(folders) -> None:
+def _clear_parts(folders: Iterable[str]) -> None:
     """What killed workers left of folders that have all been made, or have failed, by now."""
     for folder in folders:
         for part in glob.glob(glob.escape(folder) + ".part-*"):
             shutil.rmtree(part, ignore_errors=True)
 
 
-def _run(work, jobs, workers, scheduler) -> list:
+def _run(work: Callable[[Any], Any], jobs: Sequence[Tuple[Any, ...]], workers: Optional[int],
+         scheduler: Optional[str]) -> List[Any]:
     """[work(job) for job in jobs], by Dask; a job's second item is its folder."""
     from dask import config
     from distributed import Client, LocalCluster
 
     # A worker that dies takes nothing with it, however often that happens to the same job.
     with config.set({"distributed.scheduler.allowed-failures": 100}):
-        cluster = scheduler or LocalCluster(n_workers=workers or os.cpu_count(), threads_per_worker=1,
-                                            dashboard_address=None)
+        cluster: Any = scheduler or LocalCluster(  # type: ignore[no-untyped-call]
+            n_workers=workers or os.cpu_count(), threads_per_worker=1, dashboard_address=None)
         try:
-            with Client(cluster) as client:
-                results = client.gather(client.map(work, jobs, pure=False, retries=100, batch_size=len(jobs) or None))
+            with Client(cluster) as client:  # type: ignore[no-untyped-call]
+                results: List[Any] = client.gather(client.map(work, jobs, pure=False, retries=100, batch_size=len(jobs) or None))
         finally:
             if not scheduler:
                 cluster.close()
@@ -109,12 +123,12 @@ def _run(work, jobs, workers, scheduler) -> list:
     return results
 
 
-def _place(world) -> str:
+def _place(world: PathLike) -> str:
     """A path that holds wherever a worker runs; names of the program's own worlds stay."""
     return str(Path(world).resolve()) if Path(world).exists() else str(world)
 
 
-def _folders(out, names) -> list:
+def _folders(out: PathLike, names: Sequence[str]) -> List[str]:
     if len(set(names)) != len(names):
         twice = next(name for name in names if names.count(name) > 1)
         raise ValueError(f"jobs: two of them would write to {twice}")
@@ -122,7 +136,8 @@ def _folders(out, names) -> list:
     return [str(Path(out).resolve() / name) for name in names]
 
 
-def map_logs(logs, out, *, workers=None, scheduler=None, **parameters) -> "list[dict]":
+def map_logs(logs: Iterable[PathLike], out: PathLike, *, workers: Optional[int] = None,
+             scheduler: Optional[str] = None, **parameters: Unpack[MapParameters]) -> List[Result]:
     """Map CARMEN logs, each into a folder of `out` that bears its name.
 
     Args:
@@ -135,13 +150,14 @@ def map_logs(logs, out, *, workers=None, scheduler=None, **parameters) -> "list[
     Returns:
         A dict a log, in their order: "log", "folder", "scans", "map_lines", "warnings"; or "error" in words.
     """
-    logs = [str(Path(log).resolve()) for log in logs]
-    folders = _folders(out, [Path(log).name.split(".")[0] for log in logs])
-    return _run(_map_job, [(log, folder, parameters) for log, folder in zip(logs, folders)], workers, scheduler)
+    paths = [str(Path(log).resolve()) for log in logs]
+    folders = _folders(out, [Path(path).name.split(".")[0] for path in paths])
+    return _run(_map_job, [(path, folder, parameters) for path, folder in zip(paths, folders)], workers, scheduler)
 
 
-def explore(worlds, out, *, seeds=(1,), strategies=("view_tour",), options=(), program="cca-mrpt", workers=None,
-            scheduler=None) -> "list[dict]":
+def explore(worlds: Sequence[PathLike], out: PathLike, *, seeds: Iterable[int] = (1,),
+            strategies: Sequence[str] = ("view_tour",), options: Sequence[str] = (), program: str = "cca-mrpt",
+            workers: Optional[int] = None, scheduler: Optional[str] = None) -> List[Result]:
     """Explore worlds in simulation: each world by each strategy with each seed, by the program `cca-mrpt`.
 
     Args:
@@ -154,7 +170,7 @@ def explore(worlds, out, *, seeds=(1,), strategies=("view_tour",), options=(), p
     Returns:
         A dict a run, in order of worlds, strategies and seeds: its summary.json and "folder"; or "error".
     """
-    runs = [(world, strategy, seed) for world in worlds for strategy in strategies for seed in seeds]
+    runs = [(os.fspath(world), strategy, seed) for world in worlds for strategy in strategies for seed in seeds]
     folders = _folders(out, [f"{Path(world).stem}-{strategy}-{seed}" for world, strategy, seed in runs])
     jobs = [([program, "explore", _place(world), "--quiet", "--strategy", strategy, "--seed", str(seed), *options], folder)
             for (world, strategy, seed), folder in zip(runs, folders)]
@@ -163,9 +179,10 @@ def explore(worlds, out, *, seeds=(1,), strategies=("view_tour",), options=(), p
             for (world, _, _), folder, error in zip(runs, folders, errors)]
 
 
-def compare_strategies(worlds, out, *, strategies=("view_tour", "greedy", "nearest_frontier", "gain_distance",
-                                                   "information"), starts=3, program="cca-mrpt", workers=None,
-                       scheduler=None) -> str:
+def compare_strategies(worlds: Sequence[PathLike], out: PathLike, *,
+                       strategies: Sequence[str] = ("view_tour", "greedy", "nearest_frontier", "gain_distance",
+                                                    "information"), starts: int = 3, program: str = "cca-mrpt",
+                       workers: Optional[int] = None, scheduler: Optional[str] = None) -> str:
     """`cca-mrpt compare-strategies`, a job for each world and strategy.
 
     Args:
@@ -190,7 +207,8 @@ def compare_strategies(worlds, out, *, strategies=("view_tour", "greedy", "neare
     return str(Path(out) / "runs.csv")
 
 
-def tune(worlds, out, *, shards=16, options=(), program="cca-mrpt", workers=None, scheduler=None) -> str:
+def tune(worlds: Sequence[PathLike], out: PathLike, *, shards: int = 16, options: Sequence[str] = (),
+         program: str = "cca-mrpt", workers: Optional[int] = None, scheduler: Optional[str] = None) -> str:
     """`cca-mrpt tune`, the factorial experiment over the three input parameters, in shards.
 
     Args:

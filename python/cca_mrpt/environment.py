@@ -7,11 +7,24 @@
 
 Needs gymnasium (``pip install 'cca-mrpt[gym]'``) and a build of this package where MRPT was.
 """
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, Dict, Optional, Tuple, Union
+
 import gymnasium
 import numpy as np
 from gymnasium import spaces
+from numpy.typing import ArrayLike, NDArray
 
 from . import CellState, ExplorationGrid
+
+if TYPE_CHECKING:
+    from typing_extensions import Unpack
+
+    from ._simulation import Simulation
+    from .parameters import SimulationParameters
+
+Observation = Dict[str, NDArray[Any]]
 
 ID = "cca_mrpt/Explore-v0"
 _COLOURS = {
@@ -23,7 +36,7 @@ _COLOURS = {
 }
 
 
-class ExploreEnv(gymnasium.Env):
+class ExploreEnv(gymnasium.Env[Observation, NDArray[np.float32]]):
     """A robot with a laser in a building that it does not know.
 
     **Action**: (2,) in [-1, 1]: velocity forwards and turning rate to the left, as shares of the robot's limits,
@@ -60,10 +73,11 @@ class ExploreEnv(gymnasium.Env):
 
     metadata = {"render_modes": ["rgb_array"], "render_fps": 10}
 
-    def __init__(self, world="apartment", *, period=0.1, enough=0.99, way_cost=0.0125, contact_cost=1.0, window=8.0,
-                 render_mode=None, **parameters):
+    def __init__(self, world: Union[str, ArrayLike] = "apartment", *, period: float = 0.1, enough: float = 0.99,
+                 way_cost: float = 0.0125, contact_cost: float = 1.0, window: float = 8.0,
+                 render_mode: Optional[str] = None, **parameters: Unpack[SimulationParameters]) -> None:
         try:
-            from . import Simulation
+            from ._simulation import Simulation
         except ImportError:
             raise ImportError("ExploreEnv needs cca_mrpt.Simulation: MRPT, here and where it was built") from None
         for name, value, lowest, highest in (("period", period, 0.01, 1.0), ("enough", enough, 0.01, 1.0),
@@ -74,7 +88,11 @@ class ExploreEnv(gymnasium.Env):
                 raise ValueError(f"{name}: must be in [{lowest:g}, {highest:g}], not {value}")
         if render_mode not in (None, *self.metadata["render_modes"]):
             raise ValueError(f"render_mode: None or rgb_array, not {render_mode!r}")
-        self._make = lambda seed, start: Simulation(world, start=start, seed=seed, **parameters)
+
+        def make(seed: int, start: Optional[Tuple[float, float, float]]) -> Simulation:
+            return Simulation(world, start=start, seed=seed, **parameters)
+
+        self._make = make
         self._period, self._enough = period, enough
         self._way_cost, self._contact_cost = way_cost, contact_cost
         self.render_mode = render_mode
@@ -84,7 +102,7 @@ class ExploreEnv(gymnasium.Env):
         linear, angular = self._limits = np.array(self.simulation.limits)
         beams = len(self.simulation.observe())
         self.action_space = spaces.Box(-1.0, 1.0, (2,), np.float32)
-        self.observation_space = spaces.Dict({
+        shown: Any = spaces.Dict({
             "ranges": spaces.Box(0.0, longest, (beams,), np.float32),
             "map": spaces.Box(0, max(int(state) for state in CellState), (self._cells, self._cells), np.uint8),
             "pose": spaces.Box(np.array([-np.inf, -np.inf, -np.pi], np.float32),
@@ -92,8 +110,10 @@ class ExploreEnv(gymnasium.Env):
             "velocity": spaces.Box(np.array([-linear, -angular], np.float32), np.array([linear, angular], np.float32),
                                    (2,), np.float32),
         })
+        self.observation_space = shown
 
-    def reset(self, *, seed=None, options=None):
+    def reset(self, *, seed: Optional[int] = None,
+              options: Optional[Dict[str, Any]] = None) -> Tuple[Observation, Dict[str, Any]]:
         super().reset(seed=seed)
         start = (options or {}).get("start")
         self.simulation = self._make(int(self.np_random.integers(1, 2**31 - 1)), start)
@@ -105,14 +125,14 @@ class ExploreEnv(gymnasium.Env):
         self._reward()  # what is seen from the start is nobody's merit
         return observation, self._info()
 
-    def step(self, action):
+    def step(self, action: NDArray[np.float32]) -> Tuple[Observation, float, bool, bool, Dict[str, Any]]:
         linear, angular = np.clip(np.asarray(action, dtype=float), -1.0, 1.0) * self._limits
         self.simulation.drive(linear, angular, self._period)
         observation = self._look()
         info = self._info()
         return observation, self._reward(), info["seen"] >= self._enough, False, info
 
-    def render(self):
+    def render(self) -> Optional[NDArray[np.uint8]]:
         """(rows, columns, 3) uint8, the highest y first; None without render_mode."""
         if self.render_mode is None:
             return None
@@ -126,7 +146,7 @@ class ExploreEnv(gymnasium.Env):
         picture[(columns - x) ** 2 + (rows - y) ** 2 <= (0.25 / self._grid.resolution) ** 2] = (200, 30, 30)
         return picture[::-1]
 
-    def _look(self):
+    def _look(self) -> Observation:
         ranges = self.simulation.observe()
         scan = dict(angle_min=self.simulation.angle_min, angle_increment=self.simulation.angle_increment)
         longest = self.simulation.free_range_without_return
@@ -143,7 +163,7 @@ class ExploreEnv(gymnasium.Env):
             "velocity": velocity.astype(np.float32),
         }
 
-    def _reward(self):
+    def _reward(self) -> float:
         area = self._grid.revealed * self._grid.resolution**2
         distance, contacts = self.simulation.distance, self.simulation.contacts
         reward = (area - self._revealed - self._way_cost * (distance - self._distance)
@@ -151,9 +171,9 @@ class ExploreEnv(gymnasium.Env):
         self._revealed, self._distance, self._contacts = area, distance, contacts
         return float(reward)
 
-    def _info(self):
+    def _info(self) -> Dict[str, Any]:
         return {"seen": self.simulation.share_seen, "distance_m": self.simulation.distance, "time_s": self.simulation.time,
                 "contacts": self.simulation.contacts, "pose": self.simulation.pose}
 
 
-gymnasium.register(ID, entry_point=ExploreEnv, max_episode_steps=2000)
+gymnasium.register(ID, entry_point="cca_mrpt.environment:ExploreEnv", max_episode_steps=2000)

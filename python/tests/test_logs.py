@@ -1,5 +1,4 @@
 # SPDX-License-Identifier: BSD-3-Clause
-import gzip
 import subprocess
 import sys
 
@@ -7,19 +6,14 @@ import numpy as np
 import pytest
 
 import cca_mrpt
+import room_log
 
 
 @pytest.fixture
-def log(tmp_path, room, scan_of):
+def log(tmp_path):
     """A CARMEN log of a SICK laser that drives through a room."""
     path = tmp_path / "room.log.gz"
-    with gzip.open(path, "wt") as file:
-        for time, x in enumerate(np.linspace(-1, 1, 20)):
-            pose = (x, 0.3 * x, 0.1 * time)
-            ranges = scan_of(room, pose, np.radians(-90), np.radians(1), 181)
-            numbers = " ".join(f"{r:.3f}" for r in ranges)
-            place = f"{pose[0]} {pose[1]} {pose[2]}"
-            file.write(f"FLASER 181 {numbers} {place} {place} {time} host {time}\n")
+    room_log.write(path)
     return path
 
 

@@ -5,35 +5,23 @@
 namespace cca {
 namespace {
 
-constexpr int kWhite = 7, kBlue = 5, kYellow = 2, kGreen = 3;  // AutoCAD's colour numbers
-
-void head(Dxf& dxf) {
-  dxf.group(999, "Line map; drawing unit 1 m");
-  dxf.beginLayers(4);
-  dxf.layer("POLYLINES", kWhite);
-  dxf.layer("LINES", kBlue);
-  dxf.layer("ARCS", kGreen);
-  dxf.layer("TRAJECTORY", kYellow);
-  dxf.beginEntities();
-}
+constexpr int kYellow = 2, kGreen = 3, kBlue = 5, kWhite = 7;  // AutoCAD's colours
 
 }  // namespace
 
 std::string linesDxf(const std::vector<MapLine>& lines, const std::vector<PolyLine>& poly_lines,
                      const std::vector<Pose2>& trajectory, const std::vector<MapArc>& arcs) {
-  Dxf dxf;
-  head(dxf);
+  // A chain is drawn once: its lines, each with its own length, are there to be switched on.
+  Dxf dxf({{"POLYLINES", kWhite}, {"LINES", -kBlue}, {"ARCS", kGreen}, {"TRAJECTORY", kYellow}});
   for (const PolyLine& chain : poly_lines) dxf.polyLine(chain.vertices, "POLYLINES");
-  for (const MapLine& line : loneLines(lines, poly_lines)) {
-    dxf.line(line.segment.start, line.segment.end, "LINES");
-  }
+  for (const MapLine& line : lines) dxf.line(line.segment.start, line.segment.end, "LINES");
   for (const MapArc& arc : arcs) dxf.arc(arc.arc, "ARCS");
   if (trajectory.size() > 1) {
     std::vector<Eigen::Vector2d> path;
     for (const Pose2& pose : trajectory) path.push_back(pose.position());
     dxf.polyLine(path, "TRAJECTORY");
   }
-  return dxf.finished();
+  return dxf.file();
 }
 
 }  // namespace cca

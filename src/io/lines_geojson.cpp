@@ -14,7 +14,23 @@ using Json = nlohmann::ordered_json;
 /// To a tenth of a millimetre: more digits would only claim what no laser measures.
 double rounded(double metres) { return std::round(metres * 1e4) / 1e4; }
 
-Json position(const Eigen::Vector2d& p) { return {rounded(p.x()), rounded(p.y())}; }
+Json metres(const Eigen::Vector2d& p) { return {rounded(p.x()), rounded(p.y())}; }
+
+/// A position of GeoJSON: metres, or degrees where the map's place on the Earth is known.
+class Positions {
+ public:
+  explicit Positions(const std::optional<GeoReference>& place) : place_(place) {}
+  Json operator()(const Eigen::Vector2d& p) const {
+    if (!place_) return metres(p);
+    const Eigen::Vector2d degrees = place_->toDegrees(p);
+    constexpr double kDigits = 1e9;  // a degree is 111 km: again a tenth of a millimetre
+    return {std::round(degrees.x() * kDigits) / kDigits,
+            std::round(degrees.y() * kDigits) / kDigits};
+  }
+
+ private:
+  const std::optional<GeoReference>& place_;
+};
 
 Json feature(Json properties, Json coordinates) {
   return {{"type", "Feature"},
@@ -22,7 +38,7 @@ Json feature(Json properties, Json coordinates) {
           {"geometry", {{"type", "LineString"}, {"coordinates", std::move(coordinates)}}}};
 }
 
-Json lineFeature(const MapLine& line) {
+Json lineFeature(const MapLine& line, const Positions& position) {
   const Eigen::Matrix2d& c = line.segment.covariance;
   return feature({{"kind", "line"},
                   {"id", line.id},
@@ -32,7 +48,7 @@ Json lineFeature(const MapLine& line) {
                  Json::array({position(line.segment.start), position(line.segment.end)}));
 }
 
-Json polyLineFeature(const PolyLine& chain) {
+Json polyLineFeature(const PolyLine& chain, const Positions& position) {
   Json coordinates = Json::array();
   double length = 0.0;
   for (std::size_t k = 0; k < chain.vertices.size(); ++k) {
@@ -43,7 +59,7 @@ Json polyLineFeature(const PolyLine& chain) {
                  std::move(coordinates));
 }
 
-Json arcFeature(const MapArc& found) {
+Json arcFeature(const MapArc& found, const Positions& position) {
   const Arc& arc = found.arc;
   constexpr double kStep = 5.0 * M_PI / 180.0;
   const int steps = std::max(1, static_cast<int>(std::ceil(arc.sweep / kStep)));
@@ -52,7 +68,7 @@ Json arcFeature(const MapArc& found) {
     coordinates.push_back(position(arc.at(static_cast<double>(i) / steps)));
   }
   return feature({{"kind", "arc"},
-                  {"centre", position(arc.centre)},
+                  {"centre", metres(arc.centre)},
                   {"radius", rounded(arc.radius)},
                   {"start_deg", rounded(arc.start_angle * 180.0 / M_PI)},
                   {"sweep_deg", rounded(arc.sweep * 180.0 / M_PI)},
@@ -60,16 +76,19 @@ Json arcFeature(const MapArc& found) {
                  std::move(coordinates));
 }
 
-Json trajectoryFeature(const std::vector<Pose2>& trajectory) {
+Json trajectoryFeature(const std::vector<Pose2>& trajectory, const Positions& position) {
   Json coordinates = Json::array();
   for (const Pose2& pose : trajectory) coordinates.push_back(position(pose.position()));
   return feature({{"kind", "trajectory"}}, std::move(coordinates));
 }
 
-std::vector<Eigen::Vector2d> vertices(const Json& feature) {
+/// m, map frame.
+std::vector<Eigen::Vector2d> vertices(const Json& feature,
+                                      const std::optional<GeoReference>& place) {
   std::vector<Eigen::Vector2d> vertices;
   for (const Json& p : feature.at("geometry").at("coordinates")) {
-    vertices.emplace_back(p.at(0).get<double>(), p.at(1).get<double>());
+    const Eigen::Vector2d written(p.at(0).get<double>(), p.at(1).get<double>());
+    vertices.push_back(place ? place->toMap(written) : written);
   }
   return vertices;
 }
@@ -88,32 +107,43 @@ std::vector<Pose2> alongTheWay(const std::vector<Eigen::Vector2d>& positions) {
 }  // namespace
 
 std::string linesGeoJson(const std::vector<MapLine>& lines, const std::vector<PolyLine>& poly_lines,
-                         const std::vector<Pose2>& trajectory, const std::vector<MapArc>& arcs) {
+                         const std::vector<Pose2>& trajectory, const std::vector<MapArc>& arcs,
+                         const std::optional<GeoReference>& place) {
+  const Positions position(place);
+  const Json where =
+      place ? Json{{"origin", {place->latitude_deg, place->longitude_deg, place->turn_deg}}}
+            : Json{{"note", "metres of the map frame, not longitude and latitude"}};
   // One feature a row: such files are looked at, and compared, line by line.
-  std::string text = "{\"type\": \"FeatureCollection\", \"features\": [";
+  std::string text = "{\"type\": \"FeatureCollection\", ";
+  text += where.dump().substr(1, where.dump().size() - 2) + ", \"features\": [";
   const char* separator = "\n";
   const auto append = [&](const Json& next) {
     text += separator + next.dump();
     separator = ",\n";
   };
-  for (const MapLine& line : lines) append(lineFeature(line));
-  for (const PolyLine& chain : poly_lines) append(polyLineFeature(chain));
-  for (const MapArc& arc : arcs) append(arcFeature(arc));
-  if (trajectory.size() > 1) append(trajectoryFeature(trajectory));
+  for (const MapLine& line : lines) append(lineFeature(line, position));
+  for (const PolyLine& chain : poly_lines) append(polyLineFeature(chain, position));
+  for (const MapArc& arc : arcs) append(arcFeature(arc, position));
+  if (trajectory.size() > 1) append(trajectoryFeature(trajectory, position));
   return text + "\n]}\n";
 }
 
 ChainsAndTrajectory readLinesGeoJson(const std::string& text, const std::string& name) try {
   ChainsAndTrajectory read;
   const Json collection = Json::parse(text);
+  std::optional<GeoReference> place;
+  if (collection.contains("origin")) {
+    const Json& origin = collection.at("origin");
+    place = {origin.at(0).get<double>(), origin.at(1).get<double>(), origin.at(2).get<double>()};
+  }
   for (const Json& feature : collection.at("features")) {
     const Json& properties = feature.at("properties");
     const std::string kind = properties.at("kind");
     if (kind == "poly_line") {
       read.poly_lines.push_back(
-          {vertices(feature), properties.at("line_ids").get<std::vector<std::uint64_t>>()});
+          {vertices(feature, place), properties.at("line_ids").get<std::vector<std::uint64_t>>()});
     } else if (kind == "trajectory") {
-      read.trajectory = alongTheWay(vertices(feature));
+      read.trajectory = alongTheWay(vertices(feature, place));
     }
   }
   return read;

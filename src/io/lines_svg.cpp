@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cinttypes>
 #include <cmath>
 #include <cstdio>
@@ -11,6 +12,8 @@ namespace {
 
 constexpr double kMargin = 0.5;              // m
 constexpr double kMillimetresPerMetre = 10;  // 1 : 100
+constexpr double kLegend = 0.9;              // m, height of the strip below for scale and north
+constexpr const char* kInk = "#333333";
 
 using Box = Eigen::AlignedBox2d;
 
@@ -19,7 +22,8 @@ Box boundingBox(const std::vector<MapLine>& lines, const std::vector<Pose2>& tra
   for (const MapLine& line : lines) box.extend(line.segment.start).extend(line.segment.end);
   for (const Pose2& pose : trajectory) box.extend(pose.position());
   if (box.isEmpty()) box.extend(Eigen::Vector2d::Zero());
-  return Box(box.min().array() - kMargin, box.max().array() + kMargin);
+  const Eigen::Vector2d margin(kMargin, kMargin);
+  return Box(box.min() - margin - Eigen::Vector2d(0.0, kLegend), box.max() + margin);
 }
 
 template <class... Values>
@@ -44,6 +48,37 @@ std::string svgHead(const Box& box) {
          "<g fill=\"none\" stroke-linecap=\"round\" stroke-linejoin=\"round\">\n";
 }
 
+/// 1, 2 or 5 times a power of ten [m], about a quarter of the width at the most.
+double barLength(double width) {
+  const double most = std::max(1.0, 0.25 * width);
+  const double power = std::pow(10.0, std::floor(std::log10(most)));
+  return power * (most >= 5.0 * power ? 5.0 : most >= 2.0 * power ? 2.0 : 1.0);
+}
+
+std::string scaleBar(const Box& box) {
+  const double length = barLength(box.sizes().x() - 2.0 * kMargin);
+  const double x = box.min().x() + kMargin, y = -box.min().y() - 0.3;
+  return format("<g id=\"scale\" stroke=\"%s\" stroke-width=\"0.03\">\n", kInk) +
+         format("<path d=\"M %.4f %.4f v 0.16 h %g v -0.16\"/>\n", x, y - 0.16, length) +
+         format("<text x=\"%.4f\" y=\"%.4f\" font-size=\"0.3\" ", x + 0.08, y - 0.1) +
+         format("font-family=\"sans-serif\" fill=\"%s\" stroke=\"none\">%g m</text>\n</g>\n", kInk,
+                length);
+}
+
+/// An arrow to true north in the lower right corner.
+std::string northArrow(const Box& box, const GeoReference& place) {
+  const double x = box.max().x() - kMargin, y = -box.min().y() - 0.5;
+  // y points down the page: a turn of the map to the left is one of north to the right.
+  return format("<g id=\"north\" transform=\"translate(%.4f %.4f) rotate(%.4f)\" ", x, y,
+                place.turn_deg) +
+         format("stroke=\"%s\" stroke-width=\"0.03\">\n", kInk) +
+         "<path d=\"M 0 0.35 V -0.3 M -0.1 -0.12 L 0 -0.35 L 0.1 -0.12\"/>\n" +
+         format(
+             "<text x=\"-0.32\" y=\"0.1\" font-size=\"0.3\" font-family=\"sans-serif\" "
+             "fill=\"%s\" stroke=\"none\">N</text>\n</g>\n",
+             kInk);
+}
+
 std::string svgArc(const Arc& arc) {
   if (arc.sweep >= 2.0 * M_PI) {
     return format("<circle cx=\"%.4f\" cy=\"%.4f\" r=\"%.4f\"/>\n", arc.centre.x(), -arc.centre.y(),
@@ -57,8 +92,10 @@ std::string svgArc(const Arc& arc) {
 }  // namespace
 
 std::string linesSvg(const std::vector<MapLine>& lines, const std::vector<PolyLine>& poly_lines,
-                     const std::vector<Pose2>& trajectory, const std::vector<MapArc>& arcs) {
-  std::string text = svgHead(boundingBox(lines, trajectory));
+                     const std::vector<Pose2>& trajectory, const std::vector<MapArc>& arcs,
+                     const std::optional<GeoReference>& place) {
+  const Box box = boundingBox(lines, trajectory);
+  std::string text = svgHead(box);
   if (!trajectory.empty()) {
     text += "<polyline id=\"trajectory\" stroke=\"#d98c3f\" stroke-width=\"0.03\" points=\"";
     for (const Pose2& pose : trajectory) text += point(pose.position());
@@ -81,7 +118,9 @@ std::string linesSvg(const std::vector<MapLine>& lines, const std::vector<PolyLi
   }
   text += "</g>\n<g id=\"arcs\" stroke=\"#3f9a5f\" stroke-width=\"0.02\">\n";
   for (const MapArc& arc : arcs) text += svgArc(arc.arc);
-  return text + "</g>\n</g>\n</svg>\n";
+  text += "</g>\n" + scaleBar(box);
+  if (place) text += northArrow(box, *place);
+  return text + "</g>\n</svg>\n";
 }
 
 }  // namespace cca

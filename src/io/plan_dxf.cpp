@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <cstdio>
+
 #include "cca_mrpt/io/plan_formats.hpp"
 #include "dxf.hpp"
 #include "plan_sheet.hpp"
@@ -9,17 +11,14 @@ namespace {
 constexpr int kRed = 1, kYellow = 2, kGreen = 3, kCyan = 4, kMagenta = 6, kWhite = 7, kGrey = 8;
 constexpr double kTextHeight = 0.2;  // m
 
-void addPlanLayers(Dxf& dxf) {
-  dxf.group(999, "Floor plan; drawing unit 1 m");
-  dxf.beginLayers(7);
-  dxf.layer("A-WALL", kWhite);
-  dxf.layer("A-WALL-PRSM", kGrey);
-  dxf.layer("A-DOOR", kRed);
-  dxf.layer("A-OPNG", kCyan);
-  dxf.layer("A-AREA", kGreen);
-  dxf.layer("A-AREA-IDEN", kYellow);
-  dxf.layer("A-FURN", kMagenta);
-  dxf.beginEntities();
+Dxf planDrawing() {
+  return Dxf({{"A-WALL", kWhite},
+              {"A-WALL-PRSM", kGrey},
+              {"A-DOOR", kRed},
+              {"A-OPNG", kCyan},
+              {"A-AREA", kGreen},
+              {"A-AREA-IDEN", kYellow},
+              {"A-FURN", kMagenta}});
 }
 
 void addWall(Dxf& dxf, const PlanWall& wall) {
@@ -33,7 +32,7 @@ void addWall(Dxf& dxf, const PlanWall& wall) {
                true);
 }
 
-/// R12 is ASCII: other characters as AutoCAD writes them.
+/// AutoCAD 2000 is ASCII: other characters as AutoCAD writes them.
 std::string inDxf(const std::string& utf8) {
   std::string text;
   for (std::size_t k = 0; k < utf8.size();) {
@@ -67,14 +66,13 @@ void addRoom(Dxf& dxf, const PlanRoom& room) {
 }  // namespace
 
 std::string planDxf(const FloorPlan& plan) {
-  Dxf dxf;
-  addPlanLayers(dxf);
+  Dxf dxf = planDrawing();
   for (const PlanRoom& room : plan.rooms) addRoom(dxf, room);
   for (const PlanFurniture& piece : plan.furniture) dxf.polyLine(piece.outline, "A-FURN", true);
   for (const PlanWall& wall : plan.walls) addWall(dxf, wall);
   for (const PlanOpening& opening : plan.openings)
     dxf.line(opening.a, opening.b, opening.kind == OpeningKind::kDoor ? "A-DOOR" : "A-OPNG");
-  return dxf.finished();
+  return dxf.file();
 }
 
 }  // namespace cca

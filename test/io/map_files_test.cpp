@@ -21,6 +21,7 @@ namespace cca {
 namespace {
 
 using testing::HasSubstr;
+using testing::Not;
 namespace fs = std::filesystem;
 
 MapLine line(std::uint64_t id, double x1, double y1, double x2, double y2) {
@@ -125,8 +126,9 @@ TEST(Arcs, AreRowsOfCentreRadiusAndExtent) {
 
 TEST(Arcs, AreCirclesAndArcsOfTheirOwnInDxfAndSvg) {
   const std::string dxf = linesDxf({}, {}, {}, pillarAndBend());
-  EXPECT_THAT(dxf, HasSubstr("CIRCLE\n8\nARCS\n10\n1.0000\n20\n2.0000\n30\n0.0000\n40\n0.5000\n"));
-  EXPECT_THAT(dxf, HasSubstr("40\n2.0000\n50\n0.0000\n51\n90.0000\n"));
+  EXPECT_THAT(dxf, HasSubstr("8\nARCS\n100\nAcDbCircle\n10\n1.0000\n20\n2.0000\n30\n0.0000\n"
+                             "40\n0.5000\n0\nARC\n"));
+  EXPECT_THAT(dxf, HasSubstr("40\n2.0000\n100\nAcDbArc\n50\n0.0000\n51\n90.0000\n"));
   const std::string svg = linesSvg({}, {}, {}, pillarAndBend());
   EXPECT_THAT(svg, HasSubstr("<circle cx=\"1.0000\" cy=\"-2.0000\" r=\"0.5000\"/>"));
   EXPECT_THAT(svg, HasSubstr("M 1.0000 -0.0000 A 2.0000 2.0000 0 0 0 -1.0000 -2.0000"));
@@ -164,11 +166,75 @@ TEST(GeoJson, EmptyMapIsValid) {
 }
 
 TEST(Svg, IsToScale) {
-  // x from -2 to 4, y from 0 to 5, half a metre of margin: 7 m x 6 m at 1 : 100.
+  // x from -2 to 4, y from 0 to 5, half a metre of margin, .9 m for the scale: 7 m x 6.9 m at 1 :
+  // 100.
   const auto products = corner();
   const std::string svg = linesSvg(products.lines, products.poly_lines, products.trajectory);
-  EXPECT_THAT(svg, HasSubstr("width=\"70.00mm\" height=\"60.00mm\""));
+  EXPECT_THAT(svg, HasSubstr("width=\"70.00mm\" height=\"69.00mm\""));
   EXPECT_THAT(svg, HasSubstr("points=\"0.0000,-0.0000 4.0000,-0.0000 4.0000,-3.0000 \""));
+}
+
+TEST(Svg, HasAScaleBarAndNorthWhereItIsTold) {
+  const auto products = corner();
+  const std::string plain = linesSvg(products.lines, products.poly_lines, products.trajectory);
+  EXPECT_THAT(plain, HasSubstr("h 1 v -0.16"));  // a quarter of 6 m at the most
+  EXPECT_THAT(plain, HasSubstr(">1 m</text>"));
+  EXPECT_THAT(plain, Not(HasSubstr("id=\"north\"")));
+  const std::string placed = linesSvg(products.lines, products.poly_lines, products.trajectory, {},
+                                      GeoReference{48.0, 11.0, 30.0});
+  EXPECT_THAT(placed, HasSubstr("rotate(30.0000)"));
+}
+
+TEST(Dxf, TellsItsUnitAndHasAllWallsOnBothLayers) {
+  const auto products = corner();
+  const std::string dxf = linesDxf(products.lines, products.poly_lines, {});
+  EXPECT_THAT(dxf, HasSubstr("$ACADVER\n1\nAC1015\n"));
+  EXPECT_THAT(dxf, HasSubstr("$INSUNITS\n70\n6\n"));  // metres
+  std::size_t lines = 0, chains = 0;
+  for (std::size_t at = 0; (at = dxf.find("8\nLINES\n", at)) != std::string::npos; ++at) ++lines;
+  for (std::size_t at = 0; (at = dxf.find("LWPOLYLINE\n", at)) != std::string::npos; ++at) ++chains;
+  EXPECT_EQ(lines, products.lines.size());
+  EXPECT_EQ(chains, products.poly_lines.size());
+}
+
+TEST(GeoReference, MetresAndDegreesLeadToEachOther) {
+  const GeoReference place{48.1, 11.6, 30.0};
+  for (const Eigen::Vector2d& p : {Eigen::Vector2d(0, 0), {300, -500}, {-700, 200}}) {
+    EXPECT_LT((place.toMap(place.toDegrees(p)) - p).norm(), 1e-4);
+  }
+}
+
+TEST(GeoReference, ADegreeOfLatitudeIsAsLongAsTheTablesSay) {
+  // Length of a minute of arc of the meridian at 45 degrees on WGS 84: 1852.2 m (Bowditch, table
+  // 7).
+  const GeoReference place{45.0, 0.0, 0.0};
+  EXPECT_NEAR(place.toMap({0.0, 45.0 + 0.5 / 60.0}).y(), 0.5 * 1852.2, 0.1);
+  const GeoReference turned{45.0, 0.0, 90.0};  // x is north
+  EXPECT_NEAR(turned.toMap({0.0, 45.0 + 0.5 / 60.0}).x(), 0.5 * 1852.2, 0.1);
+}
+
+TEST(GeoReference, IsReadFromTwoOrThreeNumbers) {
+  EXPECT_EQ(geoReferenceOf("48.1,11.6").turn_deg, 0.0);
+  EXPECT_EQ(geoReferenceOf("-48.1,11.6,-30").turn_deg, -30.0);
+  for (const char* wrong :
+       {"", "48", "48,11,3,4", "48;11", "91,0", "0,181", "0,0,400", "48,east"}) {
+    EXPECT_THROW(geoReferenceOf(wrong), std::runtime_error) << wrong;
+  }
+}
+
+TEST(GeoJson, IsInDegreesWhereTheOriginIsToldAndReadsBackInMetres) {
+  const auto products = corner();
+  const std::string text = linesGeoJson(products.lines, products.poly_lines, products.trajectory,
+                                        {}, GeoReference{48.1, 11.6, 30.0});
+  const auto json = nlohmann::json::parse(text);
+  EXPECT_FALSE(json.contains("note"));
+  const auto& first = json["features"][0]["geometry"]["coordinates"][0];
+  EXPECT_NEAR(first[0].get<double>(), 11.6, 1e-9);
+  EXPECT_NEAR(first[1].get<double>(), 48.1, 1e-9);
+  const auto back = readLinesGeoJson(text, "lines.geojson");
+  EXPECT_LT((back.poly_lines[0].vertices[2] - products.poly_lines[0].vertices[2]).norm(), 1e-3);
+  const auto plain = nlohmann::json::parse(linesGeoJson(products.lines, products.poly_lines));
+  EXPECT_EQ(plain["note"], "metres of the map frame, not longitude and latitude");
 }
 
 TEST(MapFolder, HoldsEveryFileAndNothingElse) {

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "cca_mrpt/io/geo_reference.hpp"
 #include "cca_mrpt/mapping/line_map.hpp"
 
 namespace cca {
@@ -18,15 +20,17 @@ std::string linesCsv(const std::vector<MapLine>& lines);
 /// @throws std::runtime_error naming file, row and column of what is missing or no finite number.
 std::vector<MapLine> readLinesCsv(const std::string& text, const std::string& name);
 
-/// A line map as a GeoJSON FeatureCollection in metres of the map frame (not longitude, latitude).
+/// A line map as a GeoJSON FeatureCollection: longitude and latitude where the place of the map on
+/// the Earth is told (`origin` keeps it), else metres of the map frame, which a `note` says.
 /// Each line is a LineString with `kind` "line", `id`, `support`, `length` and `covariance`
 /// (offset-offset, offset-angle, angle-angle; m^2, m rad, rad^2); each poly-line one more with
 /// `kind` "poly_line", `length` and `line_ids`; each arc one with `kind` "arc", `centre`, `radius`,
 /// `start_deg`, `sweep_deg` and `line_ids`, its coordinates 5 degrees apart; the trajectory, where
-/// there is one, a last with `kind` "trajectory".
+/// there is one, a last with `kind` "trajectory". Properties are in metres of the map frame always.
 std::string linesGeoJson(const std::vector<MapLine>& lines, const std::vector<PolyLine>& poly_lines,
                          const std::vector<Pose2>& trajectory = {},
-                         const std::vector<MapArc>& arcs = {});
+                         const std::vector<MapArc>& arcs = {},
+                         const std::optional<GeoReference>& place = {});
 
 /// What linesGeoJson() holds besides the lines.
 struct ChainsAndTrajectory {
@@ -34,7 +38,7 @@ struct ChainsAndTrajectory {
   std::vector<Pose2> trajectory;  ///< headings are those of the way
 };
 
-/// Reads linesGeoJson() back.
+/// Reads linesGeoJson() back, into metres of the map frame.
 /// @throws std::runtime_error naming the file where the text is no such thing.
 ChainsAndTrajectory readLinesGeoJson(const std::string& text, const std::string& name);
 
@@ -42,11 +46,15 @@ ChainsAndTrajectory readLinesGeoJson(const std::string& text, const std::string&
 /// part of none as lines; ids and supports as data attributes.
 /// @param trajectory  drawn thin below the lines; may be empty.
 /// @param arcs        drawn thin beside their chords.
+/// @param place       an arrow shows where north is; nothing: no arrow. A scale bar is always
+/// there.
 std::string linesSvg(const std::vector<MapLine>& lines, const std::vector<PolyLine>& poly_lines,
-                     const std::vector<Pose2>& trajectory, const std::vector<MapArc>& arcs = {});
+                     const std::vector<Pose2>& trajectory, const std::vector<MapArc>& arcs = {},
+                     const std::optional<GeoReference>& place = {});
 
-/// A floor plan as DXF R12, one drawing unit a metre: layers POLYLINES, LINES, ARCS and
-/// TRAJECTORY. Arcs are ARC or CIRCLE; their chords stay.
+/// A floor plan as DXF of AutoCAD 2000, which says that its unit is the metre: layers POLYLINES,
+/// LINES (the same walls one by one; switched off), ARCS and TRAJECTORY. Arcs are ARC or CIRCLE;
+/// their chords stay.
 std::string linesDxf(const std::vector<MapLine>& lines, const std::vector<PolyLine>& poly_lines,
                      const std::vector<Pose2>& trajectory, const std::vector<MapArc>& arcs = {});
 
