@@ -44,11 +44,15 @@ ScanFeed::ScanFeed(ros::NodeHandle& node, Settings settings, Sink sink)
   }
 }
 
-void ScanFeed::drop(const std::string& reason, const std::string& detail) {
+void ScanFeed::drop(const std::string& reason, const std::string& detail, const std::string& rule) {
   ++dropped_[reason];
   last_trouble_ = ": " + reason;
-  ROS_WARN_STREAM_THROTTLE(5.0,
-                           "scan dropped: " << reason << (detail.empty() ? "" : ": ") << detail);
+  const std::string text = "scan dropped: " + reason + (detail.empty() ? "" : ": ") + detail;
+  if (told_.insert(reason + rule).second) {
+    ROS_WARN_STREAM(text);
+  } else {
+    ROS_WARN_STREAM_THROTTLE(5.0, text);
+  }
 }
 
 void ScanFeed::startAnewIfClockWasSetBack() {
@@ -88,6 +92,8 @@ void ScanFeed::receive(const Event& event, std::size_t topic) {
       last_stamps_[waiting.frame] = waiting.stamp;
     }
     waiting_.push_back(std::move(waiting));
+  } catch (const MalformedScan& error) {
+    return drop("malformed", error.what(), error.rule());
   } catch (const std::runtime_error& error) {
     return drop("malformed", error.what());
   }

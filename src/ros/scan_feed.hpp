@@ -8,6 +8,7 @@
 #include <functional>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -82,7 +83,9 @@ class ScanFeed {
   std::optional<ros::Time> latestPose(const std::string& laser_frame) const;
   Pose pose(const Waiting& waiting, const std::optional<ros::Time>& latest) const;
   std::string whyNoPose(const Waiting& waiting) const;
-  void drop(const std::string& reason, const std::string& detail = "");
+  /// @param rule  that the scan broke: the first scan of each reason and rule is told at once.
+  void drop(const std::string& reason, const std::string& detail = "",
+            const std::string& rule = "");
   void startAnewIfClockWasSetBack();
 
   Settings settings_;
@@ -96,7 +99,8 @@ class ScanFeed {
   ros::Time last_now_;
   std::string last_trouble_;
   std::map<std::string, long> dropped_;
-  TransformFeed transforms_;  // these two last: they call what stands above
+  std::set<std::string> told_;  ///< reasons and rules
+  TransformFeed transforms_;    // these two last: they call what stands above
   std::vector<ros::Subscriber> scans_;
 };
 

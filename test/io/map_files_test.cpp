@@ -250,10 +250,11 @@ TEST(MapFolder, HoldsEveryFileAndNothingElse) {
     names.push_back(entry.path().filename().string());
     EXPECT_GT(entry.file_size(), 0U) << entry.path();
   }
-  EXPECT_THAT(names, testing::UnorderedElementsAre("lines.csv", "arcs.csv", "lines.geojson",
-                                                   "lines.svg", "lines.dxf", "map.png", "map.pgm",
-                                                   "map.yaml", "map.gridmap.gz", "map.linemap.gz",
-                                                   "scene.3Dscene", "summary.json"));
+  EXPECT_THAT(names, testing::UnorderedElementsAre(
+                         "lines.csv", "arcs.csv", "lines.geojson", "lines.svg", "lines.dxf",
+                         "map.png", "map.pgm", "map.yaml", "map.gridmap.gz", "map.linemap.gz",
+                         "scene.3Dscene", "summary.json", "plan.geojson", "plan.svg", "plan.dxf",
+                         "plan.pdf", "rooms.csv", "rooms.png"));
   const auto summary = nlohmann::json::parse(bytesOf(folder / "map/summary.json"));
   EXPECT_EQ(summary["finished"], true);
   EXPECT_EQ(summary["map_lines"], 3);
