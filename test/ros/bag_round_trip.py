@@ -66,6 +66,27 @@ class AwkwardBag:
         return scan
 
 
+class WheelsOnlyBag(AwkwardBag):
+    """The same drive of a robot that nobody localises: its wheels turn a little too far, and count from where
+    it has stood for a while."""
+
+    def __init__(self, path):
+        self.walls, self.random = read_segments(WORLD), numpy.random.RandomState(2)
+        self.messages = []
+        self.add(0.0, "/tf_static", TFMessage([transform("base_link", "laser", LASER, self.at(0.0))]))
+        for t in numpy.arange(0.0, SECONDS, 0.033):
+            self.add(t + 0.02, "/tf", TFMessage([transform("odom", "base_link", self.by_wheels(t), self.at(t))]))
+        for t in numpy.arange(0.3, SECONDS - 0.5, 0.1):
+            self.add(t + 0.05, "/scan", self.scan(max(t - 1.0, 0.0), blind=False, off=min(t, 1.0)))
+        with rosbag.Bag(path, "w") as bag:
+            for recorded, topic, message in sorted(self.messages, key=lambda m: m[0]):
+                bag.write(topic, message, self.at(recorded))
+
+    def by_wheels(self, t):
+        a = 0.4 * max(t - 1.0, 0.0)
+        return 0.9 * math.sin(1.02 * a), 0.9 * (1.0 - math.cos(1.02 * a)), 1.02 * a
+
+
 class BagRoundTrip(OwnMaster):
     def record(self):
         bag = os.path.join(self.home.name, "run.bag")
@@ -77,18 +98,18 @@ class BagRoundTrip(OwnMaster):
         self.assertFalse(os.path.exists(bag + ".active"))
         return bag
 
-    def map_offline(self, bag):
+    def map_offline(self, bag, pose):
         """@return the folder of the map, and the scans in it."""
         folder = os.path.join(self.home.name, "offline")
-        done = self.start(os.path.join(NODES, "cca-mrpt"), "map", bag, "--out", folder)
+        done = self.start(os.path.join(NODES, "cca-mrpt"), "map", bag, "--out", folder, "--pose", pose)
         output, _ = done.communicate(timeout=60)
         self.assertEqual(done.returncode, 0, output)
         with open(os.path.join(folder, "summary.json")) as file:
             return folder, json.load(file)["scans"]
 
-    def map_played(self, bag, speed, scans):
+    def map_played(self, bag, speed, scans, pose):
         folder = os.path.join(self.home.name, "played_%d" % speed)
-        mapper = self.node("line_mapper", "_out:=" + folder, "_save_at_end:=true")
+        mapper = self.node("line_mapper", "_out:=" + folder, "_save_at_end:=true", "_pose:=" + pose)
         self.assertTrue(until(lambda: "/scan" in (self.ask("rosnode", "info", "/line_mapper") or "")))
         # --wait-for-subscribers waits for every topic played, and nobody listens to odom here.
         play = self.start("rosbag", "play", "--clock", "--quiet", "--wait-for-subscribers", "--keep-alive",
@@ -104,14 +125,14 @@ class BagRoundTrip(OwnMaster):
         self.assertTrue(os.path.exists(os.path.join(folder, "lines.csv")), output)
         return folder, output
 
-    def check(self, bag):
+    def check(self, bag, offline_pose="log", pose="tf"):
         self.ask("rosparam", "set", "/use_sim_time", "true")
-        offline, scans = self.map_offline(bag)
+        offline, scans = self.map_offline(bag, offline_pose)
         expected = read_segments(os.path.join(offline, "lines.csv"))
         self.assertGreater(len(expected), 5)
         for speed in SPEEDS:
             with self.subTest(speed=speed):
-                played, output = self.map_played(bag, speed, scans)
+                played, output = self.map_played(bag, speed, scans, pose)
                 with open(os.path.join(offline, "lines.csv")) as a, open(os.path.join(played, "lines.csv")) as b:
                     self.assertEqual(a.read(), b.read(), output)
         return expected
@@ -131,6 +152,12 @@ class BagRoundTrip(OwnMaster):
         bag = os.path.join(self.home.name, "awkward.bag")
         AwkwardBag(bag)
         self.check(bag)
+
+    def test_so_does_line_slam_where_nobody_tells_the_pose(self):
+        bag = os.path.join(self.home.name, "wheels.bag")
+        WheelsOnlyBag(bag)
+        lines = self.check(bag, offline_pose="slam", pose="slam")
+        self.assertLess(len(lines), 25)  # of walls that are drawn once
 
 
 if __name__ == "__main__":
