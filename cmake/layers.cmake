@@ -41,7 +41,8 @@ endfunction()
 add_custom_target(cca_late_libraries)
 
 # Eight sources are compiled as one: what they instantiate of Eigen, MRPT and ROS takes longer than they do.
-# So no two of a layer may give one name to different things in their anonymous namespaces.
+# So no two files that land in one such unit may give one name to different things in their anonymous
+# namespaces: the compiler says so, and -DCCA_EACH_FILE_ALONE=ON compiles each by itself.
 function(cca_join_sources target)
   if(NOT CCA_EACH_FILE_ALONE)
     set_target_properties(${target} PROPERTIES UNITY_BUILD ON)
