@@ -46,9 +46,9 @@ LogRecord next(Log& log) {
   return std::move(*record);
 }
 
-void construct(LogRecord* self, nb::handle ranges, double angle_min, double angle_increment,
-               std::optional<double> time, nb::handle odometry, nb::handle robot_pose,
-               nb::handle sensor_pose, nb::handle pose, double free_range_without_return) {
+void constructRecord(LogRecord* self, nb::handle ranges, double angle_min, double angle_increment,
+                     std::optional<double> time, nb::handle odometry, nb::handle robot_pose,
+                     nb::handle sensor_pose, nb::handle pose, double free_range_without_return) {
   LogRecord record;
   readScan(ranges, angle_min, angle_increment, record.scan);
   readPlace(nb::make_tuple(0.0, 0.0, 0.0), free_range_without_return, record.scan);
@@ -65,32 +65,39 @@ void construct(LogRecord* self, nb::handle ranges, double angle_min, double angl
   new (self) LogRecord(std::move(record));
 }
 
-nb::object rangesOf(LogRecord& record) {
+nb::object recordRanges(LogRecord& record) {
   std::vector<double>& ranges = record.scan.ranges;
   return nb::cast(nb::ndarray<nb::numpy, double, nb::ndim<1>>(ranges.data(), {ranges.size()},
                                                               nb::find(record)));
 }
 
-nb::tuple stateOf(LogRecord& r) {
-  return nb::make_tuple(rangesOf(r).attr("copy")(), r.scan.angle_min, r.scan.angle_increment,
+nb::tuple recordState(LogRecord& r) {
+  return nb::make_tuple(recordRanges(r).attr("copy")(), r.scan.angle_min, r.scan.angle_increment,
                         r.has_time ? std::optional<double>(r.time) : std::nullopt,
                         triple(r.odometry), triple(r.corrected), triple(r.T_robot_sensor),
                         triple(r.scan.T_map_sensor), r.scan.free_range_without_return);
 }
 
-void restore(LogRecord& self, const nb::tuple& state) {
-  construct(&self, state[0], nb::cast<double>(state[1]), nb::cast<double>(state[2]),
-            nb::cast<std::optional<double>>(state[3]), state[4], state[5], state[6], state[7],
-            nb::cast<double>(state[8]));
+void restoreRecord(LogRecord& self, const nb::tuple& state) {
+  constructRecord(&self, state[0], nb::cast<double>(state[1]), nb::cast<double>(state[2]),
+                  nb::cast<std::optional<double>>(state[3]), state[4], state[5], state[6], state[7],
+                  nb::cast<double>(state[8]));
 }
 
-std::string describe(LogRecord& record) {
+std::string describeRecord(LogRecord& record) {
   const auto& ranges = record.scan.ranges;
   const auto returns = std::count_if(ranges.begin(), ranges.end(),
                                      [](double r) { return r > 0.0 && std::isfinite(r); });
   const nb::str text = nb::str("LogRecord({} beams, {} returns, time={:.3f})")
                            .format(ranges.size(), returns, record.time);
   return text.c_str();
+}
+
+/// Of a text or bytes.
+std::string bytesOf(nb::handle content) {
+  if (!nb::isinstance<nb::bytes>(content)) return nb::cast<std::string>(content);
+  const auto bytes = nb::cast<nb::bytes>(content);
+  return {bytes.c_str(), bytes.size()};
 }
 
 void addRecord(nb::module_& module) {
@@ -103,7 +110,7 @@ Args:
     robot_pose: (x, y, theta) of the robot in the map frame, where somebody knows it.
     sensor_pose: (x, y, theta) of the laser in the robot's frame; m, m, rad.
     pose: (x, y, theta) of the laser in the map frame; None: by `robot_pose`, else `odometry`.)")
-      .def("__init__", &construct, nb::arg("ranges").none(), nb::arg("angle_min"),
+      .def("__init__", &constructRecord, nb::arg("ranges").none(), nb::arg("angle_min"),
            nb::arg("angle_increment"), nb::kw_only(), nb::arg("time").none() = nb::none(),
            nb::arg("odometry").none() = nb::none(), nb::arg("robot_pose").none() = nb::none(),
            nb::arg("sensor_pose").none() = nb::make_tuple(0.0, 0.0, 0.0),
@@ -115,12 +122,13 @@ Args:
                    "collections.abc.Sequence[float] = (0.0, 0.0, 0.0), pose: "
                    "collections.abc.Sequence[float] | None = None, free_range_without_return: "
                    "float = 0.0) -> None"))
-      .def("__getstate__", &stateOf, nb::sig("def __getstate__(self) -> tuple[typing.Any, ...]"))
-      .def("__setstate__", &restore, nb::arg("state"),
+      .def("__getstate__", &recordState,
+           nb::sig("def __getstate__(self) -> tuple[typing.Any, ...]"))
+      .def("__setstate__", &restoreRecord, nb::arg("state"),
            nb::sig("def __setstate__(self, state: tuple[typing.Any, ...]) -> None"))
       .def("__len__", [](const LogRecord& record) { return record.scan.ranges.size(); })
-      .def("__repr__", &describe)
-      .def_prop_ro("ranges", &rangesOf,
+      .def("__repr__", &describeRecord)
+      .def_prop_ro("ranges", &recordRanges,
                    nb::sig("def ranges(self) -> numpy.typing.NDArray[numpy.float64]"),
                    "(N,) m; +inf: no return; 0: invalid. The record's own memory.")
       .def_prop_ro(
@@ -178,10 +186,11 @@ void addLogs(nb::module_& module) {
       [](const std::string& folder, const nb::dict& files) {
         makeFolder(folder);
         for (const auto [name, content] : files)
-          writeFile(folder + "/" + nb::cast<std::string>(name), nb::cast<std::string>(content));
+          writeFile(folder + "/" + nb::cast<std::string>(name), bytesOf(content));
       },
       nb::arg("folder"), nb::arg("files"),
-      nb::sig("def write_files_into(folder: str, files: dict[str, str]) -> None"),
+      nb::sig("def write_files_into(folder: str, files: collections.abc.Mapping[str, str | bytes]) "
+              "-> None"),
       "Write texts by file name, each whole or not at all; the folder is made where it is "
       "missing.");
 }

@@ -12,6 +12,7 @@
 #include "cca_mrpt/io/line_formats.hpp"
 #include "cca_mrpt/mapping/line_extraction.hpp"
 #include "line_arrays.hpp"
+#include "map_files.hpp"
 #include "module.hpp"
 #include "parameters.hpp"
 
@@ -42,12 +43,6 @@ void insertIntoMap(SharedLineMap& map, nb::handle ranges, double angle_min, doub
   if (!map.with([&scan](LineMap& own) { return own.insert(scan); }))
     throw nb::value_error("pose: further than 10 000 km from the map's origin");
 }
-
-struct LinesAndChains {
-  std::vector<MapLine> lines;
-  std::vector<PolyLine> poly_lines;
-  std::vector<MapArc> arcs;
-};
 
 LinesAndChains everything(SharedLineMap& map) {
   return map.with([](LineMap& own) {

@@ -11,4 +11,6 @@ NB_MODULE(_core, module) {
   cca::python::addNavigation(module);
   cca::python::addLogs(module);
   cca::python::addSlam(module);
+  cca::python::addMapFiles(module);
+  cca::python::addSession(module);
 }

@@ -11,5 +11,7 @@ void addBaselines(nanobind::module_& module);
 void addNavigation(nanobind::module_& module);
 void addLogs(nanobind::module_& module);
 void addSlam(nanobind::module_& module);
+void addMapFiles(nanobind::module_& module);
+void addSession(nanobind::module_& module);
 
 }  // namespace cca::python

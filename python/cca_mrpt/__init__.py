@@ -14,6 +14,7 @@ from ._core import (
     Action,
     Baseline,
     CellState,
+    Estimate,
     ExplorationGrid,
     Explorer,
     LineMap,
@@ -25,6 +26,7 @@ from ._core import (
     extract_lines,
 )
 from .logs import Log, read_log
+from .maps import Map, MapArc, Mapper, load, map
 from .plotting import plot
 
 _no_simulation = ""
@@ -53,17 +55,23 @@ __all__ = [
     "Action",
     "Baseline",
     "CellState",
+    "Estimate",
     "ExplorationGrid",
     "Explorer",
     "LineMap",
     "Log",
     "LogRecord",
+    "Map",
+    "MapArc",
+    "Mapper",
     "PolyLine",
     "Simulation",
     "Slam",
     "SlamPose",
     "baselines",
     "extract_lines",
+    "load",
+    "map",
     "plot",
     "read_log",
 ]

@@ -240,13 +240,15 @@ class BagScans:
         topic: None: the one with most scans.
         base_frame, odom_frame: None: found, see `find_frames`.
         mount: (x, y, theta) of the laser on the robot, m, m, rad; None: tf tells.
+        upside_down: whether the laser hangs so, where its mount is told.
     """
 
     def __init__(self, path: Path, topic: Optional[str] = None, base_frame: Optional[str] = None,
-                 odom_frame: Optional[str] = None, mount: Optional[Pose] = None) -> None:
+                 odom_frame: Optional[str] = None, mount: Optional[Pose] = None,
+                 upside_down: bool = False) -> None:
         self.path = path
         self._asked = (base_frame and frame_name(base_frame), odom_frame and frame_name(odom_frame))
-        self._mount = mount
+        self._mount = PlanarPose(mount, upside_down) if mount else None
         self._stack = ExitStack()
         self._lasers: Dict[str, Laser] = {}
         self._left_out: Dict[str, Tuple[int, str]] = {}
@@ -362,7 +364,7 @@ class BagScans:
         if laser is None:
             frames = find_frames(self._tf, frame, self._odometry_frames, *self._asked)
             knows = [name for name in (frames.map, frames.odom) if name and self._tf.lookup(name, frames.base, None)]
-            mount = PlanarPose(self._mount, False) if self._mount else None
+            mount = self._mount
             if mount is None and not frames.mount_is_known:
                 mount = PlanarPose((0.0, 0.0, 0.0), False)
             laser = Laser(frames, knows[0] if knows else "", bool(knows) and knows[0] == frames.map, mount,

@@ -53,17 +53,12 @@ def _summary(folder: str) -> Result:
 
 def _map_job(job: Tuple[str, str, MapParameters]) -> Result:
     log, folder, parameters = job
-    from . import LineMap, read_log
-    from .__main__ import write_map
+    from .maps import map as map_log
 
     def fill(part: Path) -> None:
-        line_map, trajectory, scans = LineMap(**parameters), [], read_log(log)
-        for scan in scans:
-            line_map.insert(scan.ranges, scan.angle_min, scan.angle_increment, scan.pose)
-            trajectory.append(scan.pose)
-        write_map(part, line_map, trajectory)
-        (part / SUMMARY).write_text(json.dumps({"log": log, "scans": len(trajectory), "warnings": scans.warnings,
-                                                "map_lines": len(line_map.lines()), "parameters": parameters}))
+        made = map_log(log, **parameters)
+        made.summary["parameters"] = parameters
+        made.save(part)
 
     try:
         _make_whole(folder, fill)
@@ -148,7 +143,7 @@ def map_logs(logs: Iterable[PathLike], out: PathLike, *, workers: Optional[int] 
         parameters: of `LineMap`.
 
     Returns:
-        A dict a log, in their order: "log", "folder", "scans", "map_lines", "warnings"; or "error" in words.
+        A dict a log, in their order: its summary ("log", "scans", "map_lines" and others) and "folder"; or "error".
     """
     paths = [str(Path(log).resolve()) for log in logs]
     folders = _folders(out, [Path(path).name.split(".")[0] for path in paths])

@@ -2,6 +2,7 @@
 """Logs of laser scans, told apart by their content."""
 from __future__ import annotations
 
+import math
 import os
 from pathlib import Path
 from typing import TYPE_CHECKING, Iterator, Optional, Sequence, Tuple, Union
@@ -20,8 +21,10 @@ class Log:
     """
 
     def __init__(self, path: str, topic: Optional[str] = None, base_frame: Optional[str] = None,
-                 odom_frame: Optional[str] = None, mount: Optional[Tuple[float, float, float]] = None) -> None:
+                 odom_frame: Optional[str] = None, mount: Optional[Tuple[float, float, float]] = None,
+                 upside_down: bool = False) -> None:
         self.path, self.topic, self.base_frame, self.odom_frame, self.mount = path, topic, base_frame, odom_frame, mount
+        self.upside_down = upside_down
         self._latest = self._open()  # says now what is wrong with it
         self._is_new = True
 
@@ -30,7 +33,7 @@ class Log:
 
         path = Path(self.path)
         if looks_like_bag(path):
-            return BagScans(path, self.topic, self.base_frame, self.odom_frame, self.mount)
+            return BagScans(path, self.topic, self.base_frame, self.odom_frame, self.mount, self.upside_down)
         told = [name for name in ("topic", "base_frame", "odom_frame", "mount") if getattr(self, name) is not None]
         if told:
             raise ValueError(f"{self.path}: {told[0]} is for ROS bags; this is none")
@@ -56,11 +59,12 @@ class Log:
         return f"Log({self.path!r})"
 
     def __reduce__(self) -> "tuple[type[Log], tuple[object, ...]]":
-        return Log, (self.path, self.topic, self.base_frame, self.odom_frame, self.mount)
+        return Log, (self.path, self.topic, self.base_frame, self.odom_frame, self.mount, self.upside_down)
 
 
 def read_log(path: "str | os.PathLike[str]", *, topic: Optional[str] = None, base_frame: Optional[str] = None,
-             odom_frame: Optional[str] = None, mount: Optional[Sequence[float]] = None) -> Log:
+             odom_frame: Optional[str] = None, mount: Optional[Sequence[float]] = None,
+             upside_down: bool = False) -> Log:
     """Open a log: CARMEN (FLASER, RLASER, ROBOTLASER1; also .gz), or a ROS 1 or 2 bag (.bag, .db3, .mcap, a folder).
 
     Args:
@@ -68,7 +72,8 @@ def read_log(path: "str | os.PathLike[str]", *, topic: Optional[str] = None, bas
         topic: bags: of the scans; None: the one with most of them.
         base_frame: bags: the robot's frame; None: found above the laser in tf, or by the odometry.
         odom_frame: bags: the frame that the robot's odometry is in; None: found above the base.
-        mount: bags: (x, y, theta) of the laser on the robot where tf does not tell it; m, m, rad.
+        mount: bags: (x, y, theta) of the laser on the robot, where tf does not tell it, or tells it wrongly; m, m, rad.
+        upside_down: bags: whether the laser hangs so; goes with `mount`.
 
     Returns:
         The scans, to be looped over as often as one likes.
@@ -84,5 +89,9 @@ def read_log(path: "str | os.PathLike[str]", *, topic: Optional[str] = None, bas
     place = None
     if mount is not None:
         x, y, theta = (float(number) for number in mount)
+        if not all(map(math.isfinite, (x, y, theta))):
+            raise ValueError(f"mount: finite numbers are needed, not {tuple(mount)}")
         place = (x, y, theta)
-    return Log(name, topic, base_frame, odom_frame, place)
+    elif upside_down:
+        raise ValueError("upside_down: needs a mount")
+    return Log(name, topic, base_frame, odom_frame, place, upside_down)

@@ -37,7 +37,8 @@ def write(path):
             ranges = ranges_in(ROOM, pose, np.radians(-90), np.radians(1), 181)
             numbers = " ".join(f"{r:.3f}" for r in ranges)
             place = f"{pose[0]} {pose[1]} {pose[2]}"
-            file.write(f"FLASER 181 {numbers} {place} {place} {time} host {time}\n")
+            wheels = f"{pose[0] + 0.01 * time} {pose[1]} {pose[2] - 0.004 * time}"  # that drift
+            file.write(f"FLASER 181 {numbers} {place} {wheels} {time} host {time}\n")
 
 
 if __name__ == "__main__":

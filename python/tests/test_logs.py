@@ -50,7 +50,9 @@ def test_the_command_maps_a_log(log, tmp_path):
     done = run("map", log, "--out", out)
     assert done.returncode == 0, done.stderr
     assert "4 lines from 20 scans" in done.stdout
-    assert sorted(p.name for p in out.iterdir()) == ["lines.csv", "lines.geojson", "lines.svg"]
+    assert {"lines.csv", "lines.geojson", "lines.svg", "summary.json"} <= {p.name for p in out.iterdir()}
+    again = run("map", log, "--out", out)
+    assert again.returncode == 1 and "lines.csv: is there already" in again.stderr
     assert (out / "lines.csv").read_text().count("\n") == 5
 
 

@@ -23,6 +23,7 @@ struct MapOptions {
   std::vector<std::string> logs;
   std::string out, pose, resume;  // no pose source named: see makeMap()
   std::shared_ptr<const LogHints> hints;
+  std::optional<GeoReference> place;
   bool force = false, quiet = false;
 };
 
@@ -96,6 +97,7 @@ void makeMap(const MapOptions& options, const Parameters& parameters) {
   tellWarnings(options.logs.front(), mapped->warnings());
   if (mapped->isInterrupted()) tellOfSaving();
   MapProducts map = mapped->products();
+  map.place = options.place;
   const std::chrono::duration<double> mapping = std::chrono::steady_clock::now() - begin;
   map.summary["mapping_s"] = mapping.count();
   writeMapFolder(options.out, map);
@@ -125,6 +127,17 @@ void addMapCommand(CLI::App& program) {
       ->check(CLI::IsMember({"log", "slam", "odometry", "icp", "truth"}));
   command->add_option("--resume", options->resume,
                       "DIR of an earlier map: go on with it, from anywhere in it");
+  command
+      ->add_option_function<std::string>(
+          "--origin",
+          [options](const std::string& text) try {
+            options->place = geoReferenceOf(text);
+          } catch (const std::runtime_error& error) {
+            throw CLI::ValidationError("--origin", error.what());
+          },
+          "where (0, 0) of the map lies, and how far its x axis is turned from east to the left, "
+          "degrees: lines.geojson is in longitude and latitude then")
+      ->type_name("LAT,LON,DEG");
   command->add_flag("--force", options->force, "overwrite a map that is there");
   command->add_flag("--quiet", options->quiet, "print nothing but errors");
   options->hints = addLogHintOptions(*command);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "cca_mrpt/io/log_reader.hpp"
 
+#include <filesystem>
 #include <sstream>
 #include <stdexcept>
 #include <utility>
@@ -19,6 +20,7 @@ namespace cca {
 namespace {
 
 constexpr std::size_t kHead = 1 << 16;
+constexpr const char* kSqlite = "SQLite format 3";
 
 bool looksLikeCarmen(const std::string& head) {
   std::istringstream lines(head);
@@ -46,18 +48,25 @@ std::unique_ptr<LogReader> openAdded(const LogKind& kind, const std::string& pat
   throw std::runtime_error(path + ": " + error.what());
 }
 
+/// Of a folder: of what ROS 2 records in it.
+std::string headOf(const std::string& path) {
+  const bool is_recording = std::filesystem::exists(std::filesystem::path(path) / "metadata.yaml");
+  return is_recording ? kSqlite : fileHead(path, kHead);
+}
+
 /// Logs that are known, and not read. @return  what this is one of; empty for any other.
 std::string unreadKind(const std::string& head) {
   const auto begins = [&](const std::string& bytes) { return head.rfind(bytes, 0) == 0; };
   if (begins("#ROSBAG")) return "a ROS bag, and this program was built without ROS";
   if (begins("#ROSRECORD")) return "a ROS bag of version 1; those of version 2.0 are read";
-  if (begins("\x89MCAP")) return "an MCAP file, as ROS 2 records; the bags of ROS 1 are read";
-  if (begins("SQLite format 3")) return "a database, as ROS 2 records; the bags of ROS 1 are read";
+  if (begins("\x89MCAP") || begins(kSqlite)) {
+    return "a ROS 2 recording; Python reads it: 'python -m cca_mrpt map' (docs/python.md)";
+  }
   return "";
 }
 
 std::unique_ptr<LogReader> openAsWhatItIs(const std::string& path, const LogHints& hints) {
-  const std::string head = fileHead(path, kHead);
+  const std::string head = headOf(path);
   if (head.empty()) throw std::runtime_error(path + ": is empty, or a damaged compressed file");
   for (const LogKind& kind : addedKinds()) {
     if (!kind.recognizes(head)) continue;

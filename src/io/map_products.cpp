@@ -157,8 +157,8 @@ void writeMapFolder(const std::string& folder, const MapProducts& products) {
   };
   put("lines.csv", linesCsv(lines));
   put("arcs.csv", arcsCsv(map.arcs));
-  put("lines.geojson", linesGeoJson(lines, poly_lines, trajectory, map.arcs));
-  put("lines.svg", linesSvg(lines, poly_lines, trajectory, map.arcs));
+  put("lines.geojson", linesGeoJson(lines, poly_lines, trajectory, map.arcs, map.place));
+  put("lines.svg", linesSvg(lines, poly_lines, trajectory, map.arcs, map.place));
   put("lines.dxf", linesDxf(lines, poly_lines, trajectory, map.arcs));
   writeLineMap(inFolder(folder, "map.linemap.gz"), lines);
   if (products.grid) {

@@ -177,6 +177,16 @@ printf 'Dear reader,\nthis is no log.\n' >letter.log
 refuses 1 "empty.log: is empty" "$program" info empty.log
 refuses 1 "noise.rawlog" "$program" info noise.rawlog
 refuses 1 "not a log of a known kind" "$program" map letter.log --out letter
+check "a map has a place on the Earth" "$program" map room.log --out placed --origin 48.1,11.6,30
+grep -q '"origin":\[48.1,11.6,30.0\]' placed/lines.geojson || { echo "FAILED: lines.geojson tells no origin"; failed=1; }
+grep -q 'id="north"' placed/lines.svg || { echo "FAILED: lines.svg has no north"; failed=1; }
+refuses 2 "LAT,LON,DEG" "$program" map room.log --out misplaced --origin 91,0
+printf 'SQLite format 3\0' >drive.db3
+printf '\211MCAP0\r\n' >drive.mcap
+mkdir drive && touch drive/metadata.yaml
+for recording in drive.db3 drive.mcap drive; do
+  refuses 1 "is a ROS 2 recording; Python reads it" "$program" map $recording --out recording
+done
 refuses 1 "no such file" "$program" info missing.log
 refuses 1 "not a regular file" "$program" info .
 check "a log cut in a line is used" "$program" map cut.log --out cut

@@ -251,6 +251,130 @@ def test_small_run(browser, page, keep):
     check(browser.run('player.charts.length') == 2, 'two charts')
 
 
+SIZES = {'desk': (1000, 800), 'phone': (360, 740), 'phone lying': (740, 360)}
+
+
+def test_keys_after_a_click(browser, page):
+    """Who has clicked on the map, as everybody does first, drives the player by keys as before."""
+    for name, (width, height) in SIZES.items():
+        browser.open(page, width, height)
+        x, y, w, h = browser.run('''(() => { const b = document.querySelector('.map').getBoundingClientRect();
+            return [b.x, b.y, b.width, b.height]; })()''')
+        time_of = lambda: browser.run('player.time')
+        view = browser.run('String(player.maps[0].map.getCenter())')
+        browser.click(x + 0.7 * w, y + 0.4 * h)
+        check(browser.run("document.activeElement.matches('.map')"), f'{name}: the click is on the map')
+        for key, code, expected in (('Home', 36, 0), ('ArrowRight', 39, 1), ('End', 35, 10), ('ArrowLeft', 37, 9)):
+            browser.press(key, code)
+            check(time_of() == expected, f'{name}: {key} after a click leads to {time_of()} s')
+        check(browser.run('String(player.maps[0].map.getCenter())') == view, f'{name}: the map stays where it was')
+        browser.press('Home', 36)
+        browser.press(' ', 32)
+        check(browser.run('player.isPlaying') or time_of() > 0, f'{name}: space plays')
+        browser.run('player.play(false)')
+        speed = browser.run("document.getElementById('speed').selectedIndex")
+        browser.press('+')
+        check(browser.run("document.getElementById('speed').selectedIndex") == speed + 1, f'{name}: +')
+        browser.press('1')
+        check(browser.run("player.hidden.has('lines')"), f'{name}: 1')
+        browser.press('m')
+        check(browser.run('player.isMeasuring'), f'{name}: m')
+        browser.press('Escape', 27)
+        check(not browser.run('player.isMeasuring'), f'{name}: escape')
+
+    # Who comes to the map by the tab key moves it.
+    browser.open(page)
+    browser.press('Tab', 9)
+    check(browser.run("document.activeElement.matches('.map')"), 'tab leads to the map first')
+    before = browser.run('player.maps[0].map.getCenter().lng')
+    browser.press('ArrowRight', 39)
+    check(browser.run('player.maps[0].map.getCenter().lng') > before, 'right moves the map that has the focus')
+    check(browser.run('player.time') == 10, 'and not the time')
+
+
+def test_sizes(browser, page, keep):
+    """Fingers hit everything, nothing sticks out, and the map keeps its share, at a desk and on a phone."""
+    least = {'desk': 0.45 * 800, 'phone': 740 / 3, 'phone lying': 0.6 * 360}
+    for name, (width, height) in SIZES.items():
+        browser.open(page, width, height)
+        if keep:
+            browser.picture().save(os.path.join(keep, name.replace(' ', '_') + '.png'))
+        page_width, page_height, map_height = browser.run('''[document.documentElement.scrollWidth,
+            document.documentElement.scrollHeight, document.querySelector('.map').clientHeight]''')
+        check(page_width <= width and page_height <= height, f'{name}: the page is {page_width} x {page_height}')
+        check(map_height >= least[name], f'{name}: the map is {map_height} pixels high')
+        small = browser.run('''Array.from(document.querySelectorAll('button, select, #timeline, label, .leaflet-bar a'))
+            .map((e) => [e.id || e.textContent.trim(), e.getBoundingClientRect()])
+            .filter(([, b]) => b.width < 44 || b.height < 44).map(([n, b]) => `${n} ${b.width} x ${b.height}`)''')
+        check(not small, f'{name}: smaller than a finger: {small}')
+
+
+def luminance(colour):
+    channels = [int(colour[i:i + 2], 16) / 255 for i in (1, 3, 5)]
+    linear = [c / 12.92 if c <= 0.04045 else ((c + 0.055) / 1.055) ** 2.4 for c in channels]
+    return sum(share * c for share, c in zip((0.2126, 0.7152, 0.0722), linear))
+
+
+def contrast(a, b):
+    """Of WCAG 2.2: 4.5 for text, 3 for what else must be told apart."""
+    light, dark = sorted((luminance(a), luminance(b)), reverse=True)
+    return (light + 0.05) / (dark + 0.05)
+
+
+def test_contrast(browser, page):
+    for dark in False, True:
+        browser.open(page, dark=dark)
+        of = lambda name: browser.run(f'colour({name!r})')
+        for text in 'ink', 'faint':
+            for ground in 'ground', 'control':
+                ratio = contrast(of(text), of(ground))
+                check(ratio >= 4.5, f'dark {dark}: {text} on {ground}: {ratio:.2f}')
+        for name in 'line', 'scan', 'frontier', 'way', 'path', 'truth', 'robot':
+            for ground in 'floor', 'unknown':
+                ratio = contrast(of(name), of(ground))
+                check(ratio >= 3, f'dark {dark}: {name} on {ground}: {ratio:.2f}')
+        check(contrast(of('floor'), of('unknown')) > 1.25, 'floor is told from what nobody has seen')
+        check(of('way') == browser.run('player.maps[0].goal.options.color'), 'the goal is as its legend')
+
+
+def test_opening(browser, page, path):
+    """The walls come first; floor that was seen is told from what nobody knows; a log has no true world."""
+    browser.open(page)
+    check(browser.run('Array.from(player.hidden).sort().join()') == 'believed path,true path', 'paths wait')
+    picture, ratio = browser.picture(), 1
+    seen, unknown = (picture.getpixel(tuple(round(ratio * v) for v in place_of(browser, *at))) for at in ((3, 3.5), (4, 1.2)))
+    check(seen == (255, 255, 255) and unknown != seen, f'seen floor is {seen}, what is unknown {unknown}')
+    browser.run('player.show(0)')
+    browser.settle()
+    later = browser.picture().getpixel(tuple(round(v) for v in place_of(browser, 5, 3.5)))
+    check(later == unknown, f'floor that is seen later is {later} at first, unknown {unknown}')
+    with open(page, encoding='utf-8') as file:
+        text = with_run(file.read(), {**small_run(), 'world': None})
+    with open(path, 'w', encoding='utf-8') as file:
+        file.write(text)
+    browser.open(path)
+    boxes = browser.run("Array.from(document.querySelectorAll('#layers input'), (box) => box.name)")
+    check('true world' not in boxes and 'lines' in boxes, f'boxes of a log: {boxes}')
+
+
+def test_address(browser, page):
+    browser.open(page + '#t=3.5')
+    check(browser.run('player.time') == 3.5, '#t=3.5')
+    browser.run("document.querySelector('#layers input[name=scan]').click()")
+    browser.run('void player.maps[0].map.setView([2, 3], 6, {animate: false})')
+    browser.wait("location.hash.endsWith(',6.00')")
+    address = browser.run('location.hash')
+    x, y, _ = map(float, address.split('view=')[1].split(','))
+    check(math.hypot(x - 3, y - 2) < 0.05, f'view in {address}')  # Leaflet stops at whole pixels
+    check('t=3.5&' in address and 'scan' not in address and 'lines' in address, f'address {address}')
+    browser.open(page + address)
+    state = browser.run("[player.time, player.hidden.has('scan'), player.maps[0].map.getZoom()]")
+    check(state == [3.5, True, 6], f'the address gives {state}')
+    for odd in '#t=', '#t=far', '#view=1,2', '#layers=none&view=,,', '#%':
+        browser.open(page + odd)
+        check(browser.run('player.time') == 10, f'{odd} shows the end')
+
+
 def test_stray_pose(browser, path, run):
     """One pose at 1e7 m: the map is shown as before."""
     run['frames']['x'][5:7] = [10**10, 1000 - 10**10]
@@ -341,6 +465,11 @@ def main():
         browser = Browser(chromium, work + '/profile')
         try:
             test_small_run(browser, small, keep)
+            test_keys_after_a_click(browser, small)
+            test_sizes(browser, page, keep)
+            test_contrast(browser, small)
+            test_opening(browser, small, work + '/log.html')
+            test_address(browser, small)
             test_stray_pose(browser, small, small_run())
             test_exploration(browser, page, keep)
             test_two_runs(browser, both, keep)

@@ -5,11 +5,13 @@
 
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "cca_mrpt/geometry/pose2.hpp"
 #include "cca_mrpt/io/folder_lock.hpp"
+#include "cca_mrpt/io/geo_reference.hpp"
 #include "cca_mrpt/io/pose_files.hpp"
 #include "cca_mrpt/mapping/line_map.hpp"
 #include "cca_mrpt/session/mapping_session.hpp"
@@ -28,6 +30,8 @@ struct MapProducts {
   std::shared_ptr<const mrpt::maps::COccupancyGridMap2D> grid;
   /// m, map frame: where the frame of all this lies, see localOrigin().
   Eigen::Vector2d origin = Eigen::Vector2d::Zero();
+  /// Where the map frame lies on the Earth, for lines.geojson and lines.svg; nothing: in metres.
+  std::optional<GeoReference> place;
   /// s, of each pose of the trajectory, for poses.csv and poses.tum; empty: no such files.
   std::vector<double> times;
   PoseGraph graph;                  ///< for graph.g2o; empty: no such file

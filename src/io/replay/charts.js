@@ -2,7 +2,7 @@
 // Curves over the distance driven, drawn by uPlot: one chart a quantity, one curve a run.
 'use strict';
 
-const kRunColours = ['line', 'goal'];
+const kRunColours = ['line', 'second'];
 
 /** [title, [[distances, values] of each run, or null where it knows nothing]] of each chart that has something. */
 function curvesOf(runs) {

@@ -4,9 +4,11 @@
 
 /** name, colour, key; the colours are those of page.css. */
 const kLayers = [
-  ['lines', 'line'], ['true world', 'world'], ['scan', 'scan'], ['frontier', 'frontier'], ['goal and way', 'way'],
-  ['believed path', 'path'], ['true path', 'truth'], ['robot', 'robot'],
+  ['lines', 'line'], ['seen floor', 'floor'], ['true world', 'world'], ['scan', 'scan'], ['frontier', 'frontier'],
+  ['goal and way', 'way'], ['believed path', 'path'], ['true path', 'truth'], ['robot', 'robot'],
 ];
+/** What is hidden until somebody asks for it: the walls come first. */
+const kHiddenAtFirst = ['believed path', 'true path'];
 
 function colour(name) { return getComputedStyle(document.documentElement).getPropertyValue('--' + name).trim(); }
 
@@ -40,12 +42,71 @@ function worldPicture(world) {
   return canvas.toDataURL();
 }
 
+/** Where the laser has looked through up to a moment: a picture that scan after scan is added to. */
+class SeenFloor {
+  constructor(run, bounds) {
+    const size = [bounds.getEast() - bounds.getWest(), bounds.getNorth() - bounds.getSouth()];
+    this.run = run;
+    this.pixel = Math.max(0.05, Math.max(...size) / 1200);  // m
+    this.west = bounds.getWest();
+    this.north = bounds.getNorth();
+    this.canvas = document.createElement('canvas');
+    [this.canvas.width, this.canvas.height] = size.map((length) => Math.max(1, Math.ceil(length / this.pixel)));
+    this.context = this.canvas.getContext('2d');
+    this.moment = -1;
+    this.kept = new Map();  // what the picture was, at a few moments, for who goes back
+    this.every = Math.max(1, Math.ceil(run.size / 12));
+  }
+
+  show(moment) {
+    if (moment < this.moment) this.goBack(moment);
+    while (this.moment < moment) {
+      this.add(++this.moment);
+      if (this.moment % this.every === 0 && !this.kept.has(this.moment)) this.keep();
+    }
+  }
+
+  /** Gives all of it another colour. */
+  paint() {
+    this.kept.clear();
+    this.moment = -1;
+    this.context.clearRect(0, 0, this.canvas.width, this.canvas.height);
+    this.context.fillStyle = colour('floor');
+  }
+
+  add(moment) {
+    this.context.beginPath();
+    for (const [x, y] of this.run.scanAt(moment)) {
+      this.context.lineTo((x - this.west) / this.pixel, (this.north - y) / this.pixel);
+    }
+    this.context.fill();
+  }
+
+  keep() {
+    const copy = Object.assign(document.createElement('canvas'), { width: this.canvas.width, height: this.canvas.height });
+    copy.getContext('2d').drawImage(this.canvas, 0, 0);
+    this.kept.set(this.moment, copy);
+  }
+
+  goBack(moment) {
+    this.context.clearRect(0, 0, this.canvas.width, this.canvas.height);
+    this.moment = Math.max(-1, ...Array.from(this.kept.keys()).filter((kept) => kept <= moment));
+    if (this.moment >= 0) this.context.drawImage(this.kept.get(this.moment), 0, 0);
+  }
+}
+
 class RunMap {
   constructor(run, element) {
     this.run = run;
     this.map = L.map(element, { crs: L.CRS.Simple, attributionControl: false, zoomSnap: 0, zoomDelta: 0.5,
                                 minZoom: -4, maxZoom: 12, wheelPxPerZoomLevel: 120, fadeAnimation: false,
-                                keyboardPanDelta: 60 });
+                                keyboard: false, zoomAnimation: !matchMedia('(prefers-reduced-motion: reduce)').matches });
+    // Who comes here by the keyboard moves the map by it; after a click, keys are the player's.
+    element.tabIndex = 0;
+    element.setAttribute('aria-label', `Map of ${run.title}: arrows move it, + and - zoom`);
+    element.addEventListener('focus', () => { this.takesKeys = element.matches(':focus-visible'); });
+    element.addEventListener('blur', () => { this.takesKeys = false; });
+    element.addEventListener('mousedown', () => { this.takesKeys = false; });
     L.control.scale({ imperial: false }).addTo(this.map);
     // Lines alone feel the mouse; what moves lies in canvases of its own, so that they are not drawn anew for it.
     const canvas = (pane, level, feels) => {
@@ -56,6 +117,7 @@ class RunMap {
     };
     const below = { renderer: canvas('below', 300), interactive: false };
     const above = { renderer: canvas('above', 500), interactive: false };
+    this.map.createPane('floor').style.zIndex = 150;
     this.map.createPane('world').style.zIndex = 200;
     this.lineRenderer = canvas('lines', 400, true);
     this.layers = {};
@@ -63,7 +125,7 @@ class RunMap {
     const put = (name, layer) => { this.layers[name].addLayer(layer); return layer; };
     this.frontier = put('frontier', L.polygon([], { ...below, stroke: false, fillOpacity: 0.6 }));
     this.scan = put('scan', L.polygon([], { ...below, weight: 1, fillOpacity: 0.12 }));
-    this.path = put('believed path', L.polyline([], { ...below, weight: 2, smoothFactor: 1 }));
+    this.path = put('believed path', L.polyline([], { ...below, weight: 1.5, smoothFactor: 1 }));
     this.truth = put('true path', L.polyline([], { ...below, weight: 1.5, dashArray: '4 4' }));
     this.way = put('goal and way', L.polyline([], { ...above, weight: 2, dashArray: '6 5' }));
     this.goal = put('goal and way', L.circleMarker([0, 0], { ...above, radius: 6, weight: 3, fillOpacity: 0.2 }));
@@ -88,6 +150,9 @@ class RunMap {
     this.wholePath = Array.from(run.pose.x, (x, i) => [run.pose.y[i], x]);
     this.wholeTruth = run.truth && Array.from(run.truth.x, (x, i) => [run.truth.y[i], x]);
     this.bounds = this.findBounds();
+    this.floor = new SeenFloor(run, this.bounds.pad(0.1));
+    L.svgOverlay(this.floor.canvas, this.bounds.pad(0.1), { pane: 'floor', className: 'floor', interactive: false })
+      .addTo(this.layers['seen floor']);
     this.paint();
     this.showAll();
   }
@@ -121,9 +186,11 @@ class RunMap {
     this.path.setStyle(fill('path'));
     this.truth.setStyle(fill('truth'));
     this.way.setStyle(fill('way'));
-    this.goal.setStyle(fill('goal'));
+    this.goal.setStyle(fill('way'));
     this.robot.setStyle(fill('robot'));
     for (const line of this.drawn.values()) line.setStyle({ color: colour('line') });
+    this.floor.paint();
+    if (this.moment >= 0) this.floor.show(this.moment);
     if (!this.run.world) return;
     this.layers['true world'].clearLayers();
     L.imageOverlay(worldPicture(this.run.world), this.worldBounds(), { pane: 'world', className: 'world', alt: 'true world' })
@@ -141,6 +208,7 @@ class RunMap {
     const decision = run.decisionAt(moment);
     if (moment === this.moment) return decision;
     this.scan.setLatLngs(run.scanAt(moment).map(toPlace));
+    this.floor.show(moment);
     this.path.setLatLngs(this.wholePath.slice(0, moment + 1));
     if (this.wholeTruth) this.truth.setLatLngs(this.wholeTruth.slice(0, moment + 1));
     this.drawDecision(decision);

@@ -10,7 +10,7 @@ class Player {
     this.charts = [];
     this.time = 0;
     this.last = null;  // ms, when the last picture was drawn while playing; null: paused
-    this.hidden = new Set();
+    this.hidden = new Set(kHiddenAtFirst);
     this.measureFrom = null;
     this.connect();
   }
@@ -32,7 +32,7 @@ class Player {
     Object.assign(view, { reason, numbers: title.querySelector('.numbers') });
     this.maps.push(view);
     new ResizeObserver(() => view.map.invalidateSize({ animate: false })).observe(map);
-    view.map.on('move', () => this.follow(view)).on('click', (event) => this.measure(view, event.latlng))
+    view.map.on('move', () => this.follow(view)).on('moveend', () => this.writeAddress()).on('click', (event) => this.measure(view, event.latlng))
       .on('mousemove', (event) => this.drawMeasure(view, event.latlng));
     for (const name of this.hidden) view.setVisible(name, false);
     byId('timeline').max = this.duration;
@@ -66,9 +66,13 @@ class Player {
   }
 
   makeLayerBoxes() {
-    const has = ({ run }) => ({ 'true world': run.world, 'true path': run.truth, frontier: run.frontier.x.length,
-                                'goal and way': run.decisions.some((d) => d.goal || d.way.length) });
-    byId('layers').replaceChildren(...kLayers.filter(([name]) => this.maps.some((view) => has(view)[name] ?? true))
+    const isThere = ({ run }, name) => {
+      if (name === 'true world') return !!run.world;
+      if (name === 'true path') return !!run.truth;
+      if (name === 'frontier') return run.frontier.x.length > 0;
+      return name !== 'goal and way' || run.decisions.some((d) => d.goal || d.way.length);
+    };
+    byId('layers').replaceChildren(...kLayers.filter(([name]) => this.maps.some((view) => isThere(view, name)))
       .map(([name, colourName], i) => {
         const label = document.createElement('label'), box = document.createElement('input');
         const swatch = Object.assign(document.createElement('span'), { className: 'swatch' });
@@ -78,6 +82,7 @@ class Player {
         box.addEventListener('change', () => {
           if (box.checked) this.hidden.delete(name); else this.hidden.add(name);
           for (const view of this.maps) view.setVisible(name, box.checked);
+          this.writeAddress();
         });
         label.append(box, swatch, name);
         return label;
@@ -99,6 +104,36 @@ class Player {
     const clock = (s) => Math.floor(s / 60) + ':' + String(Math.floor(s % 60)).padStart(2, '0');
     byId('clock').textContent = clock(this.time) + ' / ' + clock(this.duration);
     byId('timeline').setAttribute('aria-valuetext', byId('clock').textContent);
+    this.writeAddress();
+  }
+
+  /** Keeps time, layers and view behind the '#' of the address, some time after the last change. */
+  writeAddress() {
+    if (!this.isOpen) return;
+    clearTimeout(this.writing);
+    this.writing = setTimeout(() => {
+      const { map } = this.maps[0], { lat, lng } = map.getCenter();
+      const shown = kLayers.flatMap(([name]) => (this.hidden.has(name) ? [] : [name.replaceAll(' ', '-')]));
+      const view = [lng.toFixed(2), lat.toFixed(2), map.getZoom().toFixed(2)];
+      this.written = `#t=${+this.time.toFixed(2)}&layers=${shown}&view=${view}`;
+      location.replace(this.written);  // no entry in the history, and allowed for files
+    }, 300);
+  }
+
+  /** Shows what the address asks for; what it does not name stays. */
+  readAddress() {
+    const asked = new URLSearchParams(location.hash.slice(1)), numbers = (text) => text.split(',').map(Number);
+    const layers = asked.get('layers'), view = numbers(asked.get('view') ?? ''), time = parseFloat(asked.get('t'));
+    if (layers !== null) {
+      const shown = layers.split(',').map((name) => name.replaceAll('-', ' '));
+      this.hidden = new Set(kLayers.map(([name]) => name).filter((name) => !shown.includes(name)));
+      for (const [name] of kLayers) for (const map of this.maps) map.setVisible(name, !this.hidden.has(name));
+      this.makeLayerBoxes();
+    }
+    if (view.length === 3 && view.every(Number.isFinite)) {
+      this.maps[0].map.setView([view[1], view[0]], view[2], { animate: false });
+    }
+    if (Number.isFinite(time)) this.show(time);
   }
 
   seekDistance(distance) {
@@ -185,12 +220,26 @@ class Player {
       this.show(this.time);
     });
     document.addEventListener('keydown', (event) => this.press(event));
+    addEventListener('hashchange', () => location.hash !== this.written && this.readAddress());
+  }
+
+  /** @return whether it is a key for the map. */
+  moveMap(map, key) {
+    const step = 60;  // pixels
+    const way = { ArrowLeft: [-step, 0], ArrowRight: [step, 0], ArrowUp: [0, -step], ArrowDown: [0, step] }[key];
+    if (way) map.panBy(way, { animate: false });
+    else if (key === '+') map.zoomIn();
+    else if (key === '-') map.zoomOut();
+    else return false;
+    return true;
   }
 
   press(event) {
     const { target, key } = event;
     if (event.ctrlKey || event.altKey || event.metaKey) return;
-    const isElsewhere = target.closest('.leaflet-container, select, button, input[type=checkbox], .button');
+    const onMap = this.maps.find((view) => view.takesKeys && view.map.getContainer() === target);
+    if (onMap && this.moveMap(onMap.map, key)) return event.preventDefault();
+    const isElsewhere = target.closest('a, select, button, input[type=checkbox], .button');
     const far = event.shiftKey ? 10 : 1;
     const keys = {
       ArrowLeft: () => this.show(this.time - far), ArrowRight: () => this.show(this.time + far),
@@ -212,8 +261,9 @@ class Player {
 (async () => {
   const player = new Player();
   for (const data of document.querySelectorAll('script.run')) player.addRun(await Run.read(data.textContent));
-  const wanted = /^#t=([0-9.]+)$/.exec(location.hash);
-  player.show(wanted ? Number(wanted[1]) : player.duration);
+  player.show(player.duration);
+  player.readAddress();
+  player.isOpen = true;
   document.title = player.maps.map(({ run }) => run.title).join(' and ') + ' - cca-mrpt replay';
   window.player = player;
 })();

@@ -1,0 +1,238 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""A log in, a map out: the pipeline of the program `cca-mrpt map`, and the map that it makes."""
+from __future__ import annotations
+
+import csv
+import io
+import json
+import os
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, Dict, Iterable, List, NamedTuple, Optional, Sequence, Tuple, Union
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from ._core import MAP_LINE, Estimate, LogRecord, MappingSession, PolyLine, map_records, read_chains, write_files_into
+from .logs import Log, read_log
+from .plotting import plot
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from typing_extensions import Unpack
+
+    from .parameters import MapParameters
+
+POSES = ("auto", "log", "odometry", "slam")
+# What a map's folder holds that Python keeps as it is; the program writes more.
+FILES = ("lines.csv", "arcs.csv", "lines.geojson", "lines.svg", "lines.dxf", "poses.csv", "poses.tum", "graph.g2o", "map.slam")
+
+
+class MapArc(NamedTuple):
+    """A round pillar or a curved wall, which its lines are the chords of."""
+
+    centre: Tuple[float, float]  # m, map frame
+    radius: float  # m
+    start_angle: float  # rad, where it begins about its centre
+    sweep: float  # rad, how far it goes counter-clockwise; 2 pi: a circle
+    line_ids: List[int]
+
+
+class Map:
+    """A line map, and the drive that it was made on. It is a value: nothing changes it.
+
+    Attributes:
+        lines: structured array of dtype `MAP_LINE`, by rising id; see `LineMap.lines`.
+        poly_lines: the same lines, chained where their ends meet.
+        arcs: round pillars and curved walls.
+        trajectory: (N, 3) poses (x, y, theta) of the robot at each scan; m, m, rad, map frame.
+        times: (N,) s; numbers where the log tells no times.
+        is_placed: (N,) bool: whether the place of that scan is known; others are in no map.
+        summary: numbers of the run, as in summary.json.
+        warnings: what could not be read, or was guessed; empty where all was well.
+    """
+
+    def __init__(self, held: Dict[str, Any], files: Dict[str, bytes], warnings: str = "") -> None:
+        self.lines: NDArray[np.void] = held["lines"]
+        self.poly_lines: List[PolyLine] = list(held["poly_lines"])
+        self.arcs = [MapArc(*arc) for arc in held["arcs"]]
+        self.trajectory: NDArray[np.float64] = held["trajectory"]
+        self.times: NDArray[np.float64] = np.asarray(held["times"], dtype=float)
+        self.is_placed: NDArray[np.bool_] = np.asarray(held["is_placed"], dtype=bool)
+        self.summary: Dict[str, Any] = dict(held["summary"])
+        self.warnings = warnings
+        if not self.is_placed.all():
+            self.summary["unplaced_scans"] = np.flatnonzero(~self.is_placed).tolist()
+        if warnings:
+            self.summary["warnings"] = warnings
+        self._files = files
+
+    def save(self, folder: Union[str, "os.PathLike[str]"], force: bool = False) -> List[str]:
+        """Write the map into a folder, which is made where it is missing; each file whole or not at all.
+
+        Args:
+            force: overwrite a map that is there.
+
+        Returns:
+            The files' names: lines.csv, arcs.csv, lines.geojson, .svg, .dxf, poses.csv, poses.tum, of SLAM graph.g2o
+            and map.slam; summary.json comes last.
+
+        Raises:
+            FileExistsError: one of them is there already.
+            RuntimeError: it cannot be written; names the file and the reason.
+        """
+        where = Path(folder)
+        names = [*self._files, "summary.json"]
+        taken = [name for name in names if (where / name).exists()]
+        if taken and not force:
+            raise FileExistsError(f"{where / taken[0]}: is there already (force=True overwrites it)")
+        if (where / "summary.json").exists():  # it says that all is there
+            (where / "summary.json").unlink()
+        write_files_into(os.fspath(where), self._files)
+        for name in set(FILES) - set(self._files):  # what an earlier run left would be taken for this one's
+            (where / name).unlink(missing_ok=True)
+        write_files_into(os.fspath(where), {"summary.json": (json.dumps(self.summary, indent=1) + "\n").encode()})
+        return names
+
+    def plot(self, ax: Optional[Axes] = None) -> Axes:
+        """Draw lines and trajectory to scale by matplotlib: the axes."""
+        return plot(self, self.trajectory if len(self.trajectory) else None, ax)
+
+    def _repr_svg_(self) -> str:
+        return self._files["lines.svg"].decode()
+
+    def __len__(self) -> int:
+        return len(self.lines)
+
+    def __repr__(self) -> str:
+        length = float(np.linalg.norm(self.lines["ends"][:, 1] - self.lines["ends"][:, 0], axis=1).sum())
+        return f"Map({len(self.lines)} lines, {length:.1f} m, {len(self.trajectory)} scans)"
+
+
+def _log_of(source: Union[str, "os.PathLike[str]", Iterable[LogRecord]], reading: Dict[str, Any]) -> Iterable[LogRecord]:
+    if isinstance(source, (str, os.PathLike)):
+        return read_log(source, **{name: value for name, value in reading.items() if value is not None})
+    if any(value is not None for value in reading.values()):
+        raise ValueError("topic, base_frame, odom_frame, mount, upside_down: are for files")
+    return source
+
+
+def map(path: Union[str, "os.PathLike[str]", Iterable[LogRecord]], pose: str = "auto", *, topic: Optional[str] = None,
+        base_frame: Optional[str] = None, odom_frame: Optional[str] = None, mount: Optional[Sequence[float]] = None,
+        upside_down: bool = False, **parameters: Unpack[MapParameters]) -> Map:
+    """The line map of a whole log: the same as the program `cca-mrpt map` makes, byte for byte.
+
+    Args:
+        path: a log or a bag, see `read_log`; or any iterable of `LogRecord`.
+        pose: where the poses come from: "log": as somebody has corrected them, else the odometry's; "odometry": the
+            wheels alone; "slam": line SLAM; "auto": the log's where it has corrected ones, else SLAM.
+        topic, base_frame, odom_frame, mount, upside_down: of bags, see `read_log`.
+        parameters: of `LineMap`.
+
+    Raises:
+        FileNotFoundError, ImportError, ValueError: as `read_log`; also where the log lacks what `pose` needs.
+    """
+    if pose not in POSES:
+        raise ValueError(f"pose: {pose!r} is none of {' '.join(POSES)}")
+    log = _log_of(path, {"topic": topic, "base_frame": base_frame, "odom_frame": odom_frame, "mount": mount,
+                         "upside_down": upside_down or None})
+    try:
+        held, files = map_records(log, pose, **parameters)
+    except ValueError as error:
+        name = getattr(log, "path", None)
+        raise ValueError(f"{name}: {error}" if name and name not in str(error) else str(error)) from None
+    result = Map(held, files, log.warnings if isinstance(log, Log) else "")
+    if isinstance(log, Log):
+        result.summary = {"log": log.path, **result.summary}
+    return result
+
+
+class Mapper:
+    """A map that grows scan by scan, with poses of its own. Where the past is corrected, the map is made anew.
+
+    Args:
+        pose: "slam", "odometry" or "log" (each record's own pose), as in `map`.
+        parameters: of `LineMap`.
+
+    May be used by several threads: their calls wait for each other.
+    """
+
+    def __init__(self, pose: str = "slam", **parameters: Unpack[MapParameters]) -> None:
+        self._session = MappingSession(pose, **parameters)
+
+    def step(self, scan: LogRecord) -> Estimate:
+        """Take the next scan, and say where it was taken. Raises ValueError where it lacks what `pose` needs."""
+        return self._session.step(scan)
+
+    @property
+    def lines(self) -> NDArray[np.void]:
+        """The lines as they stand; see `LineMap.lines`."""
+        return self._session.lines()
+
+    def map(self) -> Map:
+        """The map as it stands, without a last pass."""
+        return Map(*self._session.result(False))
+
+    def finish(self) -> Map:
+        """The last pass over the whole drive, and the map of what it says. No scan can follow."""
+        return Map(*self._session.result(True))
+
+    def __len__(self) -> int:
+        return self._session.scans()
+
+    def __repr__(self) -> str:
+        return f"Mapper({len(self)} scans, {len(self.lines)} lines)"
+
+
+def _table(text: str, path: Path) -> List[Dict[str, float]]:
+    try:
+        return [{name: float(value) for name, value in row.items() if name != "line_ids"}
+                for row in csv.DictReader(io.StringIO(text))]
+    except (TypeError, ValueError) as error:
+        raise ValueError(f"{path}: is damaged, or no file of a map ({error})") from None
+
+
+def _lines_of(rows: List[Dict[str, float]], path: Path) -> NDArray[np.void]:
+    lines = np.zeros(len(rows), MAP_LINE)
+    try:
+        for line, row in zip(lines, rows):
+            line["id"], line["returns"] = int(row["id"]), row["support"]
+            line["ends"] = [[row["x1"], row["y1"]], [row["x2"], row["y2"]]]
+            line["covariance"] = np.diag([row["sigma_offset"] ** 2, np.radians(row["sigma_angle_deg"]) ** 2])
+    except KeyError as error:
+        raise ValueError(f"{path}: not a line map: no column {error}") from None
+    return lines
+
+
+def load(folder: Union[str, "os.PathLike[str]"]) -> Map:
+    """Read the folder of a map back, whoever has written it: `Map.save`, or the program.
+
+    Numbers are those of the files: ends to .1 mm; covariances without their mixed term.
+
+    Raises:
+        FileNotFoundError: there is no map.
+        ValueError: a file of it is damaged; names it and the reason.
+    """
+    where = Path(folder)
+    if not (where / "lines.csv").exists():
+        raise FileNotFoundError(f"{where / 'lines.csv'}: no such file")
+    files = {name: (where / name).read_bytes() for name in FILES if (where / name).exists()}
+    text = {name: files[name].decode() for name in files if name.endswith((".csv", ".geojson", ".svg"))}
+    held: Dict[str, Any] = {"lines": _lines_of(_table(text["lines.csv"], where / "lines.csv"), where / "lines.csv"),
+                            "poly_lines": [], "arcs": [], "summary": {}}
+    try:
+        if "lines.geojson" in text:
+            held["poly_lines"] = read_chains(text["lines.geojson"], str(where / "lines.geojson"))
+        if (where / "summary.json").exists():
+            held["summary"] = json.loads((where / "summary.json").read_text())
+        for row in csv.DictReader(io.StringIO(text.get("arcs.csv", ""))):
+            held["arcs"].append(MapArc((float(row["x"]), float(row["y"])), float(row["radius"]),
+                                       float(np.radians(float(row["start_deg"]))), float(np.radians(float(row["sweep_deg"]))),
+                                       [int(name) for name in row["line_ids"].split()]))
+    except (KeyError, TypeError, RuntimeError, ValueError) as error:
+        raise ValueError(f"{where}: is damaged, or no folder of a map ({error!r})") from None
+    poses = _table(text.get("poses.csv", ""), where / "poses.csv")
+    held["trajectory"] = np.array([[row["x"], row["y"], row["theta"]] for row in poses]).reshape(-1, 3)
+    held["times"] = [row["stamp"] for row in poses]
+    unplaced = set(held["summary"].get("unplaced_scans", ()))
+    held["is_placed"] = [k not in unplaced for k in range(len(poses))]
+    return Map(held, files)

@@ -1,0 +1,182 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The one pipeline, from Python: the same map as the program's, whoever brings the scans."""
+import json
+import pickle
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import cca_mrpt
+import room_log
+from cca_mrpt.program import installed_program
+from conftest import FULL_TURN
+
+SHARED = Path(__file__).resolve().parents[2].parent / "shared" / "data"
+
+
+@pytest.fixture
+def log(tmp_path):
+    path = tmp_path / "room.log.gz"
+    room_log.write(path)
+    return path
+
+
+@pytest.fixture
+def drive(two_rooms, scan_of):
+    """Records of a robot whose wheels turn a little at each step, and its true poses."""
+    records, truth, wheels = [], [], np.array([5.0, 7.0, 1.0])
+    for k in range(60):
+        step = 0.1 if k < 30 else -0.1
+        pose = (truth[-1][0] + step, 0.0, 0.0) if truth else (0.0, 0.0, 0.0)
+        if truth:
+            wheels += (step * np.cos(wheels[2]), step * np.sin(wheels[2]), 0.004)
+        truth.append(pose)
+        records.append(cca_mrpt.LogRecord(scan_of(two_rooms, pose, beams=360, **FULL_TURN), **FULL_TURN, time=k / 5,
+                                          odometry=tuple(wheels)))
+    return records, np.array(truth)
+
+
+def in_first_frame(poses):
+    """As seen from the first pose."""
+    x, y, theta = (poses - poses[0]).T
+    c, s = np.cos(poses[0, 2]), np.sin(poses[0, 2])
+    return np.stack([c * x + s * y, c * y - s * x, theta], axis=1)
+
+
+def test_corrected_poses_are_believed(log):
+    made = cca_mrpt.map(log)
+    assert made.summary["pose"] == "log" and len(made) == 4 and made.trajectory.shape == (20, 3)
+    assert repr(made) == "Map(4 lines, 17.0 m, 20 scans)" and made.is_placed.all()
+    (outline,) = made.poly_lines
+    assert len(outline) == 5 and made.arcs == []
+
+
+def test_wheels_alone_are_not_believed(drive):
+    records, truth = drive
+    slam, raw = cca_mrpt.map(records), cca_mrpt.map(records, pose="odometry")
+    assert slam.summary["pose"] == "slam"
+    error = lambda made: np.abs(in_first_frame(made.trajectory) - truth)[:, :2].max()  # noqa: E731
+    assert error(slam) < 0.02 < 0.1 < error(raw)
+    assert len(slam) <= 7 < len(raw)
+
+
+def test_scan_by_scan_is_the_same_as_the_log_as_a_whole(drive):
+    records, truth = drive
+    mapper = cca_mrpt.Mapper()
+    for record, pose in zip(records, truth):
+        estimate = mapper.step(record)
+        assert estimate.is_placed and estimate.agreement > 0.9
+    assert len(mapper) == 60 and len(mapper.lines) > 4 and repr(mapper).startswith("Mapper(60 scans")
+    assert len(mapper.map().lines) == len(mapper.lines)
+    assert mapper.finish()._files["lines.csv"] == cca_mrpt.map(records)._files["lines.csv"]
+    with pytest.raises(ValueError, match="finished"):
+        mapper.step(records[0])
+
+
+def test_a_map_comes_back_from_its_folder(drive, tmp_path):
+    made = cca_mrpt.map(drive[0])
+    names = made.save(tmp_path / "map")
+    assert sorted(p.name for p in (tmp_path / "map").iterdir()) == sorted(names)
+    back = cca_mrpt.load(tmp_path / "map")
+    assert np.allclose(back.lines["ends"], made.lines["ends"], atol=6e-5)
+    assert np.array_equal(back.lines["id"], made.lines["id"])
+    assert [chain.line_ids for chain in back.poly_lines] == [chain.line_ids for chain in made.poly_lines]
+    assert np.allclose(back.trajectory, made.trajectory, atol=1e-5) and np.allclose(back.times, made.times)
+    assert back.summary == json.loads(json.dumps(made.summary))
+    back.save(tmp_path / "again")
+    for name in names:
+        assert (tmp_path / "again" / name).read_bytes() == (tmp_path / "map" / name).read_bytes(), name
+    same = pickle.loads(pickle.dumps(made))
+    assert np.array_equal(same.lines, made.lines) and repr(same) == repr(made)
+
+
+def test_maps_are_not_overwritten_unasked(log, tmp_path):
+    made = cca_mrpt.map(log)
+    made.save(tmp_path / "map")
+    with pytest.raises(FileExistsError, match="lines.csv: is there already"):
+        made.save(tmp_path / "map")
+    (tmp_path / "map" / "graph.g2o").write_text("of another run")
+    made.save(tmp_path / "map", force=True)
+    assert not (tmp_path / "map" / "graph.g2o").exists()
+
+
+def test_what_is_no_map_is_named(tmp_path):
+    with pytest.raises(FileNotFoundError, match="lines.csv: no such file"):
+        cca_mrpt.load(tmp_path)
+    (tmp_path / "lines.csv").write_text("x1,y1\n1,2\n")
+    with pytest.raises(ValueError, match="lines.csv: not a line map"):
+        cca_mrpt.load(tmp_path)
+
+
+@pytest.mark.parametrize("source, pose, named", [
+    ([1, 2], "auto", "records: an iterable of LogRecord"),
+    ([], "gps", "pose: 'gps' is none of auto log odometry slam"),
+    ([cca_mrpt.LogRecord(np.ones(360), **FULL_TURN)], "odometry", "holds no odometry"),
+])
+def test_wrong_arguments_are_named(source, pose, named):
+    with pytest.raises(ValueError, match=named):
+        cca_mrpt.map(source, pose)
+
+
+def test_an_error_of_the_caller_comes_through():
+    def records():
+        yield cca_mrpt.LogRecord(np.ones(360), **FULL_TURN)
+        raise KeyError("mine")
+
+    with pytest.raises(KeyError, match="mine"):
+        cca_mrpt.map(records())
+
+
+def test_a_map_is_drawn(drive):
+    matplotlib = pytest.importorskip("matplotlib")
+    matplotlib.use("Agg")
+    from matplotlib import pyplot
+
+    made = cca_mrpt.map(drive[0])
+    axes = made.plot(pyplot.figure().gca())
+    assert len(axes.collections[0].get_segments()) == len(made)
+    assert made._repr_svg_().startswith("<?xml")
+    pyplot.close("all")
+
+
+def both(program, log, pose, tmp_path):
+    """lines.csv and others of the program and of Python's command, as bytes."""
+    for name, command in ("program", [program]), ("python", [sys.executable, "-m", "cca_mrpt"]):
+        subprocess.run([*command, "map", str(log), "--pose", pose, "--out", str(tmp_path / name)], check=True,
+                       capture_output=True)
+    names = ["lines.csv", "arcs.csv", "lines.geojson", "lines.svg", "lines.dxf", "poses.csv"]
+    names += ["graph.g2o", "map.slam"] if pose == "slam" else []
+    for name in names:
+        yield name, (tmp_path / "program" / name).read_bytes(), (tmp_path / "python" / name).read_bytes()
+
+
+@pytest.mark.skipif(not installed_program(), reason="needs the program cca-mrpt")
+@pytest.mark.parametrize("pose", ["log", "slam"])
+def test_the_program_makes_the_same_bytes(log, pose, tmp_path):
+    for name, of_program, of_python in both(installed_program(), log, pose, tmp_path):
+        assert of_program == of_python, name
+
+
+@pytest.mark.skipif(not (installed_program() and SHARED.exists()), reason="needs the program and the shared data")
+@pytest.mark.parametrize("pose", ["log", "slam"])
+@pytest.mark.parametrize("name", ["logs/fhw-corrected.log.gz", "logs/orebro-corrected.log.gz", "bags/intel.bag"])
+def test_the_program_makes_the_same_bytes_of_real_logs(name, pose, tmp_path):
+    for file, of_program, of_python in both(installed_program(), SHARED / name, pose, tmp_path):
+        assert of_program == of_python, file
+
+
+def test_the_command_of_the_package_gives_way_to_the_program(tmp_path):
+    ours = shutil.which("cca-mrpt", path=str(Path(sys.executable).parent))
+    if ours is None:
+        pytest.skip("installed without its commands")
+    environment = {"PATH": str(Path(sys.executable).parent)}
+    alone = subprocess.run([ours, "map", "--help"], capture_output=True, text=True, env=environment)
+    assert alone.returncode == 0 and "--odom-frame" in alone.stdout  # Python's
+    shutil.copy("/bin/echo", tmp_path / "cca-mrpt")
+    environment["PATH"] += f":{tmp_path}"
+    beside = subprocess.run([ours, "map", "LOG"], capture_output=True, text=True, env=environment)
+    assert beside.stdout == "map LOG\n"
