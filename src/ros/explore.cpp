@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "exploration.hpp"
+#include "goal_server.hpp"
 #include "node_diagnostics.hpp"
 #include "node_main.hpp"
 #include "pace.hpp"
@@ -78,6 +79,7 @@ void exploreSimulated(const Settings& settings, ros::NodeHandle& node,
       node, makeSimulation(settings.simulator, settings.program),
       {settings.driver.frames, settings.simulator.scan_rate, settings.simulator.record, true});
   Exploration exploration(node, private_node, settings.exploration, settings.program);
+  const GoalServer goals(node, private_node, settings.driver.frames.map, exploration);
   const std::map<std::string, long> none_dropped;
   NodeDiagnostics diagnostics(
       node, private_node, [&]() -> const auto& { return none_dropped; });
@@ -111,6 +113,10 @@ std::string chosenPose(const RobotDriver::Settings& settings, ros::NodeHandle& n
 void exploreWithRobot(const Settings& settings, ros::NodeHandle& node,
                       ros::NodeHandle& private_node) {
   Exploration exploration(node, private_node, settings.exploration, settings.program);
+  std::optional<GoalServer> goals;  // where move_base drives, it takes them itself
+  if (settings.driver.driver != "move_base") {
+    goals.emplace(node, private_node, settings.driver.frames.map, exploration);
+  }
   RobotDriver::Settings driver_settings = settings.driver;
   driver_settings.pose = chosenPose(settings.driver, node, exploration);
   if (!driver_settings.pose.empty()) {
