@@ -126,6 +126,7 @@ def measure_worlds(options, work):
         folder = explored(options.program, os.path.join(options.worlds, name + ".yaml"), name, options.maps)
         features, _ = planned(options.program, folder, os.path.join(work, name))
         row = {key: [] for key in errors}
+        openings = [f["geometry"]["coordinates"] for f in features if f["properties"]["kind"] in ("door", "opening")]
         for feature in features:
             p, shape = feature["properties"], feature["geometry"]["coordinates"]
             if p["kind"] == "door":
@@ -138,13 +139,16 @@ def measure_worlds(options, work):
             elif p["kind"] == "room":
                 ring = [tuple(c) for c in shape[0][:-1]]
                 true = [min(corners, key=lambda c: math.dist(c, v)) for v in ring]
-                true = [c if math.dist(c, v) < 0.15 else None for c, v in zip(true, ring)]
+                # Corners on an opening lie in the middle of the wall, where there is no face.
+                true = [c if math.dist(c, v) < 0.15 and not any(distance(v, o) < 0.12 for o in openings) else None
+                        for c, v in zip(true, ring)]
                 for k, vertex in enumerate(ring):
                     after = (k + 1) % len(ring)
                     if true[k] and true[after] and math.dist(true[k], true[after]) > 0.5:
                         row["side_cm"].append(100 * abs(math.dist(vertex, ring[after]) - math.dist(true[k], true[after])))
-                if all(true) and len(shape) == 1:
-                    row["area_percent"].append(100 * abs(area_of(ring) / area_of(true) - 1))
+                where = [c or v for c, v in zip(true, ring)]
+                if len(shape) == 1 and sum(c is None for c in true) <= 0.25 * len(true):
+                    row["area_percent"].append(100 * abs(area_of(ring) / area_of(where) - 1))
         print(f"| {name} | " + " | ".join(f"{len(v)} | {statistics.median(v):.2f}" if v else "0 | -" for v in row.values()) + " |")
         for key, values in row.items():
             errors[key] += values

@@ -26,6 +26,7 @@ std::vector<Passage> candidatePassages(const Structure& structure, const Raster<
   const std::vector<WallEnd> ends = freeWallEnds(structure.solid, lines);
   std::vector<Passage> gaps = gapsInWalls(structure.solid, lines, tuning);
   for (const Passage& gap : gapsBetweenEnds(structure.solid, ends, tuning)) gaps.push_back(gap);
+  for (const Passage& gap : gapsBetweenCorners(structure.solid, lines, tuning)) gaps.push_back(gap);
   std::vector<Passage> narrow = narrowings(structure.solid, clearance, ends, tuning);
   for (Passage& gap : gaps) gap = centred(structure.solid, gap, tuning);
   for (Passage& gap : narrow) gap = centred(structure.solid, gap, tuning);
@@ -70,7 +71,7 @@ void drawRoom(const Raster<int>& labels, const RegionOutline& border,
   if (largest == border.outlines.end()) return;
   for (const int attempt : {0, 1, 2}) {
     const auto drawn = [&](const Polygon& chain) {
-      if (attempt == 0) return outlineAlongLines(labels, chain, lines, openings);
+      if (attempt == 0) return withoutSmallLoops(outlineAlongLines(labels, chain, lines, openings));
       return straightened(labels, chain, attempt == 1 ? kStraightBy : 0.0);
     };
     room.outline = drawn(*largest);

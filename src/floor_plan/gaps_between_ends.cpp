@@ -3,21 +3,13 @@
 #include <cmath>
 
 #include "cca_mrpt/floor_plan/passages.hpp"
+#include "clear_way.hpp"
 
 namespace cca {
 namespace {
 
 constexpr double kTowards = 0.6;  // cosine: walls that meet at a right angle have .71 each
 constexpr double kAlike = 0.95, kAside = 0.3;  // cosines
-
-/// Whether a segment crosses open cells only, but for some at its ends.
-bool isClear(const Mask& solid, const Eigen::Vector2d& a, const Eigen::Vector2d& b, double ends) {
-  const double length = (b - a).norm(), step = 0.5 * solid.resolution;
-  for (double s = ends; s < length - ends; s += step) {
-    if (solid.at(solid.cellOf(a + s / length * (b - a)), 1)) return false;
-  }
-  return true;
-}
 
 /// m, how far one can go from a point before the next wall, at most `limit`.
 double reach(const Mask& solid, const Eigen::Vector2d& from, const Eigen::Vector2d& direction,

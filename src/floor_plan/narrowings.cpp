@@ -147,7 +147,9 @@ std::vector<Passage> narrowings(const Mask& solid, const Raster<float>& clearanc
       saddles.push_back(p);
       if (auto passage = between(solid, clearance.cell(k), clearance.values[k])) {
         const int jambs = isWallEnd(passage->a, ends) + isWallEnd(passage->b, ends);
-        passage->evidence = static_cast<PassageEvidence>(jambs);
+        passage->evidence = jambs == 2   ? PassageEvidence::kCollinear
+                            : jambs == 1 ? PassageEvidence::kAbutting
+                                         : PassageEvidence::kNarrowing;
         found.push_back(*passage);
       }
     }

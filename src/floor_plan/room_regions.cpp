@@ -118,6 +118,7 @@ double depthBeside(const Passage& passage, double resolution, bool left, IsOpen&
 double widestDoor(PassageEvidence evidence, const RoomTuning& tuning) {
   switch (evidence) {
     case PassageEvidence::kNarrowing:
+    case PassageEvidence::kBetweenCorners:
       return tuning.widest_narrowing;
     case PassageEvidence::kAbutting:
       return tuning.widest_abutting;

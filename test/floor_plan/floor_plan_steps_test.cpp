@@ -8,6 +8,7 @@
 #include "cca_mrpt/floor_plan/furniture.hpp"
 #include "cca_mrpt/floor_plan/jambs.hpp"
 #include "cca_mrpt/floor_plan/passages.hpp"
+#include "cca_mrpt/floor_plan/polygon_measures.hpp"
 #include "cca_mrpt/floor_plan/region_outline.hpp"
 #include "cca_mrpt/floor_plan/room_outline.hpp"
 #include "cca_mrpt/floor_plan/structure.hpp"
@@ -98,14 +99,51 @@ TEST(GapsInWalls, AreNotBehindTheCornerOfARoom) {
   EXPECT_TRUE(gapsInWalls(found.solid, map.lines).empty());
 }
 
-TEST(Jambs, MoveToTheEndsOfTheFaces) {
-  const DrawnMap map = drawMap({twoRooms()}, {0.0, 0.0, 0.0});
+TEST(Jambs, StandOnTheRevealWhereItIsALine) {
+  const DrawnMap map = drawMap({twoRooms()}, {0.0, 0.0, 0.0}, 0.1);
   const Passage rough{{5.06, 1.46}, {5.06, 2.45}, PassageEvidence::kCollinear};
   const Passage exact = withJambsOfLines(rough, map.lines);
   EXPECT_NEAR(exact.a.y(), 1.5, 1e-9);
   EXPECT_NEAR(exact.b.y(), 2.4, 1e-9);
+}
+
+TEST(Jambs, StandBetweenCellsAndEndsOfTheFacesOtherwise) {
+  const DrawnMap map = drawMap({twoRooms()}, {0.0, 0.0, 0.0});
+  const Passage rough{{5.06, 1.46}, {5.06, 2.45}, PassageEvidence::kCollinear};
+  const Passage better = withJambsOfLines(rough, map.lines);
+  EXPECT_NEAR(better.a.y(), 1.48, 1e-9);
+  EXPECT_NEAR(better.b.y(), 2.425, 1e-9);
   const Passage alone{{1.0, 1.0}, {1.0, 2.0}, PassageEvidence::kNarrowing};
   EXPECT_EQ(withJambsOfLines(alone, map.lines).a, alone.a);
+}
+
+TEST(SmallLoops, AreCutWhereTheRingCrossesItself) {
+  // A step of which noise has turned the corners around.
+  const Polygon crossed{{0, 0}, {4, 0}, {4, 3}, {2.0, 3}, {2.1, 2.9}, {2.1, 3.05}, {0, 3.05}};
+  const Polygon clean = withoutSmallLoops(crossed);
+  EXPECT_TRUE(isValidPolygon(clean, {}));
+  EXPECT_NEAR(areaOf(clean, {}), 12.1, 0.1);
+  const Polygon spiked{{0, 0}, {4, 0}, {4, 3}, {4, 5}, {4, 3}, {0, 3}};
+  EXPECT_EQ(withoutSmallLoops(spiked).size(), 4u);
+  // Collinear sides at an odd angle do not cross, whatever rounding says.
+  Polygon step{{0, 0}, {2, 0}, {2, 0.5}, {3.2, 0.5}, {3.2, 0}, {6, 0}, {6, 4}, {0, 4}};
+  for (auto& p : step) p = Pose2{-2.2, 0.41, 0.785} * p;
+  EXPECT_EQ(withoutSmallLoops(step), step);
+  const Polygon square{{0, 0}, {1, 0}, {1, 1}, {0, 1}};
+  EXPECT_EQ(withoutSmallLoops(square), square);
+}
+
+TEST(GapsBetweenCorners, AreTheMouthOfACorridorIntoAnEightSidedHall) {
+  // The hall's walls leave the corridor at 45 degrees: no wall's line goes on across the mouth.
+  const Polygon outline{{0, 0},  {4, 0}, {7, -3},    {11, -3}, {14, 0}, {14, 4},
+                        {11, 7}, {7, 7}, {5.8, 5.8}, {4, 2},   {0, 2}};
+  const Pose2 T{0.01, 0.02, 0.2};
+  const DrawnMap map = drawMap({outline}, T);
+  const Structure found = tellStructure(cropToKnown(map.grid, 2), map.lines);
+  const std::vector<Passage> gaps = gapsBetweenCorners(found.solid, map.lines);
+  ASSERT_EQ(gaps.size(), 1u);
+  EXPECT_LT((gaps[0].middle() - T * Eigen::Vector2d(4, 1)).norm(), 1e-6);
+  EXPECT_EQ(gaps[0].evidence, PassageEvidence::kBetweenCorners);
 }
 
 TEST(Walls, OfOneFaceHaveNoThickness) {

@@ -13,8 +13,8 @@ struct JambTuning {
 };
 
 /// Moves the jambs of a passage from cells to what the lines say: to where the passage meets a line
-/// across it (the reveal, or the flank of a wall); else to the mean of the ends of lines along it
-/// (the faces of the wall). A jamb without lines stays.
+/// across it (the reveal, or the flank of a wall); else half way to the end of the line along it (a
+/// face of the wall) that reaches farthest in. A jamb without lines stays.
 /// Cost: O(lines).
 Passage withJambsOfLines(const Passage& passage, const std::vector<MapLine>& lines,
                          const JambTuning& tuning = {});

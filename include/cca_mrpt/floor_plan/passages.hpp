@@ -12,9 +12,10 @@ namespace cca {
 /// What speaks for a border between rooms, in rising order.
 enum class PassageEvidence {
   kNarrowing,  ///< the space is narrower there than on both sides; no line says that a wall goes on
-  kAbutting,   ///< a wall ends, and its line goes on to the flank of another wall
-  kCollinear,  ///< a wall's line goes on in another wall beyond the gap
-  kBetweenEnds,  ///< both jambs are free ends of walls
+  kBetweenCorners,  ///< both jambs are corners of blocks: the mouth of a corridor, if anything
+  kAbutting,        ///< a wall ends, and its line goes on to the flank of another wall
+  kCollinear,       ///< a wall's line goes on in another wall beyond the gap
+  kBetweenEnds,     ///< both jambs are free ends of walls
 };
 
 /// A straight border across open space from wall to wall, where one room may end and another begin.
@@ -32,6 +33,7 @@ struct PassageTuning {
   double end_error = 0.3;      ///< m; lines end that much before their wall does
   double depth = 0.04;         ///< m; a gap is looked for so far inside of a wall's face
   double merge_within = 0.6;   ///< m; both faces of a wall make one passage
+  double corner_cells = 3.0;   ///< cells beside a corner that noise may fill
   double deepest = 1.2;        ///< m; a narrow stretch that is longer is a corridor
   double ridge_drop = 0.9;     ///< a saddle below this share of the lower peak is a narrowing
 };
@@ -46,6 +48,11 @@ std::vector<Passage> gapsInWalls(const Mask& solid, const std::vector<MapLine>& 
 /// Cost: O(n^2) for n ends.
 std::vector<Passage> gapsBetweenEnds(const Mask& solid, const std::vector<WallEnd>& ends,
                                      const PassageTuning& tuning = {});
+
+/// Passages between two corners of walls that stick out and see each other. Cost: O(n^2) for n
+/// lines.
+std::vector<Passage> gapsBetweenCorners(const Mask& solid, const std::vector<MapLine>& lines,
+                                        const PassageTuning& tuning = {});
 
 /// Moves a passage along its way to the middle of the stretch that is as narrow: into the middle of
 /// the wall. One whose stretch is longer than `deepest` stays.

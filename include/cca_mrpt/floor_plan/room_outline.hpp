@@ -31,6 +31,11 @@ Polygon outlineAlongLines(const Raster<int>& labels, const Polygon& chain,
                           const std::vector<MapLine>& lines, const std::vector<Passage>& openings,
                           const OutlineTuning& tuning = {});
 
+/// A ring without the loops of at most so many corners that it makes where it crosses itself:
+/// errors of lines turn narrow steps inside out. Double corners and spikes go, too. Cost: O(n
+/// most_corners) for each that goes.
+Polygon withoutSmallLoops(Polygon ring, std::size_t most_corners = 6);
+
 /// A chain straightened by at most `tolerance` [Douglas & Peucker 1973]; simple where it was.
 Polygon straightened(const Raster<int>& labels, const Polygon& chain, double tolerance);
 

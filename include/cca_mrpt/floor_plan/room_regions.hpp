@@ -12,13 +12,14 @@ namespace cca {
 /// When a passage parts two rooms. Its relative width is its width over that of the narrower of
 /// both regions, which is twice the greatest clearance in it.
 struct RoomTuning {
-  double widest_narrowing = 0.5;  ///< relative width; of PassageEvidence::kNarrowing
+  double widest_narrowing = 0.5;  ///< relative width; of kNarrowing and kBetweenCorners
   double widest_abutting = 0.85;  ///< the same of kAbutting
-  double widest_collinear = 0.9;  ///< the same of kCollinear
+  double widest_collinear = 0.9;  ///< the same of kCollinear and kBetweenEnds
+  /// The mouth of a corridor is as wide as that. Its relative width on the other side is at most
   double widest_mouth = 0.6;
-  double shallowest_mouth = 0.7;
-  double mouth_area = 2.5;
-  double smallest_room = 1.0;  ///< m^2
+  double shallowest_mouth = 0.7;  ///< its width over the depth of the other side: no crossing
+  double mouth_area = 2.5;        ///< squares of its width that a corridor has at least: no niche
+  double smallest_room = 1.0;     ///< m^2
 };
 
 /// A passage between two rooms.
