@@ -8,9 +8,10 @@ set -eu
 cd "$(dirname "$0")/.."
 python=$(command -v "${1:-/usr/bin/python3}")
 where=$PWD/build-python/$("$python" -c 'import sys; print("%d.%d" % sys.version_info[:2])')
-copy=$where/copy
-rm -rf "$copy"
-mkdir -p "$copy"
+# Elsewhere, for roslaunch takes each launch file below the package for its own.
+copy=$(mktemp -d)/cca_mrpt
+mkdir -p "$where" "$copy"
+trap 'rm -rf "$(dirname "$copy")"' EXIT
 git ls-files -z --cached --others --exclude-standard | tar --null --ignore-failed-read -T - -cf - 2>/dev/null | tar -xf - -C "$copy"
 
 export PIP_DISABLE_PIP_VERSION_CHECK=1 PIP_QUIET=1 MPLBACKEND=Agg

@@ -28,12 +28,6 @@ RoomLabels labelsOf(const std::string& path) {
   return readRoomLabels(text.str(), path);
 }
 
-/// "office" of "out/office/".
-std::string lastNameOf(const std::string& folder) {
-  const auto path = std::filesystem::weakly_canonical(folder);
-  return path.filename().string();
-}
-
 void tellPlan(const FloorPlan& plan, const std::string& out) {
   double area = 0.0, open_border = 0.0;
   int doors = 0;
@@ -60,7 +54,7 @@ void plan(const PlanCommandOptions& options) {
   if (!options.labels.empty()) labels = labelsOf(options.labels);
   FloorPlan found = planOfFolder(options.map);
   const RoomLabels outside = nameRooms(found, labels);
-  writePlanFiles(out, found, lastNameOf(options.map), options.force);
+  writePlanFiles(out, found, titleOfFolder(options.map), options.force);
   if (!options.quiet) tellPlan(found, out);
   for (const auto& [p, name] : outside) {
     std::fprintf(stderr, "cca-mrpt: %s: (%.2f, %.2f), %s, lies in no room\n",

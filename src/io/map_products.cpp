@@ -41,6 +41,7 @@ nlohmann::ordered_json summarize(const MapProducts& products) {
   double length = 0.0;
   for (const MapLine& line : products.lines) length += line.segment.length();
   auto summary = products.summary;
+  summary["title"] = products.title;
   if (!products.origin.isZero()) {
     summary["frame_origin_m"] = {products.origin.x(), products.origin.y()};
   }
@@ -59,7 +60,7 @@ bool addPlan(const std::string& folder, const MapProducts& map, const Eigen::Vec
   if (!map.grid) return false;
   try {
     const FloorPlan plan = planOfMap(map.lines, *map.grid, p_grid);
-    writePlanFiles(folder, plan, fs::weakly_canonical(folder).filename().string(), true);
+    writePlanFiles(folder, plan, map.title, true);
     double area = 0.0;
     for (const PlanRoom& room : plan.rooms) area += room.area;
     summary["plan"] = {

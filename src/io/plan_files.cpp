@@ -4,6 +4,7 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <nlohmann/json.hpp>
 #include <sstream>
 #include <stdexcept>
 #include <utility>
@@ -77,6 +78,17 @@ FloorPlan planOfFolder(const std::string& folder) {
   const auto grid = readOccupancyMap(yaml.string(), frame);
   if (!grid) throw std::runtime_error(yaml.string() + ": is no map of map_server");
   return floorPlan(occupancyOf(*grid, frame), lines);
+}
+
+std::string titleOfFolder(const std::string& folder) {
+  const fs::path summary = fs::path(folder) / "summary.json";
+  if (fs::exists(summary)) {
+    const auto json = nlohmann::json::parse(contentOf(summary), nullptr, false);
+    if (json.is_object() && json.contains("title") && json["title"].is_string()) {
+      return json["title"];
+    }
+  }
+  return fs::weakly_canonical(folder).filename().string();
 }
 
 FloorPlan planOfMap(const std::vector<MapLine>& lines, const mrpt::maps::COccupancyGridMap2D& grid,

@@ -24,6 +24,9 @@ OccupancyRaster occupancyOf(const mrpt::maps::COccupancyGridMap2D& grid,
 /// @throws std::runtime_error naming the file that is missing or cannot be read.
 FloorPlan planOfFolder(const std::string& folder);
 
+/// What a map's folder is the map of, as its summary.json says; else the folder's name.
+std::string titleOfFolder(const std::string& folder);
+
 /// The plan of the same lines and grid before they are written: planOfFolder() gives the same.
 FloorPlan planOfMap(const std::vector<MapLine>& lines, const mrpt::maps::COccupancyGridMap2D& grid,
                     const Eigen::Vector2d& p_frame);
