@@ -22,7 +22,7 @@ class SlamLocaliser : public Localiser {
 
   const Slam& slam() const { return slam_; }
   /// How often the past was corrected.
-  int corrections() const { return version_; }
+  int corrections() const { return slam_.version(); }
 
  private:
   Slam slam_;
