@@ -14,6 +14,11 @@ constexpr double kSameWayPoint = 0.1;              // m
 constexpr double kHome = 0.3;                      // m
 constexpr double kReachedWayPoint = 0.15;          // m, a little more than Tangent Bug stops at
 constexpr int kHomeNumber = -2, kTurnNumber = -3;  // among the numbers of goals
+constexpr int kErrandNumber = -4;                  // of the first errand; the next ones lie below
+
+constexpr double kAtHeading = 0.05;  // rad, of the goal that it was sent to
+constexpr double kWayLost = 10.0;    // s; who stands in the only way for a moment may leave
+constexpr int kMostHeld = 2;
 
 constexpr double kAround = 2.0;      // m, of the robot: what a narrow laser saw before
 constexpr double kPutDown = 0.5;     // m, around the start: beside the robot no laser may look
@@ -65,7 +70,8 @@ std::size_t nextWayPoint(const std::vector<Eigen::Vector2d>& path, const Eigen::
 }  // namespace
 
 const char* nameOf(ExplorationStatus status) {
-  constexpr const char* kNames[] = {"exploring", "returning", "paused", "finished"};
+  constexpr const char* kNames[] = {"exploring", "returning", "paused",     "finished",
+                                    "driving",   "arrived",   "unreachable"};
   return kNames[static_cast<int>(status)];
 }
 
@@ -84,6 +90,9 @@ void Explorer::correct(const PastScans& past) {
   planner_.correct(past);
   T_drive_map_ = T_drive_map_ * past.correctionHere().inverse();
   if (T_map_start_) T_map_start_ = past.correctionAt(T_map_start_->position()) * *T_map_start_;
+  if (errand_) {
+    errand_->T_map_goal = past.correctionAt(errand_->T_map_goal.position()) * errand_->T_map_goal;
+  }
   T_map_turned_.reset();
   progress_.correctWay();
 }
@@ -119,6 +128,7 @@ Action Explorer::decide(const Observation& observation) {
   if (observation.is_localised && !observation.hazards.empty()) {
     planner_.place().heed(observation.hazards);
   }
+  if (errand_) return runErrand(observation);
   if (is_paused_) {
     if (observation.is_localised) planner_.place().observe(observation.scan, robot);
     excuse(observation.time);
@@ -242,15 +252,68 @@ Action Explorer::goHome(const Observation& observation) {
     return {{}, {}, ExplorationStatus::kFinished, why + "; the way back to the start is blocked"};
   Action action{{}, start, ExplorationStatus::kReturning, "back to the start", T_map_start_->theta};
   if (leaves_driving_ || path.empty()) return action;
-  const std::size_t next = nextWayPoint(path, robot);
-  const Eigen::Vector2d way_point = next + 1 < path.size() ? path[next] : start;
-  action.velocity = driveTo(way_point, observation);
-  if (tangent_bug_.state() == TangentBugState::kUnreachable ||
-      progress_.isStuck(observation.time)) {
-    planner_.place().bar(progress_.shortest());
-    way_point_.reset();
-  }
+  followWay(path, start, observation, action);
   return action;
+}
+
+/// Along a known way to a place. Where the robot gets no farther, the way is barred.
+void Explorer::followWay(const Way& way, const Eigen::Vector2d& end, const Observation& observation,
+                         Action& action) {
+  const std::size_t next = nextWayPoint(way, observation.T_map_robot.position());
+  action.velocity = driveTo(next + 1 < way.size() ? way[next] : end, observation);
+  const bool is_held =
+      tangent_bug_.state() == TangentBugState::kUnreachable || progress_.isStuck(observation.time);
+  if (!is_held) return;
+  planner_.place().bar(progress_.shortest());
+  way_point_.reset();
+  if (errand_) ++errand_->held;
+}
+
+void Explorer::sendTo(const Pose2& T_map_goal) {
+  errand_ = Errand{T_map_goal, {}};
+  ++errands_;
+}
+
+Action Explorer::runErrand(const Observation& observation) {
+  const Pose2& T = observation.T_map_robot;
+  Action action{{},
+                errand_->T_map_goal.position(),
+                ExplorationStatus::kSent,
+                "to where it was sent",
+                errand_->T_map_goal.theta};
+  if (!observation.is_localised) {
+    excuse(observation.time);
+    action.reason = "waiting until the pose is known again";
+    return action;
+  }
+  planner_.place().observe(observation.scan, T.position());
+  const Way way = planner_.pathTo(T.position(), *action.goal);
+  const bool leads_there = !way.empty() && (way.back() - *action.goal).norm() < kBesideGoal;
+  progress_.note(kErrandNumber - errands_, leads_there ? way : Way{T.position(), *action.goal},
+                 observation.time);
+  if (!leads_there) {
+    errand_->without_way.run(observation.time);
+    if (errand_->without_way.isOver(kWayLost, observation.time))
+      return endErrand(ExplorationStatus::kUnreachable, "no known way leads there");
+    action.reason = "waiting for a way to where it was sent";
+    return action;
+  }
+  errand_->without_way.stop();
+  followWay(way, way.back(), observation, action);
+  if (errand_->held >= kMostHeld || progress_.isOverdue(observation.time))
+    return endErrand(ExplorationStatus::kUnreachable, "the robot does not get there");
+  const bool is_there = (way.back() - T.position()).norm() < kReachedWayPoint;
+  if (!is_there || tangent_bug_.state() != TangentBugState::kReached) return action;
+  const double off = wrapAngle(action.goal_heading - T.theta);
+  if (std::abs(off) < kAtHeading) return endErrand(ExplorationStatus::kArrived, "there");
+  turnTowards(T.position() + Pose2{0.0, 0.0, action.goal_heading}.heading(), T, action);
+  return action;
+}
+
+Action Explorer::endErrand(ExplorationStatus status, const std::string& reason) {
+  errand_.reset();
+  way_point_.reset();
+  return {{}, {}, status, reason};
 }
 
 Velocity Explorer::driveTo(const Eigen::Vector2d& way_point_map, const Observation& observation) {

@@ -354,6 +354,73 @@ TEST(Explorer, WaitsForTheWayBackToBeFreeAgain) {
   EXPECT_NE(last.reason.find("back at the start"), std::string::npos) << last.reason;
 }
 
+/// Steps until the errand has ended. @return how.
+Action runErrand(Driver& driver, int most_steps = 2000) {
+  Action action = driver.step();
+  for (int i = 0; i < most_steps && action.status == ExplorationStatus::kSent; ++i)
+    action = driver.step();
+  return action;
+}
+
+TEST(Explorer, DrivesWhereItIsSentAndLooksThereAsItIsTold) {
+  Driver driver;
+  ASSERT_EQ(driver.run().status, ExplorationStatus::kFinished);
+  for (const Pose2& goal : {Pose2{6.0, 1.0, 1.0}, Pose2{1.0, 2.5, -2.0}, Pose2{1.1, 2.5, 2.0}}) {
+    driver.distance = 0.0;
+    const double straight = (goal.position() - driver.T_map_robot.position()).norm();
+    driver.explorer.sendTo(goal);
+    const Action last = runErrand(driver);
+    EXPECT_EQ(last.status, ExplorationStatus::kArrived) << last.reason;
+    EXPECT_LT((driver.T_map_robot.position() - goal.position()).norm(), 0.2);
+    EXPECT_LT(std::abs(wrapAngle(driver.T_map_robot.theta - goal.theta)), 0.1);
+    EXPECT_LT(driver.distance, 1.5 * straight + 1.0);
+    EXPECT_EQ(driver.velocity.linear, 0.0);
+    EXPECT_EQ(driver.step().status, ExplorationStatus::kFinished) << "as before";
+  }
+}
+
+TEST(Explorer, IsSentWhilePausedAndIsPausedThere) {
+  Driver driver;
+  while (driver.distance < 4.0 && driver.time < 60.0) driver.step();
+  driver.explorer.pause(true);
+  driver.explorer.sendTo(kStart);
+  EXPECT_EQ(runErrand(driver).status, ExplorationStatus::kArrived);
+  EXPECT_EQ(driver.step().status, ExplorationStatus::kPaused);
+  driver.explorer.pause(false);
+  EXPECT_EQ(driver.run().status, ExplorationStatus::kFinished);
+}
+
+// In a wall, outside, and never seen: said soon, and the robot stands meanwhile.
+TEST(Explorer, SaysWhereNoKnownWayLeads) {
+  Driver driver;
+  while (driver.distance < 1.5 && driver.time < 60.0) driver.step();
+  for (const Eigen::Vector2d& goal :
+       {Eigen::Vector2d(8.5, 6.5), Eigen::Vector2d(-3.0, 5.0), Eigen::Vector2d(1e6, 0.0)}) {
+    const double begin = driver.time;
+    driver.explorer.sendTo({goal.x(), goal.y(), 0.0});
+    const Action last = runErrand(driver);
+    EXPECT_EQ(last.status, ExplorationStatus::kUnreachable);
+    EXPECT_EQ(last.reason, "no known way leads there");
+    EXPECT_LT(driver.time - begin, 30.0);
+  }
+  EXPECT_EQ(driver.run().status, ExplorationStatus::kFinished) << "it explores on";
+}
+
+TEST(Explorer, GivesUpWhereItIsHeldOnTheWay) {
+  Driver driver;
+  ASSERT_EQ(driver.run().status, ExplorationStatus::kFinished);
+  driver.explorer.sendTo({6.0, 1.0, 0.0});
+  const double begin = driver.time;
+  Action action;
+  do {
+    const Pose2 held = driver.T_map_robot;
+    action = driver.step();
+    driver.T_map_robot = held;  // by something that no sensor sees
+  } while (action.status == ExplorationStatus::kSent && driver.time < begin + 60.0);
+  EXPECT_EQ(action.status, ExplorationStatus::kUnreachable);
+  EXPECT_LT(driver.time - begin, 40.0);
+}
+
 TEST(Explorer, StandsStillWhilePausedAndGoesOnAfterwards) {
   Driver driver;
   for (int i = 0; i < 20; ++i) driver.step();

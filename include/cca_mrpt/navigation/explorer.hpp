@@ -31,9 +31,17 @@ struct Observation {
   std::vector<Eigen::Vector2d> hazards{};
 };
 
-enum class ExplorationStatus { kExploring, kReturning, kPaused, kFinished };
+enum class ExplorationStatus {
+  kExploring,
+  kReturning,
+  kPaused,
+  kFinished,
+  kSent,         ///< on the way to where it was sent, see Explorer::sendTo()
+  kArrived,      ///< there; told once
+  kUnreachable,  ///< not there, and it has given up; told once
+};
 
-/// "exploring", "returning", "paused" or "finished".
+/// "exploring", "returning", "paused", "finished", "driving", "arrived" or "unreachable".
 const char* nameOf(ExplorationStatus status);
 
 /// What the robot shall do next.
@@ -115,6 +123,15 @@ class Explorer {
   void pause(bool paused) { is_paused_ = paused; }
   /// Gives up exploring and drives back to where it began.
   void returnToStart() { is_returning_ = true; }
+  /// Drives to a place of the map and turns to its heading, before all else and though paused; then
+  /// all is as it was before. A place that for ten seconds no known way has led to (the robot
+  /// stands there no nearer than kBesideGoal), or where the robot has got no farther twice, is
+  /// given up. The place moves along where the past is corrected. Not together with leaveDriving().
+  void sendTo(const Pose2& T_map_goal);
+  /// Not any more.
+  void recall() { errand_.reset(); }
+  static constexpr double kBesideGoal = 0.25;  ///< m
+
   /// Exploration stays inside a polygon (m, map frame). To be called before the first step.
   void limitTo(std::vector<Eigen::Vector2d> polygon) { planner_.limitTo(std::move(polygon)); }
 
@@ -135,6 +152,10 @@ class Explorer {
   Action explore(const Observation& observation);
   Action lookAround(const Observation& observation);
   Action goHome(const Observation& observation);
+  Action runErrand(const Observation& observation);
+  Action endErrand(ExplorationStatus status, const std::string& reason);
+  void followWay(const std::vector<Eigen::Vector2d>& way, const Eigen::Vector2d& end,
+                 const Observation& observation, Action& action);
   Velocity driveTo(const Eigen::Vector2d& way_point_map, const Observation& observation);
 
   ExplorerParameters parameters_;
@@ -154,6 +175,14 @@ class Explorer {
   bool is_returning_ = false;
   bool was_returning_ = false;  ///< at the last step
   std::string why_finished_;
+  /// A place that it was sent to.
+  struct Errand {
+    Pose2 T_map_goal;
+    ProgressClock without_way;
+    int held = 0;  ///< how often it got no farther
+  };
+  std::optional<Errand> errand_;
+  int errands_ = 0;  ///< so far
 };
 
 }  // namespace cca
