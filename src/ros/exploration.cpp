@@ -22,7 +22,7 @@ Exploration::Exploration(ros::NodeHandle& node, ros::NodeHandle& private_node, S
                          const Parameters& program)
     : settings_(std::move(settings)),
       program_(program),
-      publisher_(node, settings_.map_frame),
+      publisher_(node, settings_.map_frame, program.robot.radius),
       mode_(settings_.autostart ? Mode::kRunning : Mode::kStopped),
       saver_(private_node, settings_.out, [this] { return products(); }) {
   services_ = {private_node.advertiseService("start", &Exploration::onStart, this),
@@ -51,7 +51,7 @@ void Exploration::begin(std::unique_ptr<Localiser> localiser, const std::string&
 
 Observation Exploration::sense(const Measurement& measurement, const Velocity& velocity) {
   const std::lock_guard<std::mutex> lock(saver_.mutex());
-  const bool is_idle = mode_ == Mode::kStopped || finished_;
+  const bool is_idle = !errand_end_ && (mode_ == Mode::kStopped || finished_);
   if (is_idle && !session_->mapping().localiser().correctsPast()) return {};
   const Observation observation = session_->sense(measurement, velocity);
   if (session_->estimate().was_corrected) publisher_.correctWay(session_->mapping());
@@ -62,7 +62,7 @@ Observation Exploration::sense(const Measurement& measurement, const Velocity& v
 
 Estimate Exploration::addSecondary(const Measurement& measurement, std::size_t sensor) {
   const std::lock_guard<std::mutex> lock(saver_.mutex());
-  if (mode_ == Mode::kStopped || finished_) return {};
+  if (!errand_end_ && (mode_ == Mode::kStopped || finished_)) return {};
   return session_->addSecondary(measurement, sensor);
 }
 
@@ -71,12 +71,17 @@ Velocity Exploration::step(Observation observation, const ros::Time& stamp) {
   own_time_ += passed;
   last_time_ = observation.time;
   T_map_goal_.reset();
-  if (mode_ == Mode::kStopped || finished_) return {};
+  T_map_robot_ = observation.T_map_robot;
+  if (!errand_end_ && (mode_ == Mode::kStopped || finished_)) return {};
   observation.time = own_time_;
   const std::lock_guard<std::mutex> lock(saver_.mutex());
   const Action action = session_->decide(observation);
   if (action.goal) T_map_goal_ = Pose2{action.goal->x(), action.goal->y(), action.goal_heading};
   publisher_.show(*session_, *recorder_.grid().grid(), observation.T_map_robot, T_map_goal_, stamp);
+  if (errand_end_) {
+    followErrand(action, passed);
+    return errand_end_ ? action.velocity : Velocity{};
+  }
   if (session_->mapping().localiser().correctsPast() &&
       action.status == ExplorationStatus::kFinished) {
     end_ = action;
@@ -88,6 +93,38 @@ Velocity Exploration::step(Observation observation, const ros::Time& stamp) {
   if (failed_ && !finished_) finish(stamp);
   tell(action);
   return finished_ ? Velocity{} : action.velocity;
+}
+
+void Exploration::followErrand(const Action& action, double passed) {
+  if (action.status == ExplorationStatus::kArrived) return endErrand(true, "the goal is reached");
+  if (action.status == ExplorationStatus::kUnreachable)
+    return endErrand(false, "the goal is unreachable: " + action.reason);
+  if (isContradicted(passed)) return endErrand(false, "scans contradict the map");
+  tell(action);
+}
+
+void Exploration::endErrand(bool is_reached, const std::string& how) {
+  session_->explorer().recall();
+  why_paused_ = how + "; call ~pause with false to go on";
+  state_ = finished_ ? "finished: " + how : "paused: " + why_paused_;
+  publisher_.showStatus(state_);
+  std::exchange(errand_end_, nullptr)(is_reached, how);
+}
+
+void Exploration::sendTo(const Pose2& T_map_goal, ErrandEnd end) {
+  recall("another goal was set");
+  if (!session_) return end(false, "it is not known yet where the robot is");
+  setMode(Mode::kPaused);
+  const std::lock_guard<std::mutex> lock(saver_.mutex());
+  session_->explorer().sendTo(T_map_goal);
+  errand_end_ = std::move(end);
+  state_ = "driving: to where it was sent";
+  publisher_.showStatus(state_);
+}
+
+void Exploration::recall(const std::string& why) {
+  const std::lock_guard<std::mutex> lock(saver_.mutex());
+  if (errand_end_) endErrand(false, why);
 }
 
 void Exploration::conclude(const ros::Time& stamp) {
@@ -125,8 +162,10 @@ void Exploration::tell(const Action& action) {
     ROS_WARN_THROTTLE(5.0, "scans contradict the map: %.1f %% of their returns agree with it",
                       100.0 * agreement().recent());
   }
+  const bool is_paused = action.status == ExplorationStatus::kPaused;
+  const std::string& reason = is_paused ? why_paused_ : action.reason;
   state_ = failed_ ? "failed: scans contradict the map; the pose is lost, or the scans are wrong"
-                   : std::string(nameOf(action.status)) + ": " + action.reason +
+                   : std::string(nameOf(action.status)) + ": " + reason +
                          (at_odds ? "; scans contradict the map" : "");
   publisher_.showStatus(state_);
 }
@@ -160,12 +199,14 @@ void Exploration::end() {
 }
 
 void Exploration::setMode(Mode mode) {
+  recall("called off");
   const std::lock_guard<std::mutex> lock(saver_.mutex());
   mode_ = mode;
   if (session_) session_->explorer().pause(mode == Mode::kPaused);
+  why_paused_ = "call ~pause with false to go on";
   if (finished_) return;
   state_ = mode == Mode::kStopped  ? "stopped: call ~start to explore"
-           : mode == Mode::kPaused ? "paused: call ~pause with false to go on"
+           : mode == Mode::kPaused ? "paused: " + why_paused_
                                    : "waiting: for the first scan";
   publisher_.showStatus(state_);
 }
@@ -205,7 +246,7 @@ bool Exploration::onHome(std_srvs::Trigger::Request& /*request*/,
 
 bool Exploration::onPause(std_srvs::SetBool::Request& request,
                           std_srvs::SetBool::Response& response) {
-  response.success = mode_ != Mode::kStopped && !finished_;
+  response.success = errand_end_ || (mode_ != Mode::kStopped && !finished_);
   response.message = response.success ? (request.data ? "paused" : "exploring") : "not exploring";
   if (response.success) setMode(request.data ? Mode::kPaused : Mode::kRunning);
   return true;

@@ -61,6 +61,16 @@ class Exploration {
   /// As `~pause` with true does.
   void pause() { setMode(Mode::kPaused); }
 
+  /// What became of a place that the robot was sent to.
+  using ErrandEnd = std::function<void(bool is_reached, const std::string& how)>;
+  /// Leaves off exploring and drives to a place of the map; there it stays paused, or finished. A
+  /// place that it was sent to before, or the services above, call it off, which is told to `end`,
+  /// too.
+  void sendTo(const Pose2& T_map_goal, ErrandEnd end);
+  void recall(const std::string& why);
+  /// At the last step.
+  const Pose2& pose() const { return T_map_robot_; }
+
   /// Where the localiser corrects the past, the exploration waits for conclude() once nothing is
   /// left: there is a last pass over the poses, for which the robot has to stand.
   bool isAtEnd() const { return end_.has_value(); }
@@ -71,8 +81,8 @@ class Exploration {
   /// A line of summary.json.
   void note(const std::string& key, const nlohmann::json& value);
 
-  /// Neither paused, stopped nor finished.
-  bool drives() const { return mode_ == Mode::kRunning && !finished_; }
+  /// Neither paused, stopped nor finished; or sent somewhere.
+  bool drives() const { return (mode_ == Mode::kRunning && !finished_) || errand_end_; }
   /// Also where it failed.
   bool finished() const { return finished_; }
   const ExplorationSession& session() const { return *session_; }
@@ -96,6 +106,8 @@ class Exploration {
   void finish(const ros::Time& stamp);
   MapProducts products() const;
   void tell(const Action& action);
+  void followErrand(const Action& action, double passed);
+  void endErrand(bool is_reached, const std::string& how);
   bool isContradicted(double seconds);
   bool hasBegun() const { return session_ && !session_->mapping().times().empty(); }
 
@@ -120,8 +132,10 @@ class Exploration {
   std::optional<Action> end_;                ///< that waits for conclude()
   double own_time_ = 0.0, last_time_ = 0.0;  // s
   double contradicted_for_ = 0.0;            // s, that scans and map have been at odds
-  std::string state_;
+  std::string state_, why_paused_;
   std::optional<Pose2> T_map_goal_;
+  Pose2 T_map_robot_;
+  ErrandEnd errand_end_;  ///< empty: it was sent nowhere
   nlohmann::ordered_json notes_ = nlohmann::ordered_json::object();
   std::vector<ros::ServiceServer> services_;
   MapSaver saver_;  // last: it may still be saving, by products(), when all this ends

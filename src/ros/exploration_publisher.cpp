@@ -9,6 +9,7 @@
 #include "cca_mrpt/ros/grid_message.hpp"
 #include "cca_mrpt/ros/line_messages.hpp"
 #include "cca_mrpt/ros/pose_message.hpp"
+#include "cca_mrpt/ros/robot_markers.hpp"
 
 namespace cca {
 namespace {
@@ -17,15 +18,20 @@ const ros::WallDuration kLinePeriod(0.04), kMapPeriod(1.0);
 
 }  // namespace
 
-ExplorationPublisher::ExplorationPublisher(ros::NodeHandle& node, std::string map_frame)
+ExplorationPublisher::ExplorationPublisher(ros::NodeHandle& node, std::string map_frame,
+                                           double radius)
     : map_frame_(std::move(map_frame)),
+      radius_(radius),
       lines_(node, map_frame_),
       way_(node, map_frame_),
       map_(node.advertise<nav_msgs::OccupancyGrid>("map", 1, true)),
       map_metadata_(node.advertise<nav_msgs::MapMetaData>("map_metadata", 1, true)),
       frontiers_(node.advertise<visualization_msgs::MarkerArray>("frontier_markers", 1, true)),
+      robot_(node.advertise<visualization_msgs::MarkerArray>("robot_markers", 1, true)),
       goal_(node.advertise<geometry_msgs::PoseStamped>("goal", 5)),
-      status_(node.advertise<std_msgs::String>("status", 5, true)) {}
+      status_(node.advertise<std_msgs::String>("status", 5, true)),
+      static_map_(node.advertiseService("static_map", &ExplorationPublisher::onGetMap, this)),
+      dynamic_map_(node.advertiseService("dynamic_map", &ExplorationPublisher::onGetMap, this)) {}
 
 std_msgs::Header ExplorationPublisher::header(const ros::Time& stamp) const {
   std_msgs::Header h;
@@ -53,6 +59,7 @@ void ExplorationPublisher::show(const ExplorationSession& session,
                                 const ros::Time& stamp) {
   way_.add(T_map_robot, stamp);
   showGoal(T_map_goal, stamp);
+  showRobot(T_map_robot, stamp);
   const ros::WallTime now = ros::WallTime::now();
   if (now - map_shown_ >= kMapPeriod) {
     showAll(session, grid, stamp);
@@ -66,9 +73,9 @@ void ExplorationPublisher::showAll(const ExplorationSession& session,
                                    const mrpt::maps::COccupancyGridMap2D& grid,
                                    const ros::Time& stamp) {
   lines_.publish(session.mapping().lineMap().lines(), stamp);
-  const nav_msgs::OccupancyGrid map = gridMessage(grid, header(stamp));
-  map_.publish(map);
-  map_metadata_.publish(map.info);
+  shown_map_ = gridMessage(grid, header(stamp));
+  map_.publish(shown_map_);
+  map_metadata_.publish(shown_map_.info);
   std::vector<Eigen::Vector2d> frontier;
   const Explorer& explorer = session.explorer();
   const auto& exploration_grid = explorer.grid();
@@ -78,6 +85,17 @@ void ExplorationPublisher::showAll(const ExplorationSession& session,
   frontiers_.publish(frontierMarkers(frontier, exploration_grid.resolution(), header(stamp)));
   way_.publish(stamp);
   lines_shown_ = map_shown_ = ros::WallTime::now();
+}
+
+void ExplorationPublisher::showRobot(const Pose2& T_map_robot, const ros::Time& stamp) {
+  if (robot_.getNumSubscribers() == 0) return;
+  robot_.publish(robotMarkers(T_map_robot, radius_, shown_status_, header(stamp)));
+}
+
+bool ExplorationPublisher::onGetMap(nav_msgs::GetMap::Request& /*request*/,
+                                    nav_msgs::GetMap::Response& response) {
+  response.map = shown_map_;
+  return !shown_map_.data.empty();  // else who asks is told that it failed, and asks again
 }
 
 void ExplorationPublisher::showStatus(const std::string& status) {

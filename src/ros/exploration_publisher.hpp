@@ -2,6 +2,7 @@
 #pragma once
 
 #include <mrpt/maps/COccupancyGridMap2D.h>
+#include <nav_msgs/GetMap.h>
 #include <ros/ros.h>
 
 #include <string>
@@ -13,10 +14,12 @@
 namespace cca {
 
 /// What an exploration shows of itself: `lines`, `line_markers`, `map`, `frontier_markers`, `goal`,
-/// `trajectory` and `status`. All but `goal` are latched, so late subscribers see the whole.
+/// `robot_markers`, `trajectory` and `status`. All but `goal` are latched, so late subscribers see
+/// the whole. `static_map` and `dynamic_map` answer with the last `map`.
 class ExplorationPublisher {
  public:
-  ExplorationPublisher(ros::NodeHandle& node, std::string map_frame);
+  /// @param radius  m, of the robot.
+  ExplorationPublisher(ros::NodeHandle& node, std::string map_frame, double radius);
 
   /// After each step. Lines go out at most 25 times, grid, frontiers and way once a second of the
   /// wall; a changed goal at once.
@@ -35,13 +38,18 @@ class ExplorationPublisher {
 
  private:
   void showGoal(const std::optional<Pose2>& T_map_goal, const ros::Time& stamp);
+  void showRobot(const Pose2& T_map_robot, const ros::Time& stamp);
+  bool onGetMap(nav_msgs::GetMap::Request&, nav_msgs::GetMap::Response& response);
   std_msgs::Header header(const ros::Time& stamp) const;
 
   std::string map_frame_;
+  double radius_;  // m
   LinePublisher lines_;
   WayPublisher way_;
-  ros::Publisher map_, map_metadata_, frontiers_, goal_, status_;
+  ros::Publisher map_, map_metadata_, frontiers_, robot_, goal_, status_;
+  ros::ServiceServer static_map_, dynamic_map_;
   ros::WallTime lines_shown_, map_shown_;
+  nav_msgs::OccupancyGrid shown_map_;
   std::optional<Eigen::Vector2d> shown_goal_;
   std::string shown_status_;
 };

@@ -6,6 +6,7 @@
 
 #include "cca_mrpt/localisation/given_poses.hpp"
 #include "exploration.hpp"
+#include "goal_server.hpp"
 #include "node_diagnostics.hpp"
 #include "node_localisation.hpp"
 #include "node_main.hpp"
@@ -81,6 +82,7 @@ void exploreSimulated(const Settings& settings, ros::NodeHandle& node,
       {settings.driver.frames, settings.simulator.scan_rate, settings.simulator.record, true});
   Exploration exploration(node, private_node, settings.exploration, settings.program);
   exploration.begin(std::make_unique<GivenPoses>());
+  const GoalServer goals(node, private_node, settings.driver.frames.map, exploration);
   const std::map<std::string, long> none_dropped;
   NodeDiagnostics diagnostics(
       node, private_node, [&]() -> const auto& { return none_dropped; });
@@ -116,6 +118,10 @@ std::string chosenPose(const RobotDriver::Settings& settings, ros::NodeHandle& n
 void exploreWithRobot(const Settings& settings, ros::NodeHandle& node,
                       ros::NodeHandle& private_node) {
   Exploration exploration(node, private_node, settings.exploration, settings.program);
+  std::optional<GoalServer> goals;  // where move_base drives, it takes them itself
+  if (settings.driver.driver != "move_base") {
+    goals.emplace(node, private_node, settings.driver.frames.map, exploration);
+  }
   RobotDriver::Settings driver_settings = settings.driver;
   driver_settings.pose = chosenPose(settings.driver, node, exploration);
   if (!driver_settings.pose.empty()) {

@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "cca_mrpt/ros/pose_message.hpp"
+#include "cca_mrpt/sensing/beam.hpp"
 #include "node_localisation.hpp"
 
 namespace cca {
@@ -22,6 +23,7 @@ constexpr double kOldestOdometry = 0.3;  // s
 constexpr double kWorthTelling = 0.05;   // s, that commands act later than told
 // m, around the robot, of what other lasers see: it stands long before, from any speed.
 constexpr double kHeededBeside = 4.0;
+constexpr double kAhead = 5.0;         // m; a laser that looks there sees where the robot drives
 constexpr double kThinned = 0.004;     // m, between neighbours: well below the margin that is kept
 const ros::WallDuration kInsist(1.0);  // zero is said for so long, then others may drive
 
@@ -183,6 +185,8 @@ void RobotDriver::use(const PlacedScan& placed) {
     if (move_base_) move_base_->forget();
     return;
   }
+  if (!move_base_ && !looksTowards(placed.scan, placed.T_fixed_robot * Eigen::Vector2d(kAhead, 0)))
+    return waitForSight(placed);
   if (const auto silent = silentLaser(1)) {
     if (exploration_.drives()) waitForLaser(*silent);
     return stand();
@@ -267,6 +271,17 @@ void RobotDriver::waitForLaser(std::size_t topic) {
   const std::string which =
       settings_.scans.size() > 1 ? " of '" + settings_.scans[topic] + "'" : "";
   exploration_.wait("no usable scan" + which + scans_.lastTrouble());
+}
+
+// It drives forwards only.
+void RobotDriver::waitForSight(const PlacedScan& placed) {
+  last_used_[placed.topic] = placed.arrival;
+  if (exploration_.drives()) {
+    exploration_.wait("'" + settings_.scans[placed.topic] + "' does not look ahead of '" +
+                      settings_.frames.base +
+                      "', where the robot drives: a laser that does has to be the first of ~scans");
+  }
+  stand();
 }
 
 void RobotDriver::watch() {

@@ -69,6 +69,7 @@ class RobotDriver {
   /// The laser that has not been heard of for too long, if any; of those from `first` on.
   std::optional<std::size_t> silentLaser(std::size_t first) const;
   void waitForLaser(std::size_t topic);
+  void waitForSight(const PlacedScan& placed);
   void watch();
   /// Why the robot cannot be driven; nullptr where it can.
   const char* deaf() const;

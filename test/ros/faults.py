@@ -127,6 +127,17 @@ class Faults(unittest.TestCase):
                                           lambda: setattr(self.robot, "spoil", lambda scan: None),
                                           "malformed")
 
+    def test_07e_a_laser_that_looks_backwards(self):
+        """270 degrees, all but those ahead: it says what it needs, and does not turn about for nothing."""
+        def backwards(scan):
+            beams = len(scan.ranges) - 1
+            scan.ranges = [scan.ranges[k % beams] for k in range(beams * 5 // 8, beams * 11 // 8 + 1)]
+            scan.angle_min += beams * 5 // 8 * scan.angle_increment
+            scan.angle_max = scan.angle_min + (len(scan.ranges) - 1) * scan.angle_increment
+        self.expect_stop_and_recovery(lambda: setattr(self.robot, "spoil", backwards),
+                                      lambda: setattr(self.robot, "spoil", lambda scan: None),
+                                      "does not look ahead of 'base_link'")
+
     def test_07d_a_frame_with_a_slash_is_the_frame_without(self):
         def slash(scan):
             scan.header.frame_id = "/laser"

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "goal_server.hpp"
+
+#include <stdexcept>
+#include <utility>
+
+#include "cca_mrpt/ros/pose_message.hpp"
+
+namespace cca {
+namespace {
+
+constexpr bool kStartLater = false;
+const ros::WallDuration kProgressPeriod(0.2);
+
+}  // namespace
+
+GoalServer::GoalServer(ros::NodeHandle& node, ros::NodeHandle& private_node, std::string map_frame,
+                       Exploration& exploration)
+    : map_frame_(std::move(map_frame)),
+      exploration_(exploration),
+      transforms_(node, [] {}),
+      action_(private_node, "goal", kStartLater),
+      simple_(node.subscribe("move_base_simple/goal", 1, &GoalServer::takeOfTopic, this)),
+      progress_(node.createWallTimer(kProgressPeriod,
+                                     [this](const ros::WallTimerEvent&) { tellProgress(); })) {
+  action_.registerGoalCallback([this] { takeOfAction(); });
+  action_.registerPreemptCallback([this] { cancel(); });
+  action_.start();
+}
+
+Pose2 GoalServer::inMap(const geometry_msgs::PoseStamped& goal) const {
+  geometry_msgs::Transform pose;
+  pose.translation.x = goal.pose.position.x;
+  pose.translation.y = goal.pose.position.y;
+  pose.rotation = goal.pose.orientation;
+  const Pose2 T_frame_goal = planarPose(pose).pose;
+  const std::string frame = frameName(goal.header.frame_id);
+  if (frame.empty() || frame == frameName(map_frame_)) return T_frame_goal;
+  const Transforms& tf = transforms_.transforms();
+  if (!tf.has(map_frame_, frame, {})) throw std::runtime_error(tf.whyNot(map_frame_, frame));
+  return tf.lookup(map_frame_, frame, {}).pose * T_frame_goal;
+}
+
+void GoalServer::takeOfAction() {
+  const auto goal = action_.acceptNewGoal();
+  try {
+    const Pose2 T_map_goal = inMap(goal->target_pose);
+    exploration_.sendTo(T_map_goal, [this](bool is_reached, const std::string& how) {
+      endAction(is_reached, how);
+    });
+  } catch (const std::runtime_error& error) {
+    ROS_WARN("the goal is refused: %s", error.what());
+    action_.setAborted({}, error.what());
+  }
+}
+
+void GoalServer::takeOfTopic(const geometry_msgs::PoseStamped& goal) try {
+  exploration_.sendTo(inMap(goal), [](bool, const std::string&) {});
+} catch (const std::runtime_error& error) {
+  ROS_WARN("the goal is refused: %s", error.what());
+}
+
+/// Another goal of the action comes by takeOfAction().
+void GoalServer::cancel() {
+  if (!action_.isNewGoalAvailable()) exploration_.recall("cancelled");
+}
+
+void GoalServer::endAction(bool is_reached, const std::string& how) {
+  if (!action_.isActive()) return;
+  if (is_reached) return action_.setSucceeded({}, how);
+  if (action_.isPreemptRequested()) return action_.setPreempted({}, how);
+  action_.setAborted({}, how);
+}
+
+void GoalServer::tellProgress() {
+  if (!action_.isActive()) return;
+  move_base_msgs::MoveBaseFeedback feedback;
+  feedback.base_position.header.frame_id = map_frame_;
+  feedback.base_position.header.stamp = ros::Time::now();
+  feedback.base_position.pose = poseMessage(exploration_.pose());
+  action_.publishFeedback(feedback);
+}
+
+}  // namespace cca

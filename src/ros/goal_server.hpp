@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <actionlib/server/simple_action_server.h>
+#include <geometry_msgs/PoseStamped.h>
+#include <move_base_msgs/MoveBaseAction.h>
+
+#include <string>
+
+#include "exploration.hpp"
+#include "transform_feed.hpp"
+
+namespace cca {
+
+/// Sends the robot where others want it: by the action `~goal` (move_base_msgs/MoveBase) and by
+/// `move_base_simple/goal`, as move_base does. The latest goal counts. In any frame that tf joins
+/// with the map's, as it stands when the goal comes. Lives in the thread that spins.
+class GoalServer {
+ public:
+  /// @param exploration  must outlive this.
+  GoalServer(ros::NodeHandle& node, ros::NodeHandle& private_node, std::string map_frame,
+             Exploration& exploration);
+
+ private:
+  void takeOfAction();
+  void takeOfTopic(const geometry_msgs::PoseStamped& goal);
+  void cancel();
+  void endAction(bool is_reached, const std::string& how);
+  void tellProgress();
+  /// T_map_goal. @throws std::runtime_error where that is not known, or the pose is none.
+  Pose2 inMap(const geometry_msgs::PoseStamped& goal) const;
+
+  std::string map_frame_;
+  Exploration& exploration_;
+  TransformFeed transforms_;
+  actionlib::SimpleActionServer<move_base_msgs::MoveBaseAction> action_;
+  ros::Subscriber simple_;
+  ros::WallTimer progress_;
+};
+
+}  // namespace cca
