@@ -62,7 +62,7 @@ Observation Exploration::sense(const Measurement& measurement, const Velocity& v
 
 Estimate Exploration::addSecondary(const Measurement& measurement, std::size_t sensor) {
   const std::lock_guard<std::mutex> lock(saver_.mutex());
-  if (mode_ == Mode::kStopped || finished_) return {};
+  if (!errand_end_ && (mode_ == Mode::kStopped || finished_)) return {};
   return session_->addSecondary(measurement, sensor);
 }
 
@@ -112,8 +112,8 @@ void Exploration::endErrand(bool is_reached, const std::string& how) {
 }
 
 void Exploration::sendTo(const Pose2& T_map_goal, ErrandEnd end) {
-  if (!session_) return end(false, "it is not known yet who tells the pose");
   recall("another goal was set");
+  if (!session_) return end(false, "it is not known yet where the robot is");
   setMode(Mode::kPaused);
   const std::lock_guard<std::mutex> lock(saver_.mutex());
   session_->explorer().sendTo(T_map_goal);
