@@ -130,10 +130,12 @@ void addMapCommand(CLI::App& program) {
   command
       ->add_option_function<std::string>(
           "--origin",
-          [options](const std::string& text) try {
-            options->place = geoReferenceOf(text);
-          } catch (const std::runtime_error& error) {
-            throw CLI::ValidationError("--origin", error.what());
+          [options](const std::string& text) {
+            try {
+              options->place = geoReferenceOf(text);
+            } catch (const std::runtime_error& error) {
+              throw CLI::ValidationError("--origin", error.what());
+            }
           },
           "where (0, 0) of the map lies, and how far its x axis is turned from east to the left, "
           "degrees: lines.geojson is in longitude and latitude then")
