@@ -18,7 +18,7 @@ import numpy as np
 
 from ._core import LogRecord, MissingReturns
 from .robot_frames import OdometryFrames, RobotFrames, find_frames
-from .transforms import PlanarPose, Pose, Transform, Transforms, Unplanar, frame_name, planar
+from .transforms import PlanarPose, Pose, Transform, Transforms, Unplanar, frame_name, planar, seconds, wrap_angle
 
 SCAN, ECHOES = "sensor_msgs/msg/LaserScan", "sensor_msgs/msg/MultiEchoLaserScan"
 ODOMETRY = "nav_msgs/msg/Odometry"
@@ -186,6 +186,12 @@ def nanoseconds(stamp: Any) -> int:
     return int(stamp.sec) * 1_000_000_000 + int(stamp.nanosec)
 
 
+def _duration(length: float) -> int:
+    """s to ns, as ros::Duration takes it."""
+    whole = math.floor(length)
+    return whole * 1_000_000_000 + math.floor((length - whole) * 1e9 + 0.5)
+
+
 def _transform(translation: Any, rotation: Any) -> Transform:
     return Transform((translation.x, translation.y, translation.z), (rotation.x, rotation.y, rotation.z, rotation.w))
 
@@ -211,10 +217,9 @@ class OdometryTrack:
             return None
         if k == len(self.stamps):
             return self.poses[-1]
-        t = (stamp - self.stamps[k - 1]) / (self.stamps[k] - self.stamps[k - 1])
+        t = seconds(stamp - self.stamps[k - 1]) / seconds(self.stamps[k] - self.stamps[k - 1])
         p, q = self.poses[k - 1], self.poses[k]
-        turn = math.remainder(q[2] - p[2], 2 * math.pi)
-        return (p[0] + t * (q[0] - p[0]), p[1] + t * (q[1] - p[1]), math.remainder(p[2] + t * turn, 2 * math.pi))
+        return (p[0] + t * (q[0] - p[0]), p[1] + t * (q[1] - p[1]), wrap_angle(p[2] + t * wrap_angle(q[2] - p[2])))
 
 
 class Laser(NamedTuple):
@@ -229,7 +234,7 @@ class Laser(NamedTuple):
 
 def product(a: Pose, b: Pose) -> Pose:
     c, s = math.cos(a[2]), math.sin(a[2])
-    return (a[0] + c * b[0] - s * b[1], a[1] + s * b[0] + c * b[1], math.remainder(a[2] + b[2], 2 * math.pi))
+    return (a[0] + c * b[0] - s * b[1], a[1] + s * b[0] + c * b[1], wrap_angle(a[2] + b[2]))
 
 
 class BagScans:
@@ -377,7 +382,7 @@ class BagScans:
         check_header(message, ranges)
         beams = len(ranges)
         # The message is stamped with its first beam; one pose for a whole sweep errs least at its middle.
-        middle = nanoseconds(message.header.stamp) + round(0.5e9 * max(0, beams - 1) * message.time_increment)
+        middle = nanoseconds(message.header.stamp) + _duration(0.5 * max(0, beams - 1) * message.time_increment)
         frame = frame_name(message.header.frame_id)
         laser = self._laser(frame)
         place = self._place(laser, frame, middle)
@@ -385,10 +390,12 @@ class BagScans:
             self._unplaced[laser.fixed] = self._unplaced.get(laser.fixed, 0) + 1
             return None
         with np.errstate(invalid="ignore"):
-            valid = (ranges > 0) & (ranges >= message.range_min) & (ranges <= message.range_max)
+            meant = (ranges > 0) & (ranges >= message.range_min)
+            # Drivers write the end of their scale for what has not come back.
+            read = np.where(meant, np.where(ranges > message.range_max, np.inf, ranges), np.nan)
         side = -1 if place.pop("upside_down") else 1
-        record = LogRecord(np.where(valid | np.isposinf(ranges), ranges, np.nan), side * message.angle_min,
-                           side * message.angle_increment, time=middle * 1e-9,
+        record = LogRecord(read, side * message.angle_min,
+                           side * message.angle_increment, time=seconds(middle),
                            free_range_without_return=message.range_max if math.isfinite(message.range_max) else 0.0,
                            **place)
         laser.missing_returns.judge(record)

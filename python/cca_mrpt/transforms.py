@@ -39,6 +39,19 @@ def frame_name(frame: str) -> str:
     return frame[1:] if frame.startswith("/") else frame
 
 
+def seconds(nanoseconds: int) -> float:
+    """As ros::Time and ros::Duration tell it."""
+    whole, rest = divmod(nanoseconds, 1_000_000_000)
+    return whole + 1e-9 * rest
+
+
+def wrap_angle(angle: float) -> float:
+    """In (-pi, pi]."""
+    wrapped = math.remainder(angle, 2 * math.pi)
+    return math.pi if wrapped <= -math.pi else wrapped
+
+
+# In the order in which tf2 adds and multiplies: so that the same bytes come out of the map.
 def _product(a: Quaternion, b: Quaternion) -> Quaternion:
     ax, ay, az, aw = a
     bx, by, bz, bw = b
@@ -46,37 +59,51 @@ def _product(a: Quaternion, b: Quaternion) -> Quaternion:
             aw * bz + az * bw + ax * by - ay * bx, aw * bw - ax * bx - ay * by - az * bz)
 
 
+def _inverse(q: Quaternion) -> Quaternion:
+    return (-q[0], -q[1], -q[2], q[3])
+
+
 def _rotated(q: Quaternion, v: Vector) -> Vector:
     x, y, z, w = q
-    tx, ty, tz = 2 * (y * v[2] - z * v[1]), 2 * (z * v[0] - x * v[2]), 2 * (x * v[1] - y * v[0])
-    return (v[0] + w * tx + y * tz - z * ty, v[1] + w * ty + z * tx - x * tz, v[2] + w * tz + x * ty - y * tx)
+    moved = (w * v[0] + y * v[2] - z * v[1], w * v[1] + z * v[0] - x * v[2], w * v[2] + x * v[1] - y * v[0],
+             -x * v[0] - y * v[1] - z * v[2])
+    return _product(moved, _inverse(q))[:3]
+
+
+def _sum(a: Vector, b: Vector) -> Vector:
+    return (a[0] + b[0], a[1] + b[1], a[2] + b[2])
 
 
 def compose(a: Transform, b: Transform) -> Transform:
     """a * b."""
-    moved = _rotated(a.rotation, b.translation)
-    return Transform((a.translation[0] + moved[0], a.translation[1] + moved[1], a.translation[2] + moved[2]),
-                     _product(a.rotation, b.rotation))
+    return Transform(_sum(_rotated(a.rotation, b.translation), a.translation), _product(a.rotation, b.rotation))
 
 
 def inverse(a: Transform) -> Transform:
-    x, y, z, w = a.rotation
-    back = _rotated((-x, -y, -z, w), a.translation)
-    return Transform((-back[0], -back[1], -back[2]), (-x, -y, -z, w))
+    x, y, z = a.translation
+    back = _inverse(a.rotation)
+    return Transform(_rotated(back, (-x, -y, -z)), back)
+
+
+def _dot(a: Quaternion, b: Quaternion) -> float:
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2] + a[3] * b[3]
 
 
 def _between(a: Transform, b: Transform, share: float) -> Transform:
     """On the straight line, and by the shorter turn."""
-    translation = tuple(p + share * (q - p) for p, q in zip(a.translation, b.translation))
-    cosine = sum(p * q for p, q in zip(a.rotation, b.rotation))
-    sign = -1.0 if cosine < 0 else 1.0
-    angle = math.acos(min(1.0, abs(cosine)))
-    if angle < 1e-9:
-        return Transform(translation, a.rotation)  # type: ignore[arg-type]
-    s = math.sin(angle)
-    of_a, of_b = math.sin((1 - share) * angle) / s, sign * math.sin(share * angle) / s
-    rotation = tuple(of_a * p + of_b * q for p, q in zip(a.rotation, b.rotation))
-    return Transform(translation, rotation)  # type: ignore[arg-type]
+    (ax, ay, az), p = a
+    (bx, by, bz), q = b
+    rest = 1.0 - share
+    place = (rest * ax + share * bx, rest * ay + share * by, rest * az + share * bz)
+    cosine = _dot(p, q)
+    if cosine < 0:
+        q = (-q[0], -q[1], -q[2], -q[3])
+    theta = 2.0 * math.acos(max(-1.0, min(1.0, _dot(p, q) / math.sqrt(_dot(p, p) * _dot(q, q))))) / 2.0
+    if theta == 0.0:
+        return Transform(place, p)
+    d, of_p, of_q = 1.0 / math.sin(theta), math.sin(rest * theta), math.sin(share * theta)
+    return Transform(place, ((p[0] * of_p + q[0] * of_q) * d, (p[1] * of_p + q[1] * of_q) * d,
+                             (p[2] * of_p + q[2] * of_q) * d, (p[3] * of_p + q[3] * of_q) * d))
 
 
 def planar(transform: Transform) -> PlanarPose:
@@ -121,13 +148,16 @@ class Joint:
         """None: the stamp lies before the first or after the last one. Without a stamp: the latest."""
         if self.is_static or stamp is None:
             return self.transforms[-1]
-        k = bisect.bisect_left(self.stamps, stamp)
-        if k < len(self.stamps) and self.stamps[k] == stamp:
-            return self.transforms[k]
+        for end in (-1, 0):
+            if stamp == self.stamps[end]:
+                return self.transforms[end]
+        k = bisect.bisect_right(self.stamps, stamp)
         if k == 0 or k == len(self.stamps):
             return None
+        # Where a stamp is met exactly, tf2 takes a share of 0 of the next one, which rounds.
         before, after = self.stamps[k - 1], self.stamps[k]
-        return _between(self.transforms[k - 1], self.transforms[k], (stamp - before) / (after - before))
+        share = seconds(stamp - before) / seconds(after - before)
+        return _between(self.transforms[k - 1], self.transforms[k], share)
 
 
 class Transforms:
@@ -167,7 +197,10 @@ class Transforms:
         from_target = self._climb(down[:down.index(shared)], stamp)
         if to_shared is None or from_target is None:
             return None
-        return to_shared if shared == target else compose(inverse(from_target), to_shared)
+        if shared == target:
+            return to_shared
+        back = inverse(from_target)
+        return back if shared == source else compose(back, to_shared)
 
     def _climb(self, frames: List[str], stamp: Optional[int]) -> Optional[Transform]:
         whole = IDENTITY

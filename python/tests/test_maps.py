@@ -146,8 +146,11 @@ def test_a_map_is_drawn(drive):
 def both(program, log, pose, tmp_path):
     """lines.csv and others of the program and of Python's command, as bytes."""
     for name, command in ("program", [program]), ("python", [sys.executable, "-m", "cca_mrpt"]):
-        subprocess.run([*command, "map", str(log), "--pose", pose, "--out", str(tmp_path / name)], check=True,
-                       capture_output=True)
+        done = subprocess.run([*command, "map", str(log), "--pose", pose, "--out", str(tmp_path / name)],
+                              capture_output=True, text=True)
+        if "built without ROS" in done.stderr:
+            pytest.skip("the program was built without ROS")
+        assert done.returncode == 0, done.stderr
     names = ["lines.csv", "arcs.csv", "lines.geojson", "lines.svg", "lines.dxf", "poses.csv"]
     names += ["graph.g2o", "map.slam"] if pose == "slam" else []
     for name in names:
