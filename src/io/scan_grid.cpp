@@ -3,12 +3,44 @@
 
 #include <algorithm>
 #include <cmath>
-
-#include "cca_mrpt/io/mrpt_scan.hpp"
+#include <limits>
 
 namespace cca {
+namespace {
 
 constexpr float kFirstReach = 5.0F;  // m
+// Probabilities of being free: sure either way, as map_server's files tell them.
+constexpr float kSurelyFree = 0.98F, kSurelyOccupied = 0.02F, kOpen = 0.5F;
+
+float freenessOf(CellState state) {
+  switch (state) {
+    case CellState::kFree:
+      return kSurelyFree;
+    case CellState::kOccupied:
+    case CellState::kPresumedWall:
+      return kSurelyOccupied;
+    default:
+      return kOpen;
+  }
+}
+
+/// The scan up to `longest` m: what returns from beyond is free up to there.
+Scan cutOff(const Scan& scan, double longest) {
+  Scan cut = scan;
+  const bool is_silent_free = scan.free_range_without_return > 0.0;
+  cut.free_range_without_return =
+      is_silent_free ? std::min(longest, scan.free_range_without_return) : longest;
+  for (double& range : cut.ranges) {
+    if (isNoReturn(range) && !is_silent_free) {
+      range = std::numeric_limits<double>::quiet_NaN();
+    } else if (range > longest) {
+      range = std::numeric_limits<double>::infinity();
+    }
+  }
+  return cut;
+}
+
+}  // namespace
 
 ScanGrid::ScanGrid(const Eigen::Vector2d& p_begin) {
   const auto x = static_cast<float>(std::round(p_begin.x())),
@@ -16,8 +48,6 @@ ScanGrid::ScanGrid(const Eigen::Vector2d& p_begin) {
   grid_ = std::make_shared<mrpt::maps::COccupancyGridMap2D>(x - kFirstReach, x + kFirstReach,
                                                             y - kFirstReach, y + kFirstReach,
                                                             static_cast<float>(kResolution));
-  grid_->insertionOptions.considerInvalidRangesAsFreeSpace = false;
-  grid_->insertionOptions.wideningBeamsWithDistance = false;
 }
 
 bool ScanGrid::fits(const Scan& scan) const {
@@ -31,19 +61,22 @@ bool ScanGrid::fits(const Scan& scan) const {
 
 void ScanGrid::insert(const Scan& scan) {
   if (scan.size() < 2 || !fits(scan)) return;
-  const double free_range = scan.free_range_without_return;
-  const double longest = free_range > 0.0 ? std::min(kLongestBeam, free_range) : kLongestBeam;
-  auto observation = toMrpt(scan, {}, longest + 1.0);
-  // A valid beam that reads longer than what is inserted frees its way and marks no obstacle.
-  for (std::size_t beam = 0; beam < scan.size(); ++beam) {
-    if (free_range > 0.0 && isNoReturn(scan.ranges[beam])) {
-      observation.setScanRangeValidity(beam, true);
-    }
+  cells_.insert(cutOff(scan, kLongestBeam));
+  for (const Cell cell : cells_.changed()) show(cell);
+}
+
+void ScanGrid::show(Cell cell) {
+  const Eigen::Vector2f p = cells_.centreOf(cell).cast<float>();
+  if (p.x() < grid_->getXMin() || p.x() > grid_->getXMax() || p.y() < grid_->getYMin() ||
+      p.y() > grid_->getYMax()) {
+    const auto side = static_cast<float>(kResolution);
+    const Eigen::Vector2f low = p - Eigen::Vector2f::Constant(side),
+                          high = p + Eigen::Vector2f::Constant(side);
+    grid_->resizeGrid(std::min(grid_->getXMin(), low.x()), std::max(grid_->getXMax(), high.x()),
+                      std::min(grid_->getYMin(), low.y()), std::max(grid_->getYMax(), high.y()),
+                      kOpen);
   }
-  grid_->insertionOptions.maxDistanceInsertion = static_cast<float>(longest);
-  const Pose2& pose = scan.T_map_sensor;
-  grid_->insertObservation(observation,
-                           mrpt::poses::CPose3D(pose.x, pose.y, 0.0, pose.theta, 0.0, 0.0));
+  grid_->setPos(p.x(), p.y(), freenessOf(cells_.at(cell)));
 }
 
 }  // namespace cca

@@ -26,7 +26,7 @@ void writeOccupancyMap(const std::string& path_without_extension,
 std::shared_ptr<mrpt::maps::COccupancyGridMap2D> readOccupancyMap(const std::string& yaml_path,
                                                                   const Eigen::Vector2d& p_frame);
 
-/// Writes MRPT's own file of the grid (.gridmap.gz), with full probabilities.
+/// Writes MRPT's own file of the grid (.gridmap.gz).
 /// @throws std::runtime_error naming the file and the reason.
 void writeGridMap(const std::string& path, const mrpt::maps::COccupancyGridMap2D& grid);
 

@@ -5,19 +5,22 @@
 
 #include <memory>
 
+#include "cca_mrpt/navigation/place/exploration_grid.hpp"
 #include "cca_mrpt/sensing/scan.hpp"
 
 namespace cca {
 
-/// The occupancy grid that accompanies a line map: scans in MRPT's grid at 5 cm, from 5 m around
-/// where they begin on. Of no use farther than some kilometres from (0, 0): it is kept in floats.
+/// The occupancy grid that accompanies a line map: the grid by which exploration decides, as MRPT
+/// and map files hold it, from 5 m around where the scans begin on. Occupied are also cells of a
+/// wall between two returns; cells between two beams, presumed free, are unknown. Of no use farther
+/// than some kilometres from (0, 0): MRPT keeps its grid in floats.
 class ScanGrid {
  public:
   /// @param p_begin  m: about where the scans begin; within 10 000 km, see localOrigin().
   explicit ScanGrid(const Eigen::Vector2d& p_begin = Eigen::Vector2d::Zero());
 
-  /// Takes a scan at its T_map_sensor. Beams without return free the space up to the scan's
-  /// free_range_without_return, none where that is 0.
+  /// Takes a scan at its T_map_sensor, see ExplorationGrid::insert(). Beams without return free the
+  /// space up to the scan's free_range_without_return, none where that is 0.
   /// Scans that would stretch the grid beyond kMostCells (a broken pose) are left out.
   void insert(const Scan& scan);
 
@@ -33,7 +36,9 @@ class ScanGrid {
 
  private:
   bool fits(const Scan& scan) const;
+  void show(Cell cell);
 
+  ExplorationGrid cells_{kResolution};
   std::shared_ptr<mrpt::maps::COccupancyGridMap2D> grid_;
 };
 
