@@ -9,9 +9,9 @@
 namespace cca {
 namespace {
 
-constexpr double kSamePoint = 2e-4;  // m; files round to half of it
-constexpr double kNearlyParallel = 1e-9;   // sine; beyond it rounding decides where two lines meet
-constexpr double kSpike = -0.9995;   // cosine; a turn by more is a way there and back
+constexpr double kSamePoint = 2e-4;       // m; files round to half of it
+constexpr double kNearlyParallel = 1e-9;  // sine; beyond it rounding decides where two lines meet
+constexpr double kSpike = -0.9995;        // cosine; a turn by more is a way there and back
 
 /// Where two segments cross or touch; nothing of parallel ones.
 std::optional<Eigen::Vector2d> crossing(const Eigen::Vector2d& a0, const Eigen::Vector2d& a1,
