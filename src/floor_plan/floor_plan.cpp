@@ -18,6 +18,7 @@ namespace {
 constexpr int kMargin = 2;                     // cells around what is known
 constexpr double kDoor = 1.4, kOpening = 2.5;  // m, the widest of each kind
 constexpr double kStraightBy = 0.06;           // m, where lines do not make a valid polygon
+constexpr double kOnSide = 0.06;               // m
 constexpr double kSmallestHole = 0.05;         // m^2
 
 std::vector<Passage> candidatePassages(const Structure& structure, const Raster<float>& clearance,
@@ -162,6 +163,29 @@ void numberAll(FloorPlan& plan) {
   }
 }
 
+/// Whether a line is a side of a piece of furniture: its middle lies on one, and it is no longer.
+bool isSideOf(const LineSegment& line, const PlanFurniture& piece) {
+  const Eigen::Vector2d middle = 0.5 * (line.start + line.end);
+  for (std::size_t k = 0; k + 1 < piece.outline.size(); ++k) {
+    const Eigen::Vector2d &a = piece.outline[k], way = piece.outline[k + 1] - a;
+    const double t = std::clamp((middle - a).dot(way) / way.squaredNorm(), 0.0, 1.0);
+    if ((a + t * way - middle).norm() < kOnSide && line.length() < way.norm() + 2.0 * kOnSide)
+      return true;
+  }
+  return false;
+}
+
+/// The lines without those of what leans on walls: these are no walls.
+std::vector<MapLine> withoutLeaning(const std::vector<MapLine>& lines, const FloorPlan& plan) {
+  std::vector<MapLine> walls;
+  std::copy_if(lines.begin(), lines.end(), std::back_inserter(walls), [&](const MapLine& line) {
+    return std::none_of(plan.furniture.begin(), plan.furniture.end(), [&](const PlanFurniture& p) {
+      return p.leans && isSideOf(line.segment, p);
+    });
+  });
+  return walls;
+}
+
 /// The faces of the building: lines of furniture bound no room.
 std::vector<MapLine> facesOf(const Mask& solid, const std::vector<MapLine>& lines) {
   std::vector<MapLine> faces;
@@ -192,7 +216,6 @@ FloorPlan floorPlan(const OccupancyRaster& whole, const std::vector<MapLine>& al
   plan.openings = openingsOf(regions);
   for (std::size_t k = 0; k < regions.labels.values.size(); ++k)
     plan.room_of.values[k] = regions.labels.values[k] + 1;
-  plan.walls = wallsOfLines(structure.solid, lines);
   plan.furniture = freeStanding(structure.furniture);
   plan.rooms.resize(static_cast<std::size_t>(regions.count));
   noteCells(grid, clearance, regions.labels, plan.rooms);
@@ -207,6 +230,8 @@ FloorPlan floorPlan(const OccupancyRaster& whole, const std::vector<MapLine>& al
     room.perimeter = perimeterOf(room.outline, room.holes);
     room.open_border = openBorder(obstacles, regions.labels, borders[k]);
   }
+  std::vector<PlanWall> walls = wallsOfLines(structure.solid, withoutLeaning(lines, plan));
+  plan.walls.insert(plan.walls.begin(), walls.begin(), walls.end());
   numberAll(plan);
   return plan;
 }

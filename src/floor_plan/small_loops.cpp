@@ -9,16 +9,16 @@
 namespace cca {
 namespace {
 
-constexpr double kSamePoint = 2e-4;  // m; files round to half of it
-constexpr double kNeverMeet = 1e-9;  // sine; beyond it rounding decides where two lines meet
-constexpr double kSpike = -0.9995;   // cosine; a turn by more is a way there and back
+constexpr double kSamePoint = 2e-4;       // m; files round to half of it
+constexpr double kNearlyParallel = 1e-9;  // sine; beyond it rounding decides where two lines meet
+constexpr double kSpike = -0.9995;        // cosine; a turn by more is a way there and back
 
 /// Where two segments cross or touch; nothing of parallel ones.
 std::optional<Eigen::Vector2d> crossing(const Eigen::Vector2d& a0, const Eigen::Vector2d& a1,
                                         const Eigen::Vector2d& b0, const Eigen::Vector2d& b1) {
   const Eigen::Vector2d a = a1 - a0, b = b1 - b0;
   const double sine = cross(a, b);
-  if (std::abs(sine) < kNeverMeet * a.norm() * b.norm()) return std::nullopt;
+  if (std::abs(sine) < kNearlyParallel * a.norm() * b.norm()) return std::nullopt;
   const double s = cross(Eigen::Vector2d(b0 - a0), b) / sine;
   const double t = cross(Eigen::Vector2d(b0 - a0), a) / sine;
   if (s < 0.0 || s > 1.0 || t < 0.0 || t > 1.0) return std::nullopt;

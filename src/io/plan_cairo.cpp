@@ -76,7 +76,7 @@ void draw(const std::string& path, cairo_surface_t* surface, const PlanSheet& sh
   throw std::runtime_error(path + ": cannot be drawn: " + cairo_status_to_string(status));
 }
 
-cairo_status_t append(void* text, const unsigned char* bytes, unsigned count) {
+cairo_status_t appendPdf(void* text, const unsigned char* bytes, unsigned count) {
   static_cast<std::string*>(text)->append(reinterpret_cast<const char*>(bytes), count);
   return CAIRO_STATUS_SUCCESS;
 }
@@ -88,7 +88,7 @@ std::string planPdf(const FloorPlan& plan, const std::string& title) {
   std::string pdf;
   {
     const Surface surface(
-        cairo_pdf_surface_create_for_stream(append, &pdf, kPointsPerMm * sheet.width,
+        cairo_pdf_surface_create_for_stream(appendPdf, &pdf, kPointsPerMm * sheet.width,
                                             kPointsPerMm * sheet.height),
         cairo_surface_destroy);
     // No date: the same map gives the same bytes.

@@ -8,17 +8,18 @@
 namespace cca {
 namespace {
 
-constexpr int kRed = 1, kYellow = 2, kGreen = 3, kCyan = 4, kMagenta = 6, kWhite = 7, kGrey = 8;
+constexpr int kAciRed = 1, kAciYellow = 2, kAciGreen = 3, kAciCyan = 4, kAciMagenta = 6,
+              kAciWhite = 7, kAciGrey = 8;
 constexpr double kTextHeight = 0.2;  // m
 
 Dxf planDrawing() {
-  return Dxf({{"A-WALL", kWhite},
-              {"A-WALL-PRSM", kGrey},
-              {"A-DOOR", kRed},
-              {"A-OPNG", kCyan},
-              {"A-AREA", kGreen},
-              {"A-AREA-IDEN", kYellow},
-              {"A-FURN", kMagenta}});
+  return Dxf({{"A-WALL", kAciWhite},
+              {"A-WALL-PRSM", kAciGrey},
+              {"A-DOOR", kAciRed},
+              {"A-OPNG", kAciCyan},
+              {"A-AREA", kAciGreen},
+              {"A-AREA-IDEN", kAciYellow},
+              {"A-FURN", kAciMagenta}});
 }
 
 void addWall(Dxf& dxf, const PlanWall& wall) {

@@ -9,18 +9,18 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-double rounded(double metres) { return std::round(1e4 * metres) / 1e4; }
+double inTenthsOfMm(double metres) { return std::round(1e4 * metres) / 1e4; }
 
-Json point(const Eigen::Vector2d& p) { return {rounded(p.x()), rounded(p.y())}; }
+Json planPoint(const Eigen::Vector2d& p) { return {inTenthsOfMm(p.x()), inTenthsOfMm(p.y())}; }
 
-Json ring(const Polygon& polygon) {
+Json planRing(const Polygon& polygon) {
   Json points = Json::array();
-  for (const auto& p : polygon) points.push_back(point(p));
+  for (const auto& p : polygon) points.push_back(planPoint(p));
   points.push_back(points.front());
   return points;
 }
 
-Json feature(const char* kind, int id, const char* type, Json coordinates) {
+Json planFeature(const char* kind, int id, const char* type, Json coordinates) {
   Json found;
   found["type"] = "Feature";
   found["properties"]["kind"] = kind;
@@ -31,35 +31,35 @@ Json feature(const char* kind, int id, const char* type, Json coordinates) {
 }
 
 Json roomFeature(const PlanRoom& room) {
-  Json rings = Json::array({ring(room.outline)});
-  for (const Polygon& hole : room.holes) rings.push_back(ring(hole));
-  Json found = feature("room", room.id, "Polygon", std::move(rings));
+  Json rings = Json::array({planRing(room.outline)});
+  for (const Polygon& hole : room.holes) rings.push_back(planRing(hole));
+  Json found = planFeature("room", room.id, "Polygon", std::move(rings));
   Json& p = found["properties"];
   p["name"] = room.name;
-  p["area_m2"] = rounded(room.area);
-  p["perimeter_m"] = rounded(room.perimeter);
-  p["unseen_area_m2"] = rounded(room.unseen_area);
-  p["open_border_m"] = rounded(room.open_border);
-  p["label_point"] = point(room.label);
+  p["area_m2"] = inTenthsOfMm(room.area);
+  p["perimeter_m"] = inTenthsOfMm(room.perimeter);
+  p["unseen_area_m2"] = inTenthsOfMm(room.unseen_area);
+  p["open_border_m"] = inTenthsOfMm(room.open_border);
+  p["label_point"] = planPoint(room.label);
   return found;
 }
 
 Json openingFeature(const PlanOpening& opening) {
   const bool is_door = opening.kind == OpeningKind::kDoor;
-  Json found = feature(is_door ? "door" : "opening", opening.id, "LineString",
-                       Json::array({point(opening.a), point(opening.b)}));
+  Json found = planFeature(is_door ? "door" : "opening", opening.id, "LineString",
+                           Json::array({planPoint(opening.a), planPoint(opening.b)}));
   Json& p = found["properties"];
-  p["width_m"] = rounded(opening.width());
+  p["width_m"] = inTenthsOfMm(opening.width());
   p["rooms"] = {opening.rooms[0], opening.rooms[1]};
   if (!is_door) p["type"] = opening.kind == OpeningKind::kPassage ? "passage" : "wide";
   return found;
 }
 
 Json wallFeature(const PlanWall& wall) {
-  Json found =
-      feature("wall", wall.id, "LineString", Json::array({point(wall.start), point(wall.end)}));
+  Json found = planFeature("wall", wall.id, "LineString",
+                           Json::array({planPoint(wall.start), planPoint(wall.end)}));
   Json& p = found["properties"];
-  p["thickness_m"] = wall.thickness > 0.0 ? Json(rounded(wall.thickness)) : Json(nullptr);
+  p["thickness_m"] = wall.thickness > 0.0 ? Json(inTenthsOfMm(wall.thickness)) : Json(nullptr);
   p["faces"] = wall.is_presumed ? 0 : wall.right.empty() ? 1 : 2;
   p["left_line_ids"] = wall.left;
   p["right_line_ids"] = wall.right;
@@ -68,7 +68,8 @@ Json wallFeature(const PlanWall& wall) {
 }
 
 Json furnitureFeature(const PlanFurniture& piece) {
-  Json found = feature("furniture", piece.id, "Polygon", Json::array({ring(piece.outline)}));
+  Json found =
+      planFeature("furniture", piece.id, "Polygon", Json::array({planRing(piece.outline)}));
   Json& p = found["properties"];
   p["leaning"] = piece.leans;
   p["room"] = piece.room ? Json(piece.room) : Json(nullptr);

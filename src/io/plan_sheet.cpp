@@ -11,14 +11,16 @@
 namespace cca {
 namespace {
 
-constexpr double kMargin = 10.0, kHeader = 15.0, kFooter = 12.0, kDimensions = 9.0;  // mm
+constexpr double kSheetMargin = 10.0, kSheetHeader = 15.0, kSheetFooter = 12.0,
+                 kDimensions = 9.0;        // mm
 constexpr double kLargestSide = 820.0;     // mm, of A1 with its margins
 constexpr double kNarrowestSheet = 190.0;  // mm, for title and legend
 constexpr double kFaceStroke = 0.45, kThin = 0.15, kOpeningStroke = 0.35;  // mm
 constexpr double kSmallestText = 1.3, kLargestText = 3.4, kCaption = 2.6;  // mm
 constexpr double kRectangular = 0.93;  // share of its box that a room fills whose sides are told
 
-constexpr Colour kInk{0.13, 0.15, 0.18}, kSoftInk{0.40, 0.44, 0.48}, kDoorInk{0.76, 0.30, 0.11};
+constexpr Colour kPlanInk{0.13, 0.15, 0.18}, kPlanSoftInk{0.40, 0.44, 0.48},
+    kDoorInk{0.76, 0.30, 0.11};
 constexpr Colour kOpeningInk{0.16, 0.42, 0.62}, kFurnitureFill{0.80, 0.79, 0.77};
 constexpr Colour kFurnitureInk{0.55, 0.54, 0.52};
 /// Pale enough for text, and unlike their neighbours in the list.
@@ -31,7 +33,7 @@ constexpr std::array<Colour, 8> kRoomFills{{{0.87, 0.92, 0.97},
                                             {0.98, 0.90, 0.80},
                                             {0.93, 0.94, 0.80}}};
 
-std::string number(const char* format, double value) {
+std::string formatted(const char* format, double value) {
   char text[64];
   std::snprintf(text, sizeof text, format, value);
   return text;
@@ -68,7 +70,7 @@ std::string sidesOf(const PlanRoom& room) {
   for (const auto& p : room.outline) box.extend(Eigen::Vector2d(along.dot(p), cross(along, p)));
   const Eigen::Vector2d sides = box.sizes();
   if (!room.holes.empty() || room.area < kRectangular * sides.prod()) return {};
-  return number("%.2f", sides.maxCoeff()) + " × " + number("%.2f m", sides.minCoeff());
+  return formatted("%.2f", sides.maxCoeff()) + " × " + formatted("%.2f m", sides.minCoeff());
 }
 
 /// Colours so that rooms that open into each other differ, as far as eight go.
@@ -98,10 +100,10 @@ class Layout {
     sheet_.scale = scaleFor(box.sizes());
     mm_per_metre_ = 1000.0 / sheet_.scale;
     const Eigen::Vector2d size = mm_per_metre_ * box.sizes();
-    sheet_.width = std::max(kNarrowestSheet, size.x() + 2.0 * kMargin + kDimensions);
-    sheet_.height = size.y() + 2.0 * kMargin + kHeader + kFooter + kDimensions;
+    sheet_.width = std::max(kNarrowestSheet, size.x() + 2.0 * kSheetMargin + kDimensions);
+    sheet_.height = size.y() + 2.0 * kSheetMargin + kSheetHeader + kSheetFooter + kDimensions;
     corner_ = {box.min().x(), box.max().y()};
-    offset_ = {0.5 * (sheet_.width - size.x() + kDimensions), kHeader + kMargin};
+    offset_ = {0.5 * (sheet_.width - size.x() + kDimensions), kSheetHeader + kSheetMargin};
     SheetShape paper;
     paper.rings = {{{0, 0}, {sheet_.width, 0}, {sheet_.width, sheet_.height}, {0, sheet_.height}}};
     paper.fill = {1, 1, 1};
@@ -160,10 +162,10 @@ class Layout {
       shape.rings.push_back(paper(room.outline));
       for (const Polygon& hole : room.holes) shape.rings.push_back(paper(hole));
       shape.fill = kRoomFills[colours[k]];
-      shape.title = nameOf(room) + ", " + number("%.2f m², ", room.area) +
-                    number("perimeter %.2f m", room.perimeter);
+      shape.title = nameOf(room) + ", " + formatted("%.2f m², ", room.area) +
+                    formatted("perimeter %.2f m", room.perimeter);
       if (room.open_border > 0.5)
-        shape.title += number(", %.1f m of its border not seen", room.open_border);
+        shape.title += formatted(", %.1f m of its border not seen", room.open_border);
       add(std::move(shape));
     }
   }
@@ -186,21 +188,21 @@ class Layout {
       const Eigen::Vector2d along = (wall.end - wall.start).normalized();
       const Eigen::Vector2d left(-along.y(), along.x());
       if (wall.is_presumed) {
-        line(paper(wall.start), paper(wall.end), kInk, kOpeningStroke).is_dashed = true;
+        line(paper(wall.start), paper(wall.end), kPlanInk, kOpeningStroke).is_dashed = true;
         continue;
       }
       if (wall.thickness <= 0.0) {
         // The face itself is the inner border of its stroke.
         const Eigen::Vector2d outwards = -0.5 * kFaceStroke / mm_per_metre_ * left;
-        line(paper(wall.start + outwards), paper(wall.end + outwards), kInk, kFaceStroke);
+        line(paper(wall.start + outwards), paper(wall.end + outwards), kPlanInk, kFaceStroke);
         continue;
       }
       const Eigen::Vector2d half = 0.5 * wall.thickness * left;
       SheetShape shape;
       shape.rings = {
           paper(Polygon{wall.start + half, wall.end + half, wall.end - half, wall.start - half})};
-      shape.fill = kInk;
-      shape.title = number("wall, %.3f m thick", wall.thickness);
+      shape.fill = kPlanInk;
+      shape.title = formatted("wall, %.3f m thick", wall.thickness);
       add(std::move(shape));
     }
   }
@@ -211,11 +213,12 @@ class Layout {
       const Colour& colour = is_door ? kDoorInk : kOpeningInk;
       SheetShape& drawn = line(paper(opening.a), paper(opening.b), colour, kOpeningStroke);
       drawn.is_dashed = !is_door;
-      drawn.title = std::string(is_door ? "door" : "opening") + number(", %.2f m", opening.width());
+      drawn.title =
+          std::string(is_door ? "door" : "opening") + formatted(", %.2f m", opening.width());
       const Eigen::Vector2d way = paper(opening.b) - paper(opening.a);
       const Eigen::Vector2d across = Eigen::Vector2d(-way.y(), way.x()).normalized();
       const Eigen::Vector2d middle = 0.5 * (paper(opening.a) + paper(opening.b));
-      text(middle + 2.1 * across, kSmallestText, colour, number("%.2f", opening.width()));
+      text(middle + 2.1 * across, kSmallestText, colour, formatted("%.2f", opening.width()));
     }
   }
 
@@ -226,27 +229,27 @@ class Layout {
       const std::string sides = sidesOf(room);
       const Eigen::Vector2d p = paper(room.label);
       const double up = sides.empty() ? 0.2 : 0.85;
-      text(p - Eigen::Vector2d(0, up * size), size, kInk, nameOf(room)).is_bold = true;
-      text(p + Eigen::Vector2d(0, (1.25 - up) * size), 0.9 * size, kInk,
-           number("%.2f m²", room.area));
+      text(p - Eigen::Vector2d(0, up * size), size, kPlanInk, nameOf(room)).is_bold = true;
+      text(p + Eigen::Vector2d(0, (1.25 - up) * size), 0.9 * size, kPlanInk,
+           formatted("%.2f m²", room.area));
       if (!sides.empty())
-        text(p + Eigen::Vector2d(0, (2.4 - up) * size), 0.75 * size, kSoftInk, sides);
+        text(p + Eigen::Vector2d(0, (2.4 - up) * size), 0.75 * size, kPlanSoftInk, sides);
     }
   }
 
   void drawDimensions(const Eigen::AlignedBox2d& box) {
     const Eigen::Vector2d low = paper(box.min()), high = paper(box.max());
     const double y = low.y() + 6.0, x = low.x() - 6.0;
-    dimension({low.x(), y}, {high.x(), y}, {0, -1.6}, number("%.2f m", box.sizes().x()));
-    dimension({x, low.y()}, {x, high.y()}, {-1.0, 0}, number("%.2f m", box.sizes().y()));
+    dimension({low.x(), y}, {high.x(), y}, {0, -1.6}, formatted("%.2f m", box.sizes().x()));
+    dimension({x, low.y()}, {x, high.y()}, {-1.0, 0}, formatted("%.2f m", box.sizes().y()));
   }
 
   void dimension(const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Eigen::Vector2d& off,
                  const std::string& length) {
     const Eigen::Vector2d way = (b - a).normalized(), tick(-1.2 * way.y(), 1.2 * way.x());
-    line(a, b, kSoftInk, kThin);
-    for (const Eigen::Vector2d& end : {a, b}) line(end - tick, end + tick, kSoftInk, kThin);
-    text(0.5 * (a + b) + off, kCaption, kSoftInk, length);
+    line(a, b, kPlanSoftInk, kThin);
+    for (const Eigen::Vector2d& end : {a, b}) line(end - tick, end + tick, kPlanSoftInk, kThin);
+    text(0.5 * (a + b) + off, kCaption, kPlanSoftInk, length);
   }
 
   void drawHeader(const std::string& title) {
@@ -254,25 +257,26 @@ class Layout {
     int doors = 0;
     for (const PlanRoom& room : plan_.rooms) area += room.area;
     for (const PlanOpening& opening : plan_.openings) doors += opening.kind == OpeningKind::kDoor;
-    SheetShape& name = text({kMargin, kMargin + 2.0}, 4.6, kInk, title);
+    SheetShape& name = text({kSheetMargin, kSheetMargin + 2.0}, 4.6, kPlanInk, title);
     name.is_bold = name.is_left_aligned = true;
     char numbers[160];
     std::snprintf(numbers, sizeof numbers,
                   "%zu rooms, %.1f m² of floor, %d doors, %zu other openings; 1 : %d; metres",
                   plan_.rooms.size(), area, doors,
                   plan_.openings.size() - static_cast<std::size_t>(doors), sheet_.scale);
-    text({kMargin, kMargin + 6.5}, kCaption, kSoftInk, numbers).is_left_aligned = true;
+    text({kSheetMargin, kSheetMargin + 6.5}, kCaption, kPlanSoftInk, numbers).is_left_aligned =
+        true;
   }
 
   void drawLegend() {
-    const double y = sheet_.height - kFooter + 3.0;
-    double x = kMargin;
+    const double y = sheet_.height - kSheetFooter + 3.0;
+    double x = kSheetMargin;
     const auto entry = [&](SheetShape sample, const char* meaning, double width) {
       for (auto& ring : sample.rings) {
         for (auto& p : ring) p = Eigen::Vector2d(x, y) + p;
       }
       add(std::move(sample));
-      text({x + 9.0, y + 0.9}, kCaption, kSoftInk, meaning).is_left_aligned = true;
+      text({x + 9.0, y + 0.9}, kCaption, kPlanSoftInk, meaning).is_left_aligned = true;
       x += width;
     };
     const auto box = [](const Colour& fill, double thick) {
@@ -290,17 +294,18 @@ class Layout {
       shape.is_dashed = is_dashed;
       return shape;
     };
-    entry(box(kInk, 1.0), "wall", 21);
-    entry(stroke(kInk, false, kFaceStroke), "one face seen", 34);
-    entry(stroke(kInk, true, kOpeningStroke), "presumed", 28);
+    entry(box(kPlanInk, 1.0), "wall", 21);
+    entry(stroke(kPlanInk, false, kFaceStroke), "one face seen", 34);
+    entry(stroke(kPlanInk, true, kOpeningStroke), "presumed", 28);
     entry(stroke(kDoorInk, false, kOpeningStroke), "door", 21);
     entry(stroke(kOpeningInk, true, kOpeningStroke), "opening", 26);
     entry(box(kFurnitureFill, 1.0), "furniture", 28);
     const double metres = sheet_.scale <= 100 ? 1.0 : sheet_.scale <= 500 ? 5.0 : 50.0;
-    entry(stroke(kInk, false, kFaceStroke), "", 0.0);
+    entry(stroke(kPlanInk, false, kFaceStroke), "", 0.0);
     sheet_.shapes.pop_back();
     sheet_.shapes.back().rings = {{{x, y}, {x + metres * mm_per_metre_, y}}};
-    text({x + metres * mm_per_metre_ + 2.0, y + 0.9}, kCaption, kSoftInk, number("%g m", metres))
+    text({x + metres * mm_per_metre_ + 2.0, y + 0.9}, kCaption, kPlanSoftInk,
+         formatted("%g m", metres))
         .is_left_aligned = true;
   }
 

@@ -17,7 +17,7 @@ std::string inSvg(const Colour& colour) {
   return text;
 }
 
-std::string number(double value) {
+std::string decimal(double value) {
   char text[32];
   std::snprintf(text, sizeof text, "%.3f", value);
   return text;
@@ -42,8 +42,8 @@ std::string escaped(const std::string& text) {
 
 std::string textElement(const SheetShape& shape) {
   const Eigen::Vector2d& p = shape.rings.front().front();
-  return "<text x=\"" + number(p.x()) + "\" y=\"" + number(p.y()) + "\" font-size=\"" +
-         number(shape.text_size) + "\" fill=\"" + inSvg(shape.fill) + "\"" +
+  return "<text x=\"" + decimal(p.x()) + "\" y=\"" + decimal(p.y()) + "\" font-size=\"" +
+         decimal(shape.text_size) + "\" fill=\"" + inSvg(shape.fill) + "\"" +
          (shape.is_bold ? " font-weight=\"bold\"" : "") +
          (shape.is_left_aligned ? "" : " text-anchor=\"middle\"") + ">" + escaped(shape.text) +
          "</text>\n";
@@ -53,14 +53,14 @@ std::string pathElement(const SheetShape& shape) {
   std::string d;
   for (const Polygon& ring : shape.rings) {
     for (std::size_t k = 0; k < ring.size(); ++k)
-      d += (k ? "L" : "M") + number(ring[k].x()) + " " + number(ring[k].y());
+      d += (k ? "L" : "M") + decimal(ring[k].x()) + " " + decimal(ring[k].y());
     if (shape.is_closed) d += "Z";
   }
   std::string element =
       "<path d=\"" + d + "\" fill=\"" + (shape.is_closed ? inSvg(shape.fill) : "none") + "\"";
   if (shape.stroke_width > 0.0) {
     element += " stroke=\"" + inSvg(shape.stroke) + "\" stroke-width=\"" +
-               number(shape.stroke_width) + "\"";
+               decimal(shape.stroke_width) + "\"";
   }
   if (shape.is_dashed) element += " stroke-dasharray=\"1.2 0.8\"";
   if (shape.title.empty()) return element + "/>\n";
@@ -71,7 +71,7 @@ std::string pathElement(const SheetShape& shape) {
 
 std::string planSvg(const FloorPlan& plan, const std::string& title) {
   const PlanSheet sheet = layOutPlan(plan, title);
-  const std::string width = number(sheet.width), height = number(sheet.height);
+  const std::string width = decimal(sheet.width), height = decimal(sheet.height);
   std::string svg = "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"" + width +
                     "mm\" height=\"" + height + "mm\" viewBox=\"0 0 " + width + " " + height +
                     "\" font-family=\"sans-serif\" fill-rule=\"evenodd\">\n";
