@@ -37,11 +37,22 @@ constexpr double kDoubtful = 0.6, kClearlyBetter = 0.2, kVague = 1e-3;
 constexpr double kUnlike = 0.25, kUsualShare = 0.05;
 /// One that is taken for turned agrees where it is found about as well as those of late.
 constexpr double kNearlyUsual = 0.1;
+/// A place elsewhere has at least this share of the returns in common with earlier scans that the
+/// place here has: one that hides from them agrees with everything.
+constexpr double kLeastInCommonElsewhere = 0.5;
 /// What has less in common with what was seen before, for each return, contradicts nothing.
 constexpr double kLeastInCommon = 0.1;
-/// So many in a row, over so much way [m] or so many without any: the robot is lost.
+/// Contradicting scans in a row after which the robot is lost, once it has driven so far; and the
+/// number without any motion, some seconds.
 constexpr int kLostScans = 3, kLostStanding = 50;
-constexpr double kLostWay = 1.0;
+constexpr double kLostWay = 1.0;  // m; turns on the spot among people contradict, too
+/// m; a jump is believed after so much way, or this share of what it claims, whatever is more: a
+/// robot that nods on braking sees the floor for a third of a metre. A turn on the spot shows
+/// nothing new.
+constexpr double kLeastWay = 0.5, kWayOfClaim = 0.25;
+
+/// m^2, rad^2; variance of the wheels' edge over a jump, the size of the search for it.
+constexpr double kUnknownJump = 1.0;
 
 /// Cells of the likelihood pyramid that a search looks up in one scan: some 5 ms. Of a lost robot
 /// in an office it takes five to ten times as many, and a key frame at walking pace as many scans.
@@ -53,6 +64,11 @@ constexpr int kSettleAfter = 15, kSettleShare = 10;
 /// The past has been corrected where a pose of it has moved by this since the last time [m]: about
 /// what the maps made from it can tell.
 constexpr double kCorrection = 0.05;
+
+/// Length [m] of a motion; a turn by which a key frame is due counts as the way by which one is.
+double lengthOf(const Pose2& step) {
+  return step.position().norm() + kFrameDistance / kFrameTurn * std::abs(step.theta);
+}
 
 Eigen::Matrix3d turned(const Eigen::Matrix3d& matrix, double angle) {
   Eigen::Matrix3d R = Eigen::Matrix3d::Identity();
@@ -66,6 +82,15 @@ Eigen::Matrix3d carried(const Eigen::Matrix3d& covariance, const Eigen::Vector2d
   J(0, 2) = -arm.y();
   J(1, 2) = arm.x();
   return J * covariance * J.transpose();
+}
+
+/// Both ways: a return behind the wall that stood there contradicts by what it saw through.
+SightCount mutualSights(const ScanSurface& reference, const ScanSurface& query,
+                        const Pose2& T_reference_query) {
+  SightCount sights = compareSights(reference, query, T_reference_query, kAgree);
+  if (query.points.empty()) return sights;  // nothing at all says nothing
+  sights += compareSights(query, reference, T_reference_query.inverse(), kAgree);
+  return sights;
 }
 
 struct Sigmas {
@@ -135,14 +160,10 @@ Slam::Located Slam::located(const ScanSurface& surface, const PoseBelief& prior,
   if (references.size() > kMatched) references.resize(kMatched);
   Located found;
   found.match = matcher_(surface, start, prior, references, reach);
-  // Both ways: a return behind the wall that stood there contradicts by what it saw through.
   SightCount sights;
   for (std::size_t i = 0; i < references.size() && i < kJudges; ++i) {
-    const ScanSurface& reference = *references[i].surface;
-    const Pose2 T_reference_query = references[i].T_map_sensor.inverse() * found.match.T_map_query;
-    sights += compareSights(reference, surface, T_reference_query, kAgree);
-    if (surface.points.empty()) continue;  // nothing at all says nothing
-    sights += compareSights(surface, reference, T_reference_query.inverse(), kAgree);
+    sights += mutualSights(*references[i].surface, surface,
+                           references[i].T_map_sensor.inverse() * found.match.T_map_query);
   }
   found.agreement = sights.agreement();
   found.in_common = 0.5 * (sights.agree + sights.contradict);
@@ -170,22 +191,26 @@ Slam::Located Slam::locatedAbout(const ScanSurface& surface, const PoseBelief& p
   return found;
 }
 
-std::optional<Slam::Located> Slam::foundElsewhere(const ScanSurface& surface,
+/// Goes on with the place that an earlier scan suggested, and takes it when enough scans over
+/// enough way agree there. Without such a place: looks for one around, in all directions.
+/// @return  where the scan is, if the robot is there now.
+std::optional<Slam::Located> Slam::trackElsewhere(const ScanSurface& surface,
                                                   const MotionBelief& motion,
                                                   const PoseBelief& prior, const Located& here) {
-  const std::optional<Elsewhere> before = std::exchange(elsewhere_, std::nullopt);
-  if (before) {
+  const Pose2& T_map_frame = frames_.graph.pose(frames_.size() - 1);
+  if (elsewhere_) {
+    // Wheels that know nothing of the jump know nothing of how it goes on.
     PoseBelief from_there = prior;
-    from_there.mean = before->T_map_sensor * motion.T_before_after;
+    from_there.information *= kVague;
+    from_there.mean = T_map_frame * elsewhere_->T_frame_sensor.back() * motion.T_before_after;
     const Located there = locatedAbout(surface, from_there);
-    const double lead = 0.5 * (before->lead + there.agreement - here.agreement);
-    if (lead > kClearlyBetter && there.agreement > usual_ - kNearlyUsual) {
-      T_map_sensor_ = before->T_map_sensor;
-      passed_.back().T_frame_sensor =
-          frames_.graph.pose(passed_.back().frame).inverse() * T_map_sensor_;
-      passed_.back().is_doubtful = false;
-      return there;
+    if (isClearlyBetter(there, here)) {
+      elsewhere_->T_frame_sensor.push_back(T_map_frame.inverse() * there.match.T_map_query);
+      elsewhere_->way += motion.T_before_after.position().norm();
+      if (isBelieved(*elsewhere_)) return there;
+      return std::nullopt;
     }
+    elsewhere_.reset();
   }
   if (here.agreement >= kDoubtful || surface.points.empty()) return std::nullopt;
   SearchWindow anywhere;
@@ -195,11 +220,40 @@ std::optional<Slam::Located> Slam::foundElsewhere(const ScanSurface& surface,
   PoseBelief vague = prior;
   vague.information *= kVague;
   const Located there = located(surface, vague, searched(surface, anywhere), kFirstReach);
-  const double lead = there.agreement - here.agreement;
-  if (lead > kClearlyBetter && there.agreement > usual_ - kNearlyUsual) {
-    elsewhere_ = Elsewhere{there.match.T_map_query, lead};
-  }
+  if (!isClearlyBetter(there, here)) return std::nullopt;
+  elsewhere_ = Elsewhere{{T_map_frame.inverse() * there.match.T_map_query},
+                         lengthOf(prior.mean.inverse() * there.match.T_map_query)};
   return std::nullopt;
+}
+
+/// Whether a scan agrees about as well as usual there, and clearly better than here.
+bool Slam::isClearlyBetter(const Located& there, const Located& here) const {
+  return there.agreement > here.agreement + kClearlyBetter &&
+         there.agreement > usual_ - kNearlyUsual &&
+         there.in_common > kLeastInCommonElsewhere * here.in_common;
+}
+
+bool Slam::isBelieved(const Elsewhere& elsewhere) {
+  const int scans = static_cast<int>(elsewhere.T_frame_sensor.size());
+  const double enough = std::max(kLeastWay, kWayOfClaim * elsewhere.claim);
+  return scans >= kLostStanding || (scans > 1 && elsewhere.way >= enough);
+}
+
+/// The robot has been elsewhere since the first scan that said so.
+void Slam::moveElsewhere() {
+  const Pose2& T_map_frame = frames_.graph.pose(frames_.size() - 1);
+  const std::size_t earlier = elsewhere_->T_frame_sensor.size() - 1;
+  for (std::size_t k = 0; k < earlier; ++k) {
+    Passed& scan = passed_[passed_.size() - earlier + k];
+    scan.T_frame_sensor = elsewhere_->T_frame_sensor[k];
+    scan.is_doubtful = false;
+  }
+  // The wheels have not seen the jump: what they tell since the last key frame is worth nothing.
+  T_frame_wheels_ = elsewhere_->T_frame_sensor.back();
+  wheels_covariance_ += kUnknownJump * Eigen::Matrix3d::Identity();
+  wheels_tell_ = false;
+  if (earlier > 0) T_map_sensor_ = T_map_frame * elsewhere_->T_frame_sensor[earlier - 1];
+  elsewhere_.reset();
 }
 
 SlamPose Slam::step(const Scan& scan, const Pose2& T_robot_sensor,
@@ -247,23 +301,32 @@ SlamPose Slam::step(const Scan& scan, const Pose2& T_robot_sensor,
   T_frame_wheels_ = T_frame_wheels_ * motion.T_before_after;
   wheels_tell_ = wheels_tell_ && wheel_step;
 
-  if (const auto elsewhere = foundElsewhere(surface, motion, prior, found)) found = *elsewhere;
+  if (const auto elsewhere = trackElsewhere(surface, motion, prior, found)) {
+    found = *elsewhere;
+    moveElsewhere();
+  }
   const MatchResult& match = found.match;
   const Pose2 before = T_map_sensor_;
   const bool is_doubtful =
-      found.agreement < usual_ - kUnlike &&
-      found.in_common > kLeastInCommon * static_cast<double>(surface.points.size());
-  const bool is_matched = match.paired > 0.0 && !elsewhere_;
+      elsewhere_ || (found.agreement < usual_ - kUnlike &&
+                     found.in_common > kLeastInCommon * static_cast<double>(surface.points.size()));
+  const bool is_matched = match.paired > 0.0 && !is_doubtful;
   T_map_sensor_ = is_matched ? match.T_map_query : prior.mean;
   covariance_ = is_matched ? match.posterior.inverse().eval() : prior.information.inverse().eval();
-  if (found.in_common > 0.0) usual_ += kUsualShare * (found.agreement - usual_);
+  if (found.in_common > 0.0 && !elsewhere_) {
+    // A scan that contradicts counts by the motion since the last one: a stay of some seconds does
+    // not make contradiction usual.
+    const double scans =
+        is_doubtful ? std::min(1.0, lengthOf(motion.T_before_after) / kFrameDistance) : 1.0;
+    usual_ += kUsualShare * scans * (found.agreement - usual_);
+  }
   if (!is_doubtful) {
     motion_.learn(wheel_step, motion, before.inverse() * T_map_sensor_,
                   turned(covariance_, -before.theta));
   }
 
-  countDoubt(is_doubtful, before.inverse() * T_map_sensor_);
-  if (doubt_.scans >= kLostStanding || (doubt_.scans >= kLostScans && doubt_.way >= kLostWay)) {
+  countDoubt(is_doubtful, motion.T_before_after, surface);
+  if (isLostByDoubt()) {
     startPart(newFrame(scan, T_robot_sensor, std::move(surface)));
   } else if (!is_doubtful && isNewPlace(T_map_sensor_, surface)) {
     const GraphEdge wheels{frames_.size() - 1, frames_.size(), T_frame_wheels_,
@@ -278,6 +341,12 @@ SlamPose Slam::step(const Scan& scan, const Pose2& T_robot_sensor,
   return poseNow(T_robot_sensor, found.agreement);
 }
 
+bool Slam::agreesWithFrame(const ScanSurface& surface, int frame,
+                           const Pose2& T_frame_sensor) const {
+  const ScanSurface& reference = frames_.surfaces[static_cast<std::size_t>(frame)];
+  return mutualSights(reference, surface, T_frame_sensor).agreement() >= usual_ - kUnlike;
+}
+
 SlamPose Slam::poseNow(const Pose2& T_robot_sensor, double agreement) const {
   SlamPose pose;
   pose.T_map_robot = T_map_sensor_ * T_robot_sensor.inverse();
@@ -288,13 +357,18 @@ SlamPose Slam::poseNow(const Pose2& T_robot_sensor, double agreement) const {
   return pose;
 }
 
-void Slam::countDoubt(bool is_doubtful, const Pose2& step) {
+void Slam::countDoubt(bool is_doubtful, const Pose2& step, const ScanSurface& surface) {
   if (!is_doubtful) {
     doubt_ = {};
     return;
   }
-  ++doubt_.scans;
+  doubt_.surfaces.push_back(surface);
   doubt_.way += step.position().norm();
+}
+
+bool Slam::isLostByDoubt() const {
+  const int scans = static_cast<int>(doubt_.surfaces.size());
+  return scans >= kLostStanding || (scans >= kLostScans && doubt_.way >= kLostWay);
 }
 
 int Slam::newFrame(const Scan& scan, const Pose2& T_robot_sensor, ScanSurface surface) {
@@ -411,9 +485,6 @@ void Slam::takeSettled() {
   settlement_.reset();
   const Pose2& after = graph.pose(last);
   T_map_sensor_ = after * (before.inverse() * T_map_sensor_);
-  if (elsewhere_) {
-    elsewhere_->T_map_sensor = after * (before.inverse() * elsewhere_->T_map_sensor);
-  }
   covariance_ = turned(covariance_, after.theta - before.theta);
   if (!closing_.empty()) {
     const bool joins = graph.part(closing_.back().from) != graph.part(closing_.back().to);

@@ -13,13 +13,14 @@ void Slam::startPart(int frame) {
   view_ = {frame};
   loop_closer_.forgetDoubtful();
   elsewhere_.reset();
-  // The scans in doubt were the first that were taken here.
-  for (std::size_t i = passed_.size() - static_cast<std::size_t>(doubt_.scans) + 1;
-       doubt_.scans > 0 && i < passed_.size(); ++i) {
-    Passed& scan = passed_[i];
+  // The scans in doubt were the first that were taken here, where they agree with the last of them.
+  const std::size_t earlier = doubt_.surfaces.empty() ? 0 : doubt_.surfaces.size() - 1;
+  for (std::size_t k = 0; k < earlier; ++k) {
+    Passed& scan = passed_[passed_.size() - earlier + k];
     scan.T_frame_sensor =
         T_map_sensor_.inverse() * frames_.graph.pose(scan.frame) * scan.T_frame_sensor;
     scan.frame = frame;
+    scan.is_doubtful = !agreesWithFrame(doubt_.surfaces[k], frame, scan.T_frame_sensor);
   }
   doubt_ = {};
   if (frame > 0) ++version_;  // what was seen in doubt is nowhere in the map
@@ -115,6 +116,12 @@ std::vector<bool> Slam::isPlaced() const {
     placed.push_back(!scan.is_doubtful && frames_.graph.part(scan.frame) == map_part_);
   }
   return placed;
+}
+
+std::vector<bool> Slam::isSetAside() const {
+  std::vector<bool> set_aside;
+  for (const Passed& scan : passed_) set_aside.push_back(scan.is_doubtful);
+  return set_aside;
 }
 
 std::vector<Pose2> Slam::trajectory() const {

@@ -279,6 +279,80 @@ TEST(Slam, OneScanThatAgreesElsewhereTurnsNothing) {
   EXPECT_LT(worstError(slam.trajectory(), drive.way), 0.3);
 }
 
+/// What a laser sees while the robot nods: a floor that begins so far ahead.
+Scan nodding(Scan scan, double floor) {
+  for (std::size_t k = 0; k < scan.size(); ++k) {
+    const double ahead = std::cos(scan.bearing(k));
+    if (ahead > 0.1) scan.ranges[k] = std::min(scan.ranges[k], floor / ahead);
+  }
+  return scan;
+}
+
+TEST(Slam, TheFloorThatANoddingRobotSeesMovesNothingAndIsSetAside) {
+  const std::vector<double> floor{3.0, 1.4, 1.05, 1.0, 1.0, 1.3};  // m, scan by scan
+  for (const double noise : {0.005, 0.01, 0.02}) {
+    Drive drive(1.2 * M_PI, 0.05);
+    for (std::size_t k = 0; k < drive.way.size(); ++k) {
+      drive.scans[k] = drive.world.scan(drive.way[k], 157, 1.2 * M_PI, noise, 20.0);
+    }
+    const std::vector<std::size_t> brakes{150, 400, 700, 1000};
+    for (const std::size_t begin : brakes) {
+      for (std::size_t i = 0; i < floor.size(); ++i) {
+        drive.scans[begin + i] = nodding(drive.scans[begin + i], floor[i]);
+      }
+    }
+    Slam slam(drive.way.front());
+    for (std::size_t k = 0; k < drive.way.size(); ++k) {
+      slam.step(drive.scans[k], {}, drive.wheels[k]);
+      EXPECT_FALSE(slam.isLost()) << k;
+    }
+    slam.finish();
+    EXPECT_LT(worstError(slam.trajectory(), drive.way), 0.1) << noise;
+    const std::vector<bool> is_set_aside = slam.isSetAside();
+    for (const std::size_t begin : brakes) EXPECT_TRUE(is_set_aside[begin + 3]) << begin;
+    EXPECT_LE(std::count(is_set_aside.begin(), is_set_aside.end(), true), 6 * 4);
+  }
+}
+
+TEST(Slam, ARobotCarriedInsideItsOwnMapIsLostAndFindsItselfThere) {
+  for (const double carried : {2.0, 3.0, 5.0}) {  // m, around the corner, the wheels silent
+    const double step = 0.1;
+    const Drive whole(2.0 * M_PI, step, test::hallWithBlocks(), 12.0);
+    std::vector<Pose2> way, wheels;
+    std::vector<Scan> scans;
+    // Lifted a metre before the corner where the second round begins, set down behind it.
+    const std::size_t lifted = 575, turning = 12;
+    const std::size_t set_down = lifted + turning + static_cast<std::size_t>(carried / step);
+    Pose2 T_odom_robot = whole.wheels.front();
+    for (std::size_t k = 0; k < whole.way.size(); ++k) {
+      if (k > lifted && k < set_down) continue;
+      if (k > 0 && k != set_down) {
+        T_odom_robot = T_odom_robot * (whole.wheels[k - 1].inverse() * whole.wheels[k]);
+      }
+      way.push_back(whole.way[k]);
+      wheels.push_back(T_odom_robot);
+      scans.push_back(whole.scans[k]);
+    }
+    Slam slam(way.front());
+    std::size_t lost = 0;
+    for (std::size_t k = 0; k < way.size(); ++k) {
+      slam.step(scans[k], {}, wheels[k]);
+      lost += slam.isLost();
+    }
+    slam.finish();
+    // From two metres on one jump takes it there, from farther off the map has to be searched.
+    EXPECT_TRUE(lost > 0 || carried < 3.0) << "else nothing is shown";
+    EXPECT_LT(lost, 50u) << carried;
+    const std::vector<bool> is_placed = slam.isPlaced();
+    EXPECT_LE(std::count(is_placed.begin(), is_placed.end(), false), 12) << carried;
+    const std::vector<Pose2> poses = slam.trajectory();
+    for (std::size_t k = 0; k < way.size(); ++k) {
+      if (!is_placed[k]) continue;
+      EXPECT_LT((poses[k].position() - way[k].position()).norm(), 0.1) << carried << " at " << k;
+    }
+  }
+}
+
 TEST(Slam, WheelsThatCountAlikeForwardsAndBackwardsAreSeenThrough) {
   Drive drive(M_PI, 0.4, test::hallWithBlocks());
   std::vector<std::size_t> order;  // towards a wall, back, and on

@@ -88,6 +88,10 @@ class Slam {
   std::vector<Pose2> trajectory() const;
   /// Of each scan so far, whether its place in the map is known.
   std::vector<bool> isPlaced() const;
+  /// Of each scan so far, whether it was set aside: it contradicts what was seen before and after
+  /// it, as one of the floor does, and has moved nothing. Those of a lost robot that agree with one
+  /// another are not: they are a part of their own.
+  std::vector<bool> isSetAside() const;
   /// Whether that of the last one is.
   bool isLost() const;
 
@@ -117,7 +121,7 @@ class Slam {
   };
   /// Scans that contradict what was seen before, in a row.
   struct Doubt {
-    int scans = 0;
+    std::vector<ScanSurface> surfaces;
     double way = 0.0;  ///< m
   };
   bool isNewPlace(const Pose2& T_map_sensor, const ScanSurface& surface) const;
@@ -129,7 +133,9 @@ class Slam {
   void measureWaysAnew();
   void startPart(int frame);
   SlamPose poseNow(const Pose2& T_robot_sensor, double agreement) const;
-  void countDoubt(bool is_doubtful, const Pose2& step);
+  void countDoubt(bool is_doubtful, const Pose2& step, const ScanSurface& surface);
+  bool isLostByDoubt() const;
+  bool agreesWithFrame(const ScanSurface& surface, int frame, const Pose2& T_frame_sensor) const;
   std::optional<int> soughtPart(int frame) const;
   int largestPart() const;
   void workOnce();
@@ -143,18 +149,21 @@ class Slam {
     double agreement = 0.0;  ///< with the frames in view
     double in_common = 0.0;  ///< sights that these say something of
   };
-  /// Where the last scan was taken, should the next one say so, too: it agrees better there than at
-  /// T_map_sensor_.
+  /// Where the robot is if it has jumped: recent scans agree there, and not here.
   struct Elsewhere {
-    Pose2 T_map_sensor;
-    double lead = 0.0;  ///< by so much
+    std::vector<Pose2> T_frame_sensor;  ///< of each of these scans, on the last key frame
+    double claim = 0.0;                 ///< m, length of the jump
+    double way = 0.0;                   ///< m, driven since
   };
+  static bool isBelieved(const Elsewhere& elsewhere);
+  void moveElsewhere();
   Pose2 searched(const ScanSurface& surface, SearchWindow window) const;
   Located located(const ScanSurface& surface, const PoseBelief& prior, const Pose2& start,
                   double reach) const;
   PoseBelief beliefAfter(const MotionBelief& motion) const;
   Located locatedAbout(const ScanSurface& surface, const PoseBelief& prior) const;
-  std::optional<Located> foundElsewhere(const ScanSurface& surface, const MotionBelief& motion,
+  bool isClearlyBetter(const Located& there, const Located& here) const;
+  std::optional<Located> trackElsewhere(const ScanSurface& surface, const MotionBelief& motion,
                                         const PoseBelief& prior, const Located& here);
 
   Pose2 T_map_start_;
