@@ -68,15 +68,42 @@ void ExplorationRun::mapBeside(std::function<void()> work) {
   });
 }
 
+/// The scan of a real laser is judged and brought to one instant, as that of any robot.
+void ExplorationRun::undistort(Scan& scan) {
+  const LaserParameters& laser = simulation_.parameters().laser;
+  if (laser.sweep == 0.0 && laser.missing == MissingReading::kTold) return;
+  missing_returns_.judge(scan);
+  const Instant &begun = simulation_.sweepBegun(), &scanned = simulation_.scanned();
+  scan = motion_compensation_.undistort(
+      scan, {}, OdometryReading{scanned.T_odom_robot, scanned.time},
+      {OdometryReading{begun.T_odom_robot, begun.time},
+       OdometryReading{simulation_.T_odom_robot(), simulation_.time()}});
+}
+
+/// A scan tells where the robot was in the middle of its sweep; the wheels, how it has gone on.
+Observation ExplorationRun::asOfNow(Observation observation) const {
+  const Instant& scanned = simulation_.scanned();
+  if (scanned.time == simulation_.time()) return observation;
+  observation.T_map_robot =
+      observation.T_map_robot * (scanned.T_odom_robot.inverse() * simulation_.T_odom_robot());
+  observation.time = simulation_.time();
+  return observation;
+}
+
 Action ExplorationRun::step() {
-  const Observation seen = simulation_.observe();
+  Observation seen = simulation_.observe();
   const Clock::time_point start = Clock::now();
-  observation_ = session_.sense(measurementOf(seen, simulation_.T_odom_robot()), seen.velocity);
-  const Action action = session_.decide(observation_);
-  ExplorationRecord::Cycle cycle{
-      simulation_.time(),         simulation_.distance(), simulation_.T_map_robot(),
-      simulation_.T_odom_robot(), observation_,           action.goal,
-      microsecondsSince(start)};
+  undistort(seen.scan);
+  const Instant& scanned = simulation_.scanned();
+  observation_ = session_.sense(measurementOf(seen, scanned.T_odom_robot), seen.velocity);
+  const Action action = session_.decide(asOfNow(observation_));
+  ExplorationRecord::Cycle cycle{scanned.time,
+                                 simulation_.distance(),
+                                 scanned.T_map_robot,
+                                 scanned.T_odom_robot,
+                                 observation_,
+                                 action.goal,
+                                 microsecondsSince(start)};
   std::optional<ReplayMoment> moment;
   if (keepIfMoved(last_moment_, observation_.T_map_robot) ||
       action.status == ExplorationStatus::kFinished) {

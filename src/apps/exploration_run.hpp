@@ -9,6 +9,8 @@
 #include "background_work.hpp"
 #include "cca_mrpt/io/memory_file.hpp"
 #include "cca_mrpt/io/parameters.hpp"
+#include "cca_mrpt/sensing/missing_returns.hpp"
+#include "cca_mrpt/sensing/motion_compensation.hpp"
 #include "cca_mrpt/session/exploration_session.hpp"
 #include "cca_mrpt/simulation/simulation.hpp"
 #include "cca_mrpt/slam/slam_localiser.hpp"
@@ -54,6 +56,8 @@ class ExplorationRun {
 
  private:
   using Clock = std::chrono::steady_clock;
+  void undistort(Scan& scan);
+  Observation asOfNow(Observation observation) const;
   Action step();
   void mapBeside(std::function<void()> work);
   bool hasEnded(const Action& action);
@@ -61,6 +65,8 @@ class ExplorationRun {
   std::string progressText(const Action& action, double metres_left);
 
   Simulation& simulation_;
+  MissingReturns missing_returns_;
+  MotionCompensation motion_compensation_;
   Parameters parameters_;
   ExplorationRecord record_;
   SlamLocaliser* slam_ = nullptr;  ///< the session's, where the poses are line SLAM's

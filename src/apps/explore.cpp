@@ -15,6 +15,7 @@
 #include "cca_mrpt/io/local_frame.hpp"
 #include "cca_mrpt/io/map_products.hpp"
 #include "cca_mrpt/io/memory_file.hpp"
+#include "cca_mrpt/simulation/laser_models.hpp"
 #include "cca_mrpt/simulation/simulation.hpp"
 #include "commands.hpp"
 #include "exploration_run.hpp"
@@ -206,6 +207,12 @@ void addExploreCommand(CLI::App& program) {
   auto parameters = std::make_shared<ParameterOptions>(
       *command, std::vector<std::string>{"run", "mapping", "exploration", "robot", "laser",
                                          "odometry", "icp"});
+  parameters->addPreset("--laser",
+                        "a laser by name: " + laserModelNames() + "; options --laser.* change it",
+                        [](const std::string& name, Parameters& p) {
+                          p.laser = laserModel(name).laser;
+                          p.run.control_period = 1.0 / laserModel(name).rate;
+                        });
   parameters->addAlias("--strategy", "exploration.strategy");
   parameters->addAlias("--seed", "run.seed");
   parameters->addAlias("--pose", "run.pose");

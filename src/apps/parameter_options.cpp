@@ -60,8 +60,21 @@ void ParameterOptions::addAlias(const std::string& option, const std::string& ke
   throw std::logic_error("no parameter " + key);
 }
 
+void ParameterOptions::addPreset(const std::string& option, const std::string& help,
+                                 std::function<void(const std::string&, Parameters&)> apply) {
+  presets_.push_back({command_.add_option(option, help)->expected(1), std::move(apply)});
+}
+
 Parameters ParameterOptions::resolve() const {
   Parameters p;
+  for (const auto& [option, apply] : presets_) {
+    if (!option->count()) continue;
+    try {
+      apply(option->results().front(), p);
+    } catch (const std::runtime_error& error) {
+      throw CLI::ValidationError(option->get_name(), error.what());
+    }
+  }
   try {
     if (config_->count()) loadParameters(config_->results().front(), p);
   } catch (const std::runtime_error& error) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <functional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -25,14 +26,25 @@ class ParameterOptions {
   /// A parameter under another name, e.g. addAlias("--laser-range", "laser.range"); not both.
   void addAlias(const std::string& option, const std::string& key);
 
-  /// Defaults, then the .ini, then the command line.
+  /// An option that names a set of values to begin with, e.g. --laser.
+  /// @param apply  sets them; throws std::runtime_error where there is no such name.
+  void addPreset(const std::string& option, const std::string& help,
+                 std::function<void(const std::string&, Parameters&)> apply);
+
+  /// Defaults, presets, then the .ini, then the command line.
   /// @throws CLI::ValidationError (exit status 2) naming file or option, key, value and range.
   Parameters resolve() const;
 
  private:
   CLI::Option* addOption(const std::string& option, const ParameterField& field);
 
+  struct Preset {
+    CLI::Option* option;
+    std::function<void(const std::string&, Parameters&)> apply;
+  };
+
   CLI::App& command_;
+  std::vector<Preset> presets_;
   CLI::Option* config_ = nullptr;
   std::vector<std::pair<std::string, CLI::Option*>> options_;  // key, option
 };

@@ -28,7 +28,7 @@ struct Message {
   enum Kind : std::uint32_t { kRecord, kEnd, kFailed } kind;
   bool has_time, has_corrected, has_odometry, has_truth;
   std::uint64_t beams, text_length;
-  double progress, time, angle_min, angle_increment, free_range_without_return;
+  double progress, time, angle_min, angle_increment, free_range_without_return, sweep_duration;
   Pose2 T_map_sensor, T_robot_sensor, corrected, odometry, truth;
 };
 
@@ -93,6 +93,7 @@ Message toMessage(const LogRecord& record, double progress) {
   m.time = record.time;
   m.angle_min = record.scan.angle_min;
   m.angle_increment = record.scan.angle_increment;
+  m.sweep_duration = record.scan.sweep_duration;
   m.free_range_without_return = record.scan.free_range_without_return;
   m.T_map_sensor = record.scan.T_map_sensor;
   m.T_robot_sensor = record.T_robot_sensor;
@@ -110,6 +111,7 @@ LogRecord toRecord(const Message& m, std::vector<double> ranges) {
   record.scan.ranges = std::move(ranges);
   record.scan.angle_min = m.angle_min;
   record.scan.angle_increment = m.angle_increment;
+  record.scan.sweep_duration = m.sweep_duration;
   record.scan.free_range_without_return = m.free_range_without_return;
   record.scan.T_map_sensor = m.T_map_sensor;
   record.T_robot_sensor = m.T_robot_sensor;

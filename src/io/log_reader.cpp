@@ -14,6 +14,7 @@
 #include "mrpt_objects.hpp"
 #include "rawlog_reader.hpp"
 #include "truth_file.hpp"
+#include "undistorted_log.hpp"
 #include "unzipped_file.hpp"
 
 namespace cca {
@@ -112,6 +113,8 @@ void addLogKind(LogKind kind) { addedKinds().push_back(std::move(kind)); }
 std::unique_ptr<LogReader> openLog(const std::string& path, const LogHints& hints) {
   auto log = openAsWhatItIs(path, hints);
   if (const auto truth = findTruthFile(path)) log = withTruth(std::move(log), *truth);
+  const auto openAnew = [&] { return openAsWhatItIs(path, hints); };
+  log = undistorted(std::move(log), openAnew, hints.sweep);
   auto first = log->next();
   if (!first) {
     const std::string why = log->warnings();

@@ -12,7 +12,8 @@ namespace {
 
 constexpr double kSmallestSeeingFraction = 0.1;  // below it a laser is covered or broken
 constexpr double kFurthestFuture = 1.0;          // s; clocks of two computers differ by less
-constexpr double kLongWait = 1.0;                // s; no localisation takes as long
+constexpr double kLeastHalf = 0.005, kUsualHalf = 0.05;  // s, of a sweep
+constexpr double kLongWait = 1.0;                        // s; no localisation takes as long
 // Scans that have come, and that wait for tf: a mapper may be seconds behind a bag played 40 times
 // as fast. Who drives has no use for scans of seconds ago.
 constexpr std::uint32_t kQueue = 5000;
@@ -62,6 +63,7 @@ void ScanFeed::startAnewIfClockWasSetBack() {
     transforms_.clear();
     waiting_.clear();
     last_stamps_.clear();
+    motion_compensation_.clear();
     gate_ = PoseGate();
   }
   last_now_ = now;
@@ -147,6 +149,25 @@ void ScanFeed::serve() {
   }
 }
 
+/// At the ends of the sweep, as far as tf has come; of a laser whose driver tells none, a little
+/// before and after.
+OdometryAround ScanFeed::odometryAround(const Waiting& w, const PlacedScan& placed) const {
+  const double told = 0.5 * std::abs(w.scan.sweep_duration);
+  const ros::Duration half(told > kLeastHalf ? told : kUsualHalf);
+  const std::string& fixed = placed.T_odom_robot ? settings_.odom_frame : settings_.fixed_frame;
+  const std::string& source = settings_.robot_frame.empty() ? w.frame : settings_.robot_frame;
+  const auto at = [&](const ros::Time& time) -> std::optional<OdometryReading> {
+    const Transforms& tf = transforms_.transforms();
+    if (!tf.has(fixed, source, time)) return std::nullopt;
+    try {
+      return OdometryReading{tf.lookup(fixed, source, time).pose, time.toSec()};
+    } catch (const std::runtime_error&) {
+      return std::nullopt;
+    }
+  };
+  return {at(w.middle - half), at(w.middle + half)};
+}
+
 void ScanFeed::use(const Waiting& waiting) {
   const double oldest = periods_[waiting.topic].oldest(settings_.oldest);
   if (drives() && (ros::Time::now() - waiting.stamp).toSec() > oldest) return drop("too old");
@@ -166,6 +187,12 @@ void ScanFeed::use(const Waiting& waiting) {
   } catch (const std::runtime_error& error) {
     return drop("no usable transform", error.what());
   }
+  const ScanFault fault = faults_[waiting.frame].check(placed.scan, placed.T_odom_robot);
+  if (fault == ScanFault::kRepeated) return drop("repeated though the wheels went on");
+  if (fault == ScanFault::kMillimetres) {
+    return drop("ranges look like millimetres",
+                "median " + std::to_string(medianReturn(placed.scan)));
+  }
   if (drives()) {
     const auto verdict = gate_.check(placed.T_fixed_robot, waiting.stamp.toSec());
     if (verdict == PoseGate::Verdict::kHeld) return drop("the pose leapt");
@@ -173,6 +200,10 @@ void ScanFeed::use(const Waiting& waiting) {
   }
   last_trouble_.clear();
   missing_returns_[waiting.frame].judge(placed.scan);
+  placed.scan = motion_compensation_[waiting.frame].undistort(
+      placed.scan, placed.T_fixed_robot.inverse() * placed.scan.T_map_sensor,
+      OdometryReading{placed.T_odom_robot.value_or(placed.T_fixed_robot), waiting.middle.toSec()},
+      odometryAround(waiting, placed));
   sink_(placed);
 }
 

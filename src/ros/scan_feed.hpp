@@ -15,7 +15,9 @@
 #include "cca_mrpt/ros/pose_gate.hpp"
 #include "cca_mrpt/ros/scan_placement.hpp"
 #include "cca_mrpt/sensing/missing_returns.hpp"
+#include "cca_mrpt/sensing/motion_compensation.hpp"
 #include "cca_mrpt/sensing/scan.hpp"
+#include "cca_mrpt/sensing/scan_faults.hpp"
 #include "scan_period.hpp"
 #include "transform_feed.hpp"
 
@@ -74,6 +76,7 @@ class ScanFeed {
 
   using Event = ros::MessageEvent<const topic_tools::ShapeShifter>;
 
+  OdometryAround odometryAround(const Waiting& waiting, const PlacedScan& placed) const;
   void receive(const Event& event, std::size_t topic);
   void serve();
   void use(const Waiting& waiting);
@@ -93,9 +96,11 @@ class ScanFeed {
   Sink sink_;
   std::deque<Waiting> waiting_;
   PoseGate gate_;
-  std::map<std::string, MissingReturns> missing_returns_;  ///< of each laser, by its frame
-  std::map<std::string, ros::Time> last_stamps_;           ///< the same
-  std::vector<ScanPeriod> periods_;                        ///< by topic
+  std::map<std::string, MissingReturns> missing_returns_;          ///< of each laser, by its frame
+  std::map<std::string, ScanFaults> faults_;                       ///< the same
+  std::map<std::string, MotionCompensation> motion_compensation_;  ///< the same
+  std::map<std::string, ros::Time> last_stamps_;                   ///< the same
+  std::vector<ScanPeriod> periods_;                                ///< by topic
   ros::Time last_now_;
   std::string last_trouble_;
   std::map<std::string, long> dropped_;

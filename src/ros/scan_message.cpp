@@ -16,6 +16,7 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 /// Drivers round 2 pi / n up and repeat the first beam at the end.
 constexpr double kFullTurn = 2.0 * M_PI + 0.05;
 /// Drivers count one beam too many or too few, round their increment, and turn not quite evenly.
+constexpr double kSlowestLaser = 1.0;  // s, a sweep; drivers are wrong by orders of magnitude
 constexpr double kBeamsOff = 2.5, kShareOff = 0.1;
 
 /// m. No 2-D laser has half of its returns from farther off, and no room is so small that half of
@@ -81,6 +82,12 @@ void checkUnit(const sensor_msgs::LaserScan& m) {
 
 }  // namespace
 
+double sweepDuration(const sensor_msgs::LaserScan& message) {
+  const auto beams = static_cast<double>(message.ranges.size());
+  const double duration = (beams - 1.0) * message.time_increment;
+  return beams >= 2.0 && std::abs(duration) <= kSlowestLaser ? duration : 0.0;
+}
+
 Scan scanFromMessage(const sensor_msgs::LaserScan& message) {
   check(message);
   checkFieldOfView(message);
@@ -88,6 +95,7 @@ Scan scanFromMessage(const sensor_msgs::LaserScan& message) {
   Scan scan;
   scan.angle_min = message.angle_min;
   scan.angle_increment = message.angle_increment;
+  scan.sweep_duration = sweepDuration(message);
   scan.free_range_without_return = std::isfinite(message.range_max) ? message.range_max : 0.0;
   scan.ranges.reserve(message.ranges.size());
   for (const float range : message.ranges) {
@@ -136,9 +144,7 @@ sensor_msgs::LaserScan scanToMessage(const Scan& scan, const LaserLimits& limits
 }
 
 ros::Time sweepMiddle(const sensor_msgs::LaserScan& message) {
-  const auto beams = static_cast<double>(message.ranges.size());
-  if (beams < 2.0 || !std::isfinite(message.time_increment)) return message.header.stamp;
-  return message.header.stamp + ros::Duration(0.5 * (beams - 1.0) * message.time_increment);
+  return message.header.stamp + ros::Duration(0.5 * sweepDuration(message));
 }
 
 double seeingFraction(const Scan& scan) {

@@ -5,6 +5,7 @@
 #include <rosgraph_msgs/Clock.h>
 #include <tf2_msgs/TFMessage.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "cca_mrpt/ros/pose_message.hpp"
@@ -112,12 +113,21 @@ void SimulatedRobot::publishPose() {
 Observation SimulatedRobot::scan() {
   Observation observation = simulation_.observe();
   std_msgs::Header header;
-  header.stamp = now();
+  const LaserParameters& laser = simulation_.parameters().laser;
+  const double sweep = observation.scan.sweep_duration;
+  header.stamp = now() - ros::Duration(sweep);
   header.frame_id = frames_.laser;
-  const LaserLimits limits{0.0, simulation_.parameters().laser.range, scan_period_, 0.0};
+  const LaserLimits limits{0.0, laser.range, scan_period_, sweep / std::max(1, laser.beams - 1)};
   const auto message = scanToMessage(observation.scan, limits, header);
   scans_.publish(message);
-  bag_.write(scans_.getTopic(), header.stamp, message);
+  bag_.write(scans_.getTopic(), now(), message);
+  if (laser.sweep == 0.0 && laser.missing == MissingReading::kTold) return observation;
+  missing_returns_.judge(observation.scan);
+  const Instant &begun = simulation_.sweepBegun(), &scanned = simulation_.scanned();
+  observation.scan = motion_compensation_.undistort(
+      observation.scan, {}, OdometryReading{scanned.T_odom_robot, scanned.time},
+      {OdometryReading{begun.T_odom_robot, begun.time},
+       OdometryReading{simulation_.T_odom_robot(), simulation_.time()}});
   return observation;
 }
 

@@ -6,6 +6,8 @@
 #include <string>
 
 #include "bag_recorder.hpp"
+#include "cca_mrpt/sensing/missing_returns.hpp"
+#include "cca_mrpt/sensing/motion_compensation.hpp"
 #include "cca_mrpt/simulation/simulation.hpp"
 #include "frame_names.hpp"
 
@@ -29,7 +31,8 @@ class SimulatedRobot {
   /// s, what a tick takes.
   double tickPeriod() const { return tick_; }
   bool scanIsDue() const { return ticks_ % ticks_per_scan_ == 0; }
-  /// Takes a scan here and now, and publishes it after the transforms that place it.
+  /// Takes a scan whose sweep ends now, and publishes it after the transforms that place it.
+  /// @return  it as a robot uses it: a real laser's judged and brought to one instant.
   Observation scan();
 
   /// The present moment: from 1 s on with simulated time, else that of the wall's clock at the
@@ -46,6 +49,8 @@ class SimulatedRobot {
   void publishMount();
 
   Simulation simulation_;
+  MissingReturns missing_returns_;
+  MotionCompensation motion_compensation_;
   FrameNames frames_;
   bool has_localisation_;
   ros::Time start_;

@@ -6,6 +6,7 @@
 
 #include <cmath>
 
+#include "cca_mrpt/simulation/laser_models.hpp"
 #include "node_main.hpp"
 #include "pace.hpp"
 #include "private_parameters.hpp"
@@ -28,6 +29,10 @@ Settings readSettings() {
   Settings s;
   PrivateParameters parameters{ros::NodeHandle("~")};
   parameters.text("world", s.simulator.world);
+  std::string model = laserModels().front().name;
+  parameters.text("laser_model", model);
+  s.program.laser = laserModel(model).laser;
+  s.simulator.scan_rate = laserModel(model).rate;
   readParameters(parameters, s.simulator);
   parameters.flag("localisation", s.localisation);
   parameters.text("map_frame", s.frames.map);
@@ -80,7 +85,8 @@ const NodeDescription kNode{
     "  config [] .ini file, read first\n"
     "  start_pose [the world's] X,Y,DEG\n"
     "  speed [1] simulated seconds a second; other than 1 needs /use_sim_time\n"
-    "  scan_rate [10] Hz\n"
+    "  laser_model [ideal] a laser by name: rplidar_a1, urg_04lx, utm_30lx, lds_01, tim_571\n"
+    "  scan_rate [10, or the laser's own] Hz\n"
     "  seed [1] of all that is random\n"
     "  record [] bag to write\n"
     "  localisation [true] tells map -> odom, which is the truth; false: nobody here does\n"

@@ -19,14 +19,35 @@ constexpr double kJoined = 0.2;    // m, between neighbouring returns of a mover
 constexpr double kBody = 0.8;      // m, how far a mover reaches from its suspicious part
 constexpr double kNearby = 0.75;   // m, around a place where a mover was
 constexpr double kStill = 0.05;    // m, beyond the noise: a walker of 0.15 m/s goes farther in kAge
-constexpr double kHeeded = 2.0;    // m; what is farther cannot come before the robot stands
+constexpr double kStampError = 0.01;  // s, between a scan's beams and its pose
+constexpr double kHeeded = 2.0;       // m; what is farther cannot come before the robot stands
+
+// rad/s, of the robot, from one scan to another. A sweep that is undone by wheels that err, and
+// stamps that are not those of the poses, leave bearings wrong by some hundredths of that.
+double turningRate(const Scan& from, double from_time, const Scan& to, double to_time) {
+  const double turn = wrapAngle(to.T_map_sensor.theta - from.T_map_sensor.theta);
+  return to_time > from_time ? std::abs(turn) / (to_time - from_time) : 0.0;
+}
+
+// The same about one of the past scans.
+template <class Pasts, class Past>
+double turningRate(const Pasts& past, const Past& at) {
+  for (std::size_t i = 1; i < past.size(); ++i) {
+    if (&past[i] != &at && !(i == 1 && &past[0] == &at)) continue;
+    return turningRate(past[i - 1].scan, past[i - 1].time, past[i].scan, past[i].time);
+  }
+  return 0.0;
+}
 
 // The shortest free distance that the scan saw around the direction of a point; 0 where unknown.
-double seenAround(const Scan& scan, const Eigen::Vector2d& p_sensor) {
+// @param slack  rad, by which that direction may be wrong.
+double seenAround(const Scan& scan, const Eigen::Vector2d& p_sensor, double slack) {
   const int beam = beamTowards(scan, p_sensor), n = static_cast<int>(scan.size());
-  if (beam < kBeamsAround || beam >= n - kBeamsAround) return 0.0;
+  const double more = std::ceil(slack / std::abs(scan.angle_increment));
+  const int around = kBeamsAround + static_cast<int>(std::min(more, static_cast<double>(n)));
+  if (beam < around || beam >= n - around) return 0.0;
   double least = INFINITY;
-  for (int i = beam - kBeamsAround; i <= beam + kBeamsAround; ++i) {
+  for (int i = beam - around; i <= beam + around; ++i) {
     least = std::min(least, scan.freeRange(static_cast<std::size_t>(i)));
   }
   return least;
@@ -43,8 +64,8 @@ std::vector<Eigen::Vector2d> pointsOf(const Scan& scan) {
 
 // First and last beam of each run of returns of `scan` that lie where `other` saw free space.
 std::vector<std::pair<std::size_t, std::size_t>> runsInFreeSpace(
-    const Scan& scan, const std::vector<Eigen::Vector2d>& points, const Scan& other,
-    double clearly) {
+    const Scan& scan, const std::vector<Eigen::Vector2d>& points, const Scan& other, double clearly,
+    double slack) {
   const auto toOther = transformBy(other.T_map_sensor.inverse());
   std::vector<std::pair<std::size_t, std::size_t>> runs;
   std::size_t length = 0;
@@ -52,7 +73,7 @@ std::vector<std::pair<std::size_t, std::size_t>> runsInFreeSpace(
     bool in_free_space = false;
     if (i < scan.size() && isReturn(scan.ranges[i]) && scan.ranges[i] <= MovingPoints::kFarthest) {
       const Eigen::Vector2d p = toOther(points[i]);
-      in_free_space = p.norm() < seenAround(other, p) - clearly;
+      in_free_space = p.norm() < seenAround(other, p, slack) - clearly;
     }
     const bool goes_on =
         in_free_space && length > 0 && (points[i] - points[i - 1]).norm() < kJoined;
@@ -101,13 +122,19 @@ std::vector<bool> MovingPoints::update(const Scan& scan, double range_sigma, dou
   if (!past_.empty() && past_.front().time < time) {
     const double clearly = kClearly + 4.0 * range_sigma;
     const Past &long_ago = past_.front(), &lately = scanBefore(time - kAge);
+    const double rate = turningRate(past_.back().scan, past_.back().time, scan, time);
+    const auto slack = [&](const Past& earlier) {
+      return kStampError * (rate + turningRate(past_, earlier));
+    };
     for (const Past* earlier : {&long_ago, &lately}) {
-      for (const auto& [first, last] : runsInFreeSpace(scan, points, earlier->scan, clearly)) {
+      for (const auto& [first, last] :
+           runsInFreeSpace(scan, points, earlier->scan, clearly, slack(*earlier))) {
         markBody(points, first, last, moving);
         places_.push_back({points[(first + last) / 2], time});
       }
     }
-    for (const auto& [first, last] : runsInFreeSpace(lately.scan, lately.points, scan, clearly)) {
+    for (const auto& [first, last] :
+         runsInFreeSpace(lately.scan, lately.points, scan, clearly, slack(lately))) {
       places_.push_back({lately.points[(first + last) / 2], time});
     }
   }

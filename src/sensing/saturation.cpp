@@ -5,9 +5,9 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
-#include <vector>
 
 #include "cca_mrpt/sensing/beam.hpp"
+#include "cca_mrpt/sensing/scan_faults.hpp"
 
 namespace cca {
 namespace {
@@ -55,16 +55,6 @@ Top topOf(const Scan& scan, double largest) {
   return top;
 }
 
-double medianReading(const Scan& scan) {
-  std::vector<double> returns;
-  for (const double range : scan.ranges) {
-    if (isReturn(range)) returns.push_back(range);
-  }
-  const auto middle = returns.begin() + static_cast<std::ptrdiff_t>(returns.size() / 2);
-  std::nth_element(returns.begin(), middle, returns.end());
-  return *middle;
-}
-
 }  // namespace
 
 /// What the scan says for its largest reading as a sign of no return.
@@ -74,7 +64,7 @@ int Saturation::scoreOf(const Scan& scan, double largest) {
   const double width = static_cast<double>(top.at) * std::abs(scan.angle_increment);
   if (top.places > kPlaces || width > kWide) return kEstablished;
   if (top.below > 0) return 0;
-  const double median = medianReading(scan);
+  const double median = medianReturn(scan);
   if (std::abs(median - last_median_) < kChange * median) return 0;
   last_median_ = median;
   return 1;

@@ -46,17 +46,55 @@ Simulation::Simulation(World world, const Pose2& T_map_start,
     throw std::runtime_error(world_.name + ": a mover stands at the robot's start");
   }
   record(true);
+  remember();
 }
 
 Observation Simulation::observe() {
+  const double middle = time_ - 0.5 * std::abs(parameters_.laser.sweep);
+  sweep_begun_ = instantAt(2.0 * middle - time_);
+  scanned_ = instantAt(middle);
+  const auto at = [&](double offset) {
+    return LaserPlace{instantAt(middle + offset).T_map_robot, bodiesAt(middle + offset)};
+  };
   Observation observation;
-  observation.scan =
-      sweep(world_, movers_.bodies(), T_map_robot_, parameters_.laser, laser_random_);
-  observation.scan.T_map_sensor = T_map_robot_;
-  observation.T_map_robot = T_map_robot_;
+  observation.scan = sweep(world_, at, parameters_.laser, laser_random_);
+  observation.T_map_robot = scanned_.T_map_robot;
   observation.velocity = odometry_.show(velocity_);
-  observation.time = time_;
+  observation.time = scanned_.time;
   return observation;
+}
+
+void Simulation::remember() {
+  const double sweep = std::abs(parameters_.laser.sweep);
+  if (sweep == 0.0) return;
+  past_.push_back({{time_, T_map_robot_, T_odom_robot()}, movers_.bodies()});
+  while (past_.size() > 1 && past_[1].instant.time < time_ - sweep) past_.pop_front();
+}
+
+/// Between two steps of the integration; the robot stood before the first one.
+Instant Simulation::instantAt(double time) const {
+  if (past_.empty() || time >= time_) return {time_, T_map_robot_, T_odom_robot()};
+  const auto after = std::find_if(past_.begin(), past_.end(),
+                                  [time](const Past& past) { return past.instant.time >= time; });
+  if (after == past_.begin()) {
+    Instant first = after->instant;
+    first.time = time;
+    return first;
+  }
+  const Instant &a = std::prev(after)->instant, &b = after->instant;
+  const double share = (time - a.time) / (b.time - a.time);
+  const auto between = [share](const Pose2& p, const Pose2& q) {
+    return Pose2{p.x + share * (q.x - p.x), p.y + share * (q.y - p.y),
+                 wrapAngle(p.theta + share * wrapAngle(q.theta - p.theta))};
+  };
+  return {time, between(a.T_map_robot, b.T_map_robot), between(a.T_odom_robot, b.T_odom_robot)};
+}
+
+const std::vector<Body>& Simulation::bodiesAt(double time) const {
+  for (const Past& past : past_) {
+    if (past.instant.time >= time) return past.bodies;
+  }
+  return movers_.bodies();
 }
 
 void Simulation::drive(const Velocity& command, double dt) {
@@ -72,6 +110,7 @@ void Simulation::drive(const Velocity& command, double dt) {
     advance(heard(start + dt * (i - 0.5) / steps), dt / steps);
     moveOthers(dt / steps);
     time_ = start + dt * i / steps;
+    remember();
     record(i == steps);
   }
 }

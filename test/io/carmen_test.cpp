@@ -130,7 +130,7 @@ TEST_F(CarmenLog, OdometryOfLogsThatGMappingRewroteIsPutTogetherAgain) {
     const double x = 2.0 * k;  // corrected
     if (k > 0) text += odom(x - 1.5, 5.0) + odom(x - 1.0, 5.0);
     if (k == 0) text += odom(0.0, 0.0);
-    text += flaser(180, 3.0, {x, 5.0, 0.0}, {x, 5.0, 0.0}) + odom(x, 5.0) + "NEFF 30\n";
+    text += flaser(180, 3.0 + 0.1 * k, {x, 5.0, 0.0}, {x, 5.0, 0.0}) + odom(x, 5.0) + "NEFF 30\n";
   }
   const auto records = readAll(write(text));
   ASSERT_EQ(records.size(), 5U);

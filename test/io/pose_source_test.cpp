@@ -121,7 +121,9 @@ TEST(TruthFile, BesideALogIsReadWithIt) {
   const TemporaryFolder folder;
   const std::string path = folder / "run.rawlog";
   RawlogWriter writer(path, 20.0);
-  for (int k = 0; k < 4; ++k) writer.insert(roomScan({}), {}, {0.1 * k, 0, 0}, 100.0 + k);
+  for (int k = 0; k < 4; ++k) {
+    writer.insert(roomScan({0.1 * k, 0, 0}), {}, {0.1 * k, 0, 0}, 100.0 + k);
+  }
   writer.commit();
   std::ofstream(path + ".GT.txt") << "100.5 1 2 3.1\n101.5 3 2 -3.1\n102.5 3 4 0\n";
   const auto log = openLog(path);
@@ -139,7 +141,11 @@ TEST(LogInfo, TellsWhatIsThere) {
   const std::string path = folder / "run.rawlog";
   RawlogWriter writer(path, 20.0);
   const double times[] = {10.0, 10.1, 10.2, 10.2, 10.1, 10.4, 15.0};
-  for (int k = 0; k < 7; ++k) writer.insert(roomScan({}), {0.2, 0, 0}, {0.5 * k, 0, 0}, times[k]);
+  for (int k = 0; k < 7; ++k) {
+    Scan scan = roomScan({});
+    scan.ranges.front() += 0.01 * k;  // a scan that never changes is none
+    writer.insert(scan, {0.2, 0, 0}, {0.5 * k, 0, 0}, times[k]);
+  }
   writer.commit();
   const auto info = inspectLog(*openLog(path));
   EXPECT_EQ(info["scans"], 7);

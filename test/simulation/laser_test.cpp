@@ -4,6 +4,11 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <stdexcept>
+#include <utility>
+#include <vector>
+
+#include "cca_mrpt/simulation/laser_models.hpp"
 
 namespace cca {
 namespace {
@@ -108,6 +113,76 @@ TEST(Laser, SeesDiscsAndBoxesAtTheirSurface) {
   box.T_map_body = {3.0, 1.0, M_PI / 4};  // a corner region: the long side is met obliquely
   EXPECT_NEAR(sweep(room(), {box}, {1.0, 1.0, 0.0}, parameters, random).ranges[0],
               2.0 - 0.2 * std::sqrt(2.0), 1e-12);
+}
+
+TEST(Laser, CastsEachBeamFromWhereItIsByThen) {
+  LaserParameters parameters;
+  parameters.range_noise = 0.0;
+  const std::vector<Body> nobody;
+  const auto at = [&](double time) {
+    return LaserPlace{{1.5 + 0.5 * time, 1.2, 0.2 + 1.3 * time}, nobody};
+  };
+  for (const double swept : {0.2, -0.2}) {
+    parameters.sweep = swept;
+    Random random(1);
+    const Scan scan = sweep(room(), at, parameters, random);
+    EXPECT_EQ(scan.sweep_duration, 0.2);  // the driver knows no sense
+    EXPECT_EQ(scan.T_map_sensor.x, 1.5);
+    for (const std::size_t beam : {0u, 50u, 180u, 300u, 360u}) {
+      const double time = swept * (static_cast<double>(beam) / 360.0 - 0.5);
+      const double bearing = 0.2 + 1.3 * time + scan.bearing(beam);
+      EXPECT_NEAR(scan.ranges[beam], truthInRoom({1.5 + 0.5 * time, 1.2}, bearing), 1e-9) << beam;
+    }
+  }
+}
+
+TEST(Laser, NoiseThatGrowsWithTheRangeIsAShareOfIt) {
+  LaserParameters parameters;
+  parameters.range_noise = 0.0;
+  parameters.range_noise_share = 0.01;
+  Random random(5);
+  double sum_sq = 0.0;
+  for (int i = 0; i < 20; ++i) {
+    const Scan scan = sweep(room(), {}, {1.7, 1.1, 0.2}, parameters, random);
+    for (std::size_t beam = 0; beam < scan.size(); ++beam) {
+      const double truth = truthInRoom({1.7, 1.1}, 0.2 + scan.bearing(beam));
+      sum_sq += std::pow((scan.ranges[beam] - truth) / truth, 2);
+    }
+  }
+  EXPECT_NEAR(std::sqrt(sum_sq / (20.0 * 361.0)), 0.01, 0.0005);
+}
+
+TEST(Laser, WritesMissingReturnsAsItsDriverDoes) {
+  LaserParameters parameters;
+  parameters.range = 2.0;
+  parameters.dropout = 0.1;
+  for (const auto& [missing, reading] :
+       {std::pair(MissingReading::kInfinity, HUGE_VAL), std::pair(MissingReading::kZero, 0.0),
+        std::pair(MissingReading::kRangeMax, 2.0)}) {
+    parameters.missing = missing;
+    Random random(2);
+    const Scan scan = sweep(room(), {}, {0.4, 0.4, 0.0}, parameters, random);
+    long missed = 0, others = 0;
+    for (std::size_t beam = 0; beam < scan.size(); ++beam) {
+      const bool is_missing = scan.ranges[beam] == reading;
+      const double truth = truthInRoom({0.4, 0.4}, scan.bearing(beam));
+      missed += is_missing && truth > 2.1;
+      others += is_missing && truth < 1.9;
+      EXPECT_TRUE(is_missing || truth < 2.1);
+    }
+    EXPECT_GT(missed, 20);
+    EXPECT_GT(others, 10);
+  }
+}
+
+TEST(Laser, ModelsAreKnownByName) {
+  const LaserModel& a1 = laserModel("rplidar_a1");
+  EXPECT_NEAR(a1.laser.sweep, -1.0 / 5.5, 1e-3);
+  EXPECT_EQ(laserModel("ideal").laser.sweep, 0.0);
+  EXPECT_THROW(laserModel("rplidar"), std::runtime_error);
+  for (const LaserModel& model : laserModels()) {
+    EXPECT_LE(std::abs(model.laser.sweep) * model.rate, 1.0) << model.name;
+  }
 }
 
 TEST(Laser, MrptsSimulatorIsSelectableAndLooksLessFar) {

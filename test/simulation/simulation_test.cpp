@@ -28,6 +28,24 @@ TEST(Simulation, StopsAtAWallAndCountsOneCollision) {
   EXPECT_EQ(simulation.collisions(), 2);
 }
 
+TEST(Simulation, AScanOfASweepingLaserIsOfTheTimeBefore) {
+  SimulationParameters parameters;
+  parameters.laser.range_noise = 0.0;
+  parameters.laser.sweep = 0.2;
+  Simulation simulation(room(), {1.0, 2.0, 0.0}, parameters);
+  simulation.drive({0.0, 1.0}, 2.0);
+  const Scan scan = simulation.observe().scan;
+  EXPECT_NEAR(simulation.scanned().time, 1.9, 1e-9);
+  const double rate = simulation.velocity().angular;
+  EXPECT_NEAR(scan.T_map_sensor.theta, simulation.T_map_robot().theta - 0.1 * rate, 1e-6);
+  for (const std::size_t beam : {0u, 100u, 360u}) {
+    const double time = 0.2 * (static_cast<double>(beam) / 360.0 - 1.0);
+    const double bearing = simulation.T_map_robot().theta + time * rate + scan.bearing(beam);
+    EXPECT_NEAR(scan.ranges[beam],
+                castBeam(simulation.world(), scan.T_map_sensor.position(), bearing, 8.0), 1e-6);
+  }
+}
+
 TEST(Simulation, NeverStandsInAWallHoweverItIsDriven) {
   SimulationParameters parameters;
   parameters.robot.max_linear_velocity = 5.0;

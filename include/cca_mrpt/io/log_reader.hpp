@@ -45,14 +45,17 @@ struct LogHints {
   std::string topic = {};       ///< of the laser; empty: the one with most scans
   std::string base_frame = {};  ///< of the robot; empty: as the log's own frames tell it
   std::optional<SensorMount> mount = {};
+  /// s, of each laser, as Scan::sweep_duration; nothing: the scans tell it.
+  std::optional<double> sweep = {};
 
+  /// Whether there are none of those that only a bag can heed.
   bool empty() const { return topic.empty() && base_frame.empty() && !mount; }
 };
 
 /// Opens a log by its content: MRPT .rawlog, .simplemap(.gz), CARMEN .log(.gz), ROS .bag (in builds
 /// with ROS), each also gzipped. A file of true poses beside it (LOG.GT.txt, STEM_GT.txt) is read
-/// with it.
-/// @param hints  for bags only.
+/// with it. Each scan is brought to one instant, see MotionCompensation.
+/// @param hints  all but the sweep for bags only.
 /// @throws std::runtime_error naming the file and the reason; also where it holds no scan, and for
 ///         hints that it cannot heed.
 std::unique_ptr<LogReader> openLog(const std::string& path, const LogHints& hints = {});

@@ -20,7 +20,10 @@ struct Scan {
   /// m; a beam without return is known to be free up to here. 0 where a missing return says
   /// nothing (glass, black cloth, or a log that does not tell).
   double free_range_without_return = 0.0;
-  Pose2 T_map_sensor;
+  /// s, from beam 0 to the last: a laser that turns measures one beam after the other. Negative
+  /// where the last beam was the first in time; 0 where all are of one instant. See undistort().
+  double sweep_duration = 0.0;
+  Pose2 T_map_sensor;  ///< in the middle of the sweep
 
   std::size_t size() const { return ranges.size(); }
   double bearing(std::size_t beam) const {

@@ -26,6 +26,12 @@ struct TimedPose {
   Pose2 T_map_robot;
 };
 
+/// Where the robot was, and believed to be by its wheels.
+struct Instant {
+  double time = 0.0;  ///< s
+  Pose2 T_map_robot, T_odom_robot;
+};
+
 /// A round differential-drive robot with a laser at its centre, in a world.
 ///
 /// The robot never enters an obstacle: contact stops it. Equal worlds, parameters and commands
@@ -38,9 +44,13 @@ class Simulation {
   Simulation(World world, const Pose2& T_map_start, const SimulationParameters& parameters,
              const std::vector<Mover>& movers = {});
 
-  /// A new scan from the true place, with the true pose and the velocity that the odometry shows.
-  /// Each call draws new noise.
+  /// A new scan, whose sweep ends now, with the true pose in its middle and the velocity that the
+  /// odometry shows now. Each call draws new noise.
   Observation observe();
+  /// The middle of the last scan's sweep: now, where it was taken in an instant.
+  const Instant& scanned() const { return scanned_; }
+  /// Its begin; it ended when observe() was called.
+  const Instant& sweepBegun() const { return sweep_begun_; }
 
   /// Drives for dt seconds towards a commanded velocity, within the robot's limits. The base hears
   /// of the command when the robot's latency is over, and drives by the one before until then.
@@ -61,6 +71,14 @@ class Simulation {
   const std::vector<TimedPose>& trajectory() const { return trajectory_; }
 
  private:
+  struct Past {
+    Instant instant;
+    std::vector<Body> bodies;
+  };
+  void remember();
+  Instant instantAt(double time) const;
+  const std::vector<Body>& bodiesAt(double time) const;
+
   struct Sent {
     double time;
     Velocity command;
@@ -81,6 +99,8 @@ class Simulation {
   std::deque<Sent> under_way_;  ///< the first one is what the base acts on
   Odometry odometry_;
   Random laser_random_;
+  std::deque<Past> past_;  ///< of the last sweep, where the laser has one
+  Instant sweep_begun_, scanned_;
   double time_ = 0.0, distance_ = 0.0;
   int collisions_ = 0, mover_contacts_ = 0;
   bool in_contact_ = false;

@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "cca_mrpt/sensing/motion_compensation.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace cca {
+namespace {
+
+constexpr double kLongestGap = 0.5;  // s; the motion in between is not that during the sweep
+constexpr std::size_t kPeriods = 31, kLeastPeriods = 5;
+constexpr double kIrregular = 0.1;  // of the median period, within which half of them have to lie
+constexpr double kShortest = 0.02;  // of the period: below, a driver's duration is nonsense
+constexpr double kLongest = 1.1;    // likewise, above
+constexpr double kSlowestLaser = 1.0;  // s; no sweep lasts longer
+constexpr double kOther = 0.1;  // of a duration: another one is another question to identification
+
+bool follows(const OdometryReading& before, const OdometryReading& after) {
+  return after.time > before.time && after.time - before.time <= kLongestGap;
+}
+
+Twist twistBetween(const OdometryReading& before, const OdometryReading& after) {
+  return twistBetween(before.T_odom_robot, after.T_odom_robot, after.time - before.time);
+}
+
+/// The mean twist from one time to another, by the last three readings: constant acceleration; none
+/// of a single one.
+Twist meanTwist(const std::vector<OdometryReading>& readings, double from, double to) {
+  const std::size_t n = readings.size();
+  if (n < 2) return {};
+  const OdometryReading &b = readings[n - 2], &c = readings[n - 1];
+  const Twist last = twistBetween(b, c);
+  if (n < 3) return last;
+  const OdometryReading& a = readings[n - 3];
+  const Twist first = twistBetween(a, b);
+  // Each is that of the middle of its interval.
+  const double share = (0.5 * (from + to) - 0.5 * (a.time + b.time)) / (0.5 * (c.time - a.time));
+  return {first.linear + share * (last.linear - first.linear),
+          first.angular + share * (last.angular - first.angular)};
+}
+
+}  // namespace
+
+Scan MotionCompensation::undistort(const Scan& scan, const Pose2& T_robot_sensor,
+                                   const std::optional<OdometryReading>& now,
+                                   const OdometryAround& around) {
+  if (!now || (!taken_.empty() && !follows(taken_.back().odometry, *now))) taken_.clear();
+  Scan swept = scan;
+  swept.sweep_duration = duration_ = 0.0;
+  if (!now || scan.size() < 2) return swept;
+  if (!taken_.empty()) periods_.push_back(now->time - taken_.back().odometry.time);
+  if (periods_.size() > kPeriods) periods_.pop_front();
+  const double duration = told_ ? std::abs(*told_) : candidate(scan);
+  const Taken taken{scan, T_robot_sensor, *now, duration};
+  if (!told_) identify(taken);
+  taken_.push_back(taken);
+  if (taken_.size() > 3) taken_.pop_front();
+  swept.sweep_duration = duration_ = told_ ? *told_ : signedDuration(scan, duration);
+  std::vector<OdometryReading> readings;
+  for (const Taken& last : taken_) readings.push_back(last.odometry);
+  if (around.before && follows(*around.before, *now)) readings = {*around.before, *now};
+  if (around.after && follows(*now, *around.after)) readings.push_back(*around.after);
+  const double half = 0.5 * std::abs(duration_);
+  return cca::undistort(
+      swept, sensorTwist(meanTwist(readings, now->time - half, now->time), T_robot_sensor),
+      sensorTwist(meanTwist(readings, now->time, now->time + half), T_robot_sensor));
+}
+
+bool MotionCompensation::isLearning() const {
+  if (told_ || taken_.empty() || !(taken_.back().candidate > 0.0)) return false;
+  return !identification_.isSettled();
+}
+
+/// s, between the scans; nothing where they come as the robot moves, or too few have come.
+std::optional<double> MotionCompensation::period() const {
+  if (periods_.size() < kLeastPeriods) return std::nullopt;
+  std::vector<double> sorted(periods_.begin(), periods_.end());
+  std::sort(sorted.begin(), sorted.end());
+  const double median = sorted[sorted.size() / 2];
+  const auto regular = std::count_if(sorted.begin(), sorted.end(), [median](double period) {
+    return std::abs(period - median) < kIrregular * median;
+  });
+  if (2 * static_cast<std::size_t>(regular) < sorted.size()) return std::nullopt;
+  return median;
+}
+
+/// s, how long the sweep would be if it is one; 0 where nothing tells.
+double MotionCompensation::candidate(const Scan& scan) const {
+  const double told = std::abs(scan.sweep_duration);
+  const auto period = this->period();
+  const bool is_plausible = told > 0.0 && told <= (period ? kLongest * *period : kSlowestLaser) &&
+                            (!period || told >= kShortest * *period);
+  if (is_plausible) return told;
+  const double field_of_view =
+      static_cast<double>(scan.size() - 1) * std::abs(scan.angle_increment);
+  return period ? *period * std::min(1.0, field_of_view / (2.0 * M_PI)) : 0.0;
+}
+
+double MotionCompensation::signedDuration(const Scan& scan, double candidate) const {
+  if (const auto sense = identification_.sense()) {
+    return *sense == SweepSense::kInstant   ? 0.0
+           : *sense == SweepSense::kForward ? candidate
+                                            : -candidate;
+  }
+  return candidate == std::abs(scan.sweep_duration) ? scan.sweep_duration : 0.0;
+}
+
+/// Asks about the scan before, whose motion is known now from both sides.
+void MotionCompensation::identify(const Taken& next) {
+  if (taken_.size() < 2) return;
+  const Taken &before = taken_[taken_.size() - 2], &asked = taken_.back();
+  if (!(asked.candidate > 0.0)) return;
+  if (std::abs(asked.candidate - identified_for_) > kOther * asked.candidate) {
+    identification_ = SweepIdentification();
+    identified_for_ = asked.candidate;
+  }
+  const Twist robot = twistBetween(before.odometry, next.odometry);
+  identification_.add(asked.scan, identified_for_, sensorTwist(robot, asked.T_robot_sensor),
+                      asked.odometry.T_odom_robot * asked.T_robot_sensor);
+}
+
+}  // namespace cca

@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "cca_mrpt/sensing/motion_compensation.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "swept_room.hpp"
+
+namespace cca::motion_compensation_test {
+namespace {
+
+const Laser kFullTurn{-M_PI, M_PI / 180.0, 360};
+const Laser kWide{-0.75 * M_PI, 1.5 * M_PI / 720.0, 721};
+const Pose2 kMount{0.15, -0.05, 0.4};
+
+/// A robot that turns on the spot, one way and the other, with rests, as odometry of 2 % sees it.
+struct Drive {
+  Laser laser = kFullTurn;
+  double sweep = 0.0;    ///< s, with its sign
+  double period = 0.18;  ///< s
+  double told = 0.0;     ///< s, what the driver says
+  double rate = 1.2;     ///< rad/s
+  double scale = 1.02;   ///< of the odometry's heading
+  bool rests = true;
+};
+
+/// s, what the compensation takes the sweep for after this many scans.
+double learned(const Drive& drive, int scans, MotionCompensation compensation = {}) {
+  const SweptRoom room;
+  std::mt19937 generator(7);
+  std::normal_distribution<double> noise(0.0, 0.01);
+  double heading = 0.0, rate = 0.0;
+  for (int k = 0; k < scans; ++k) {
+    const double phase = std::fmod(k * drive.period, 12.0);
+    const double wanted = !drive.rests                                  ? drive.rate
+                          : phase < 1.0 || (phase > 6.0 && phase < 7.0) ? 0.0
+                          : phase < 6.0                                 ? drive.rate
+                                                                        : -drive.rate;
+    const double before = rate;
+    rate += std::clamp(wanted - rate, -2.0 * drive.period, 2.0 * drive.period);
+    heading += 0.5 * (before + rate) * drive.period;
+    const Twist robot{{0.0, 0.0}, rate};
+    const Pose2 T_map_robot{0.5, -0.3, wrapAngle(heading)};
+    Scan scan =
+        room.sweep(drive.laser, T_map_robot * kMount, sensorTwist(robot, kMount), drive.sweep);
+    for (double& range : scan.ranges) range += noise(generator);
+    scan.sweep_duration = drive.told;
+    const Pose2 T_odom_robot{0.5, -0.3, wrapAngle(drive.scale * heading)};
+    compensation.undistort(scan, kMount, OdometryReading{T_odom_robot, k * drive.period});
+  }
+  return compensation.sweepDuration();
+}
+
+TEST(MotionCompensation, BelievesADriverThatTellsItsSweep) {
+  EXPECT_EQ(learned({kFullTurn, 0.17, 0.18, 0.17}, 3), 0.17);
+}
+
+TEST(MotionCompensation, FindsOutThatADriverHasTurnedItsArrayRound) {
+  EXPECT_EQ(learned({kFullTurn, -0.17, 0.18, 0.17}, 120), -0.17);
+}
+
+TEST(MotionCompensation, FindsOutThatADriverTellsASweepThatIsNone) {
+  EXPECT_EQ(learned({kFullTurn, 0.0, 0.18, 0.17}, 120), 0.0);
+}
+
+TEST(MotionCompensation, KeepsWhatIsRight) {
+  EXPECT_EQ(learned({kFullTurn, 0.17, 0.18, 0.17}, 300), 0.17);
+}
+
+TEST(MotionCompensation, FindsASweepThatNobodyTells) {
+  EXPECT_NEAR(learned({kFullTurn, 0.18, 0.18, 0.0}, 120), 0.18, 0.01);
+  EXPECT_NEAR(learned({kFullTurn, -0.18, 0.18, 2e-6}, 120), -0.18, 0.01);
+}
+
+TEST(MotionCompensation, FindsTheSweepOfANarrowerLaser) {
+  EXPECT_NEAR(learned({kWide, 0.075, 0.1, 0.0}, 240), 0.075, 0.005);
+  EXPECT_NEAR(learned({kWide, -0.075, 0.1, 0.0}, 240), -0.075, 0.005);
+}
+
+TEST(MotionCompensation, LeavesScansOfOneInstantAlone) {
+  for (const int scans : {20, 60, 120, 300}) {
+    EXPECT_EQ(learned({kFullTurn, 0.0, 0.18, 0.0}, scans), 0.0);
+    EXPECT_EQ(learned({kWide, 0.0, 0.1, 0.0}, scans), 0.0);
+  }
+}
+
+TEST(MotionCompensation, FindsTheSweepOfARobotThatNeverRests) {
+  EXPECT_NEAR(learned({kFullTurn, 0.18, 0.18, 0.0, 1.2, 1.02, false}, 120), 0.18, 0.01);
+}
+
+TEST(MotionCompensation, DoesNotTakeTheErrorOfWheelsForASweep) {
+  for (const double scale : {0.95, 1.05}) {
+    for (const int scans : {60, 120, 300}) {
+      EXPECT_EQ(learned({kFullTurn, 0.0, 0.18, 0.0, 1.2, scale}, scans), 0.0) << scale;
+      EXPECT_EQ(learned({kWide, 0.0, 0.1, 0.0, 1.2, scale}, scans), 0.0) << scale;
+    }
+  }
+}
+
+TEST(MotionCompensation, LearnsNothingWhereItIsTold) {
+  EXPECT_EQ(learned({kFullTurn, 0.17, 0.18, 0.0}, 120, MotionCompensation(0.0)), 0.0);
+  EXPECT_EQ(learned({kFullTurn, 0.0, 0.18, 0.0}, 120, MotionCompensation(-0.1)), -0.1);
+}
+
+TEST(MotionCompensation, ScansWithoutOdometryStayAsTheyAre) {
+  const Scan scan = SweptRoom().sweep(kFullTurn, {}, {{0.0, 0.0}, 1.0}, 0.17);
+  MotionCompensation compensation;
+  for (int k = 0; k < 5; ++k) {
+    EXPECT_EQ(compensation.undistort(scan, {}, std::nullopt).ranges, scan.ranges);
+  }
+}
+
+/// m, the largest difference of a beam from the scan of one instant; the robot begins to turn at
+/// 2 rad/s^2 after the first scan.
+double errorWhileSpeedingUp(double around) {
+  const SweptRoom room;
+  MotionCompensation compensation(0.1);
+  double largest = 0.0;
+  const auto at = [](double k) {
+    const double t = 0.1 * k;
+    return OdometryReading{{0.2, 0.1, t * t}, t};
+  };
+  for (int k = 0; k < 8; ++k) {
+    const Pose2 T_map_sensor = at(k).T_odom_robot;
+    const Twist twist{{0.0, 0.0}, 0.2 * k};
+    const Laser laser{-0.5 * M_PI, M_PI / 180.0, 181};
+    OdometryAround known;
+    if (around > 0.0) known = {at(k - around), at(k + around)};
+    const Scan still =
+        compensation.undistort(room.sweep(laser, T_map_sensor, twist, 0.1), {}, at(k), known);
+    const Scan truth = room.sweep(laser, T_map_sensor, twist, 0.0);
+    for (std::size_t i = 0; i < truth.size(); ++i) {
+      const double off = std::abs(still.ranges[i] - truth.ranges[i]);
+      if (isReturn(still.ranges[i]) && off < 0.5) largest = std::max(largest, off);
+    }
+  }
+  return largest;
+}
+
+TEST(MotionCompensation, FollowsARobotThatSpeedsUp) {
+  EXPECT_LT(errorWhileSpeedingUp(0.5), 0.05);
+  EXPECT_LT(errorWhileSpeedingUp(1.0), 0.07);
+  EXPECT_LT(errorWhileSpeedingUp(0.0), 0.1);
+}
+
+}  // namespace
+}  // namespace cca::motion_compensation_test
