@@ -39,7 +39,7 @@ Simulation robotIn(const std::string& world_name, const LaserParameters& laser,
 std::vector<Velocity> commandsIn(const std::string& world, double seconds) {
   const Parameters parameters;
   Simulation robot = robotIn(world, {});
-  Explorer explorer(parameters.mapping, parameters.robot, parameters.exploration);
+  Explorer explorer(parameters.robot, parameters.exploration);
   std::vector<Velocity> commands;
   while (robot.time() < seconds) {
     const Action action = explorer.step(robot.observe());
