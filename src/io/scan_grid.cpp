@@ -9,8 +9,8 @@ namespace cca {
 namespace {
 
 constexpr float kFirstReach = 5.0F;  // m
-// Probabilities of being free: sure either way, as map_server's files tell them.
-constexpr float kSurelyFree = 0.98F, kSurelyOccupied = 0.02F, kOpen = 0.5F;
+// Probabilities of being free; MRPT keeps those nearest to them that its cells can hold.
+constexpr float kSurelyFree = 1.0F, kSurelyOccupied = 0.0F, kOpen = 0.5F;
 
 float freenessOf(CellState state) {
   switch (state) {

@@ -112,7 +112,10 @@ std::optional<ros::Time> ScanFeed::latestPose(const std::string& laser_frame) co
 
 /// tf comes in the order of time: a time that it has passed, and knows no pose for, it never will.
 ScanFeed::Pose ScanFeed::pose(const Waiting& w, const std::optional<ros::Time>& latest) const {
-  if (!latest || (!latest->isZero() && w.middle > *latest)) return Pose::kExpected;
+  // Who maps can wait until tf has come to the end of the sweep: what is undone does not depend on
+  // how late it is.
+  const ros::Duration rest(drives() ? 0.0 : 0.5 * std::abs(w.scan.sweep_duration));
+  if (!latest || (!latest->isZero() && w.middle + rest > *latest)) return Pose::kExpected;
   if (hasPlacement(transforms_.transforms(), frames_, w.frame, w.middle)) return Pose::kKnown;
   return w.middle <= *latest ? Pose::kNever : Pose::kExpected;
 }

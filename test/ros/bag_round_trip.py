@@ -57,7 +57,9 @@ class AwkwardBag:
         scan = LaserScan()
         scan.header.stamp, scan.header.frame_id = self.at(t + off), "/laser"
         scan.angle_min, scan.angle_max, scan.angle_increment = -2.35, 2.35, 4.7 / 360.0
-        scan.time_increment, scan.range_min, scan.range_max = 1e-4, 0.02, 80.0
+        # Its scans are of one instant, and say so. One that sweeps is undistorted offline by a first pass over the
+        # whole log, and played by what is known till then: its bytes differ.
+        scan.time_increment, scan.range_min, scan.range_max = 0.0, 0.02, 80.0
         bearings = scan.angle_min + scan.angle_increment * numpy.arange(361)
         x, y, theta = compose(self.pose(t), LASER)
         ranges = cast(self.walls, x, y, theta + bearings) + self.random.normal(0.0, 0.01, 361)

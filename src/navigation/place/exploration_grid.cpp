@@ -54,7 +54,7 @@ void ExplorationGrid::insert(const Scan& raw_scan) {
     if (!points[i].is_return) continue;
     add(cellAt(points[i].inside), kReturn / kPass * weightOf(noise_.variance(scan.ranges[i])));
   }
-  keepSurfaces(points);
+  markSurfaces(points);
   for (std::size_t i = 0; i < scan.size(); ++i) {
     const double range = certain_ranges_[i];
     const double free_range =
@@ -64,7 +64,6 @@ void ExplorationGrid::insert(const Scan& raw_scan) {
                 scan.ranges[i]);
   }
   presumeFree(scan);
-  presumeWalls(points);
 }
 
 /// Of a beam that may lie so far beside or before where it is thought to be. @param variance  m^2.
@@ -118,36 +117,20 @@ void ExplorationGrid::passThrough(const Eigen::Vector2d& origin, const Eigen::Ve
   });
 }
 
-template <class Visit>
-void ExplorationGrid::walkSurface(const SurfacePoint& from, const SurfacePoint& to,
-                                  Visit&& visit) const {
-  const Eigen::Vector2d step = to.inside - from.inside;
-  const double gap = step.norm();
-  if (gap == 0.0) return;
-  walkBeam(from.inside, step / gap, gap, [&](Cell c, double) {
-    visit(c);
-    return true;
-  });
-}
-
-// A wall lies within its cells: beams that meet it farther along pass before it there, which says
-// nothing against it.
-void ExplorationGrid::keepSurfaces(const std::vector<SurfacePoint>& points) {
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    if (!points[i].goes_on) continue;
-    walkSurface(points[i], points[(i + 1) % points.size()], [&](Cell c) { counted_[c] = scans_; });
-  }
-}
-
 // Far from the sensor the beams are wider apart than the cells. What lies between two returns of
-// one surface is most likely more of it, not a gap into the unknown.
-void ExplorationGrid::presumeWalls(const std::vector<SurfacePoint>& points) {
+// one surface is most likely more of it, not a gap into the unknown. And a wall lies within its
+// cells: beams that meet it farther along pass before it there, which says nothing against it.
+void ExplorationGrid::markSurfaces(const std::vector<SurfacePoint>& points) {
   const double widest = kWidestGuess / resolution_;
   for (std::size_t i = 0; i < points.size(); ++i) {
-    const SurfacePoint &a = points[i], &b = points[(i + 1) % points.size()];
-    if (!a.may_go_on || (b.place - a.place).norm() > widest) continue;
-    walkSurface(a, b, [&](Cell c) {
-      if (evidence_.at(c) < kWallPresumed) write(c, kWallPresumed);
+    if (!points[i].goes_on) continue;
+    const Eigen::Vector2d step = points[(i + 1) % points.size()].inside - points[i].inside;
+    const double gap = step.norm();
+    if (gap == 0.0) continue;
+    walkBeam(points[i].inside, step / gap, gap, [&](Cell c, double) {
+      counted_[c] = scans_;
+      if (evidence_.at(c) < kWallPresumed && gap <= widest) write(c, kWallPresumed);
+      return true;
     });
   }
 }

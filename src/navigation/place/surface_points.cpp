@@ -20,12 +20,13 @@ constexpr double kBaseline = 2.0;  // cells: ten deviations of 1 cm, and a corne
 
 using Points = std::vector<SurfacePoint>;
 
-/// Whether the returns of beam i and the next one lie in line with a third one, or in one place.
-bool goesOn(const Points& points, std::size_t i, double tolerance) {
+/// Whether the returns of beam i and the next one lie on one surface.
+bool isOneSurface(const Points& points, std::size_t i, double spacing, double tolerance) {
   const std::size_t n = points.size();
   const SurfacePoint &a = points[i], &b = points[(i + 1) % n];
+  if (!a.is_return || !b.is_return) return false;
   const double gap = (b.place - a.place).norm();
-  if (gap <= 1.0) return true;
+  if (gap <= std::max(1.0, kSteepest * spacing)) return true;
   const Eigen::Vector2d along = (b.place - a.place) / gap;
   const auto isInLine = [&](const SurfacePoint& third, const SurfacePoint& end) {
     if (!third.is_return) return false;
@@ -73,13 +74,9 @@ std::vector<SurfacePoint> surfacePoints(const Scan& scan,
   }
   const std::size_t ends = n > 0 && !seesAllAround(scan) ? 1 : 0;
   for (std::size_t i = 0; i + ends < n; ++i) {
-    SurfacePoint& a = points[i];
-    const SurfacePoint& b = points[(i + 1) % n];
-    if (!a.is_return || !b.is_return) continue;
     const double nearer = std::min(scan.ranges[i], scan.ranges[(i + 1) % n]) / resolution;
-    const double likely = kSteepest * nearer * std::abs(scan.angle_increment);
-    a.goes_on = goesOn(points, i, kInLine / resolution);
-    a.may_go_on = a.goes_on || (b.place - a.place).norm() <= likely;
+    points[i].goes_on =
+        isOneSurface(points, i, nearer * std::abs(scan.angle_increment), kInLine / resolution);
   }
   for (std::size_t i = 0; i < n; ++i) {
     if (!points[i].is_return) continue;

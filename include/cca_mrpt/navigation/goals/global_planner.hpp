@@ -17,7 +17,7 @@ namespace cca {
 struct GlobalPlannerParameters {
   Strategy strategy = Strategy::kViewTour;
   double smallest_gain = 0.1;         ///< m^2, frontiers that promise less are left
-  std::size_t smallest_frontier = 5;  ///< cells, likewise
+  std::size_t smallest_frontier = 3;  ///< cells, likewise
   double worth = 36.0;                ///< m of way that an unseen square metre is worth
 };
 

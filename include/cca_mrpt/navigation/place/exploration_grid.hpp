@@ -91,10 +91,7 @@ class ExplorationGrid {
   void write(Cell cell, Evidence& evidence, Evidence value);
   void passThrough(const Eigen::Vector2d& origin, const Eigen::Vector2d& direction, double length,
                    double ends_at);
-  template <class Visit>
-  void walkSurface(const SurfacePoint& from, const SurfacePoint& to, Visit&& visit) const;
-  void keepSurfaces(const std::vector<SurfacePoint>& points);
-  void presumeWalls(const std::vector<SurfacePoint>& points);
+  void markSurfaces(const std::vector<SurfacePoint>& points);
   void presumeFree(const Scan& scan);
 
   double resolution_;
