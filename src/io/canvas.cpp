@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "png_file.hpp"
+#include "unhinted_text.hpp"
 
 namespace cca {
 namespace {
@@ -29,6 +30,7 @@ Canvas::Canvas(const Eigen::AlignedBox2d& view, int longest_side, int header)
       surface_(cairo_image_surface_create(CAIRO_FORMAT_RGB24, width_, height_),
                cairo_surface_destroy),
       cairo_(cairo_create(surface_.get()), cairo_destroy) {
+  drawUnhinted(cairo_.get());
   cairo_set_line_cap(cairo_.get(), CAIRO_LINE_CAP_ROUND);
   cairo_set_line_join(cairo_.get(), CAIRO_LINE_JOIN_ROUND);
 }

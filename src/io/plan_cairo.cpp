@@ -10,6 +10,7 @@
 #include "cca_mrpt/io/plan_formats.hpp"
 #include "plan_sheet.hpp"
 #include "png_file.hpp"
+#include "unhinted_text.hpp"
 
 namespace cca {
 namespace {
@@ -60,12 +61,7 @@ void drawPath(cairo_t* pen, const SheetShape& shape) {
 void draw(const std::string& path, cairo_surface_t* surface, const PlanSheet& sheet, double scale) {
   const Pen pen(cairo_create(surface), cairo_destroy);
   cairo_scale(pen.get(), scale, scale);
-  // Hinted glyphs depend on what the program drew before.
-  const std::unique_ptr<cairo_font_options_t, void (*)(cairo_font_options_t*)> options(
-      cairo_font_options_create(), cairo_font_options_destroy);
-  cairo_font_options_set_hint_style(options.get(), CAIRO_HINT_STYLE_NONE);
-  cairo_font_options_set_hint_metrics(options.get(), CAIRO_HINT_METRICS_OFF);
-  cairo_set_font_options(pen.get(), options.get());
+  drawUnhinted(pen.get());
   cairo_set_fill_rule(pen.get(), CAIRO_FILL_RULE_EVEN_ODD);
   for (const SheetShape& shape : sheet.shapes)
     shape.text.empty() ? drawPath(pen.get(), shape) : drawText(pen.get(), shape);
