@@ -101,7 +101,8 @@ LaserParameters cheapLaser() {
 
 class TwinDrives : public ::testing::TestWithParam<const char*> {};
 
-// Made anew on its own bearings, a scan keeps a millimetre or two of what was bent.
+// Made anew on its own bearings, a scan keeps a little of what was bent: less than a third of what
+// the laser errs by.
 TEST_P(TwinDrives, OnWheelsThatDoNotErrGiveTheSameMap) {
   const std::string world = GetParam();
   const std::vector<Velocity> commands = commandsIn(world, 150.0);
@@ -111,7 +112,7 @@ TEST_P(TwinDrives, OnWheelsThatDoNotErrGiveTheSameMap) {
   for (const double sweep : {kSweep, -kSweep}) {
     laser.sweep = sweep;
     const Outcome swept = mapOf(world, laser, exact, commands, MotionCompensation(sweep));
-    EXPECT_LT(swept.rms, instant.rms + 0.0025);
+    EXPECT_LT(swept.rms, instant.rms + laser.range_noise / 3.0);
     EXPECT_NEAR(static_cast<double>(swept.lines), static_cast<double>(instant.lines),
                 0.1 * static_cast<double>(instant.lines));
   }
@@ -138,7 +139,8 @@ TEST(SweepThatNobodyUndoes, SpoilsAMap) {
   laser.sweep = kSweep;
   const std::vector<Velocity> commands = commandsIn("apartment", 150.0);
   const Outcome raw = mapOf("apartment", laser, {}, commands, MotionCompensation(0.0));
-  EXPECT_GT(raw.rms, 0.05);
+  const Outcome undone = mapOf("apartment", laser, {}, commands);
+  EXPECT_GT(raw.rms, 2.5 * undone.rms);
 }
 
 INSTANTIATE_TEST_SUITE_P(In, TwinDrives, ::testing::Values("two_rooms", "office", "apartment"));
