@@ -12,7 +12,7 @@ from tf2_msgs.msg import TFMessage
 
 from segments import cast
 
-PERIOD, BEAMS, RANGE = 0.1, 181, 8.0
+PERIOD, BEAMS, RANGE, NOISE = 0.1, 181, 8.0, 0.005
 NAP = 0.005  # s
 
 
@@ -108,6 +108,7 @@ class FakeRobot:
         scan.scan_time, scan.range_max = self.period, RANGE
         bearings = self.theta + scan.angle_min + scan.angle_increment * numpy.arange(BEAMS)
         ranges = cast(self.walls, self.x, self.y, bearings)
+        ranges += numpy.random.normal(0.0, NOISE, len(ranges))  # no laser gives one scan twice
         ranges[ranges > RANGE] = math.inf
         scan.ranges = ranges.tolist()
         self.spoil(scan)
