@@ -136,13 +136,12 @@ nb::object mapLog(nb::handle records, const std::string& pose, nb::kwargs keywor
   auto reader = std::make_unique<PythonLog>(iterator);
   std::unique_ptr<Mapping> mapping;
   std::optional<MappedScans> result;
-  const std::optional<PoseSource> asked =
-      pose == "auto" ? std::nullopt : std::optional<PoseSource>(sourceOf(pose));
+  const bool is_auto = pose == "auto";
+  PoseSource source = is_auto ? PoseSource::kSlam : sourceOf(pose);
   try {
     const nb::gil_scoped_release others_may_run;
     LocalLog log(std::move(reader));
-    const PoseSource source =
-        asked.value_or(log.beginsCorrected() ? PoseSource::kLog : PoseSource::kSlam);
+    if (is_auto && log.beginsCorrected()) source = PoseSource::kLog;
     mapping = std::make_unique<Mapping>(source, parameters, true);
     mapping->origin = log.origin();
     while (auto record = log.next()) mapping->add(std::move(*record));
