@@ -20,7 +20,10 @@ class SimulationParameters(TypedDict, total=False):
     beams: int
     range_noise: float
     angle_noise_deg: float
+    range_noise_share: float
     dropout: float
+    missing: str
+    sweep: float
     caster: Literal['exact', 'mrpt']
     radius: float
     safety_margin: float
