@@ -22,7 +22,7 @@ class SimulationParameters(TypedDict, total=False):
     angle_noise_deg: float
     range_noise_share: float
     dropout: float
-    missing: str
+    missing: Literal['told', 'inf', 'zero', 'range_max']
     sweep: float
     caster: Literal['exact', 'mrpt']
     radius: float
