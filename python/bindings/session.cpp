@@ -95,18 +95,6 @@ struct Mapping {
 };
 using SharedMapping = Locked<Mapping>;
 
-double pathLength(const std::vector<Pose2>& trajectory) {
-  const std::vector<bool> stray = findStrays(trajectory);
-  const Pose2* last = nullptr;
-  double length = 0.0;
-  for (std::size_t k = 0; k < trajectory.size(); ++k) {
-    if (stray[k]) continue;
-    if (last) length += (trajectory[k].position() - last->position()).norm();
-    last = &trajectory[k];
-  }
-  return length;
-}
-
 MappedScans resultOf(const Mapping& mapping) {
   const MappingSession& session = *mapping.session;
   MappedScans result;
@@ -114,7 +102,7 @@ MappedScans resultOf(const Mapping& mapping) {
   result.trajectory = session.trajectory();
   result.times = session.times();
   result.is_placed = session.isLocalised();
-  result.distance = pathLength(result.trajectory);
+  result.distance = drivenLength(result.trajectory);
   if (mapping.slam) {
     const Slam& slam = mapping.slam->slam();
     result.graph = slam.keyFrames().graph;

@@ -23,19 +23,6 @@ std::string fileName(const std::string& path) {
   return std::filesystem::path(path).filename().string();
 }
 
-/// Of the poses that have not gone astray.
-double pathLength(const std::vector<Pose2>& trajectory) {
-  const std::vector<bool> stray = findStrays(trajectory);
-  const Pose2* last = nullptr;
-  double length = 0.0;
-  for (std::size_t k = 0; k < trajectory.size(); ++k) {
-    if (stray[k]) continue;
-    if (last) length += (trajectory[k].position() - last->position()).norm();
-    last = &trajectory[k];
-  }
-  return length;
-}
-
 }  // namespace
 
 MappedLogs::MappedLogs(const LogsToMap& logs, const LocalLog& first, const Parameters& parameters)
@@ -183,7 +170,7 @@ MapProducts MappedLogs::products() const {
   summary["pose"] = nameOf(logs_.pose);
   summary["scans"] = scans();
   summary["beams"] = beams_;
-  summary["distance_m"] = pathLength(products.trajectory);
+  summary["distance_m"] = drivenLength(products.trajectory);
   summary["agreement"] = session_->agreement().overall();
   if (slam_) {
     const Slam& slam = slam_->slam();

@@ -71,4 +71,16 @@ std::vector<bool> findStrays(const std::vector<Pose2>& trajectory) {
   return findStrays(places);
 }
 
+double drivenLength(const std::vector<Pose2>& trajectory) {
+  const std::vector<bool> stray = findStrays(trajectory);
+  const Pose2* last = nullptr;
+  double length = 0.0;
+  for (std::size_t k = 0; k < trajectory.size(); ++k) {
+    if (stray[k]) continue;
+    if (last) length += (trajectory[k].position() - last->position()).norm();
+    last = &trajectory[k];
+  }
+  return length;
+}
+
 }  // namespace cca

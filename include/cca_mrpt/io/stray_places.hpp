@@ -24,4 +24,7 @@ std::vector<bool> findStrays(const std::vector<WeightedPlace>& places);
 /// The same for the poses of a robot's way.
 std::vector<bool> findStrays(const std::vector<Pose2>& trajectory);
 
+/// m, from pose to pose of those that have not gone astray. Cost: that of findStrays().
+double drivenLength(const std::vector<Pose2>& trajectory);
+
 }  // namespace cca
