@@ -46,9 +46,37 @@ LogRecord next(Log& log) {
   return std::move(*record);
 }
 
+std::optional<SensorReading> readReading(nb::handle reading) {
+  if (reading.is_none()) return std::nullopt;
+  double time = 0.0;
+  nb::object pose;
+  if (nb::len(reading) != 2 || !nb::try_cast<double>(reading[0], time) || !std::isfinite(time)) {
+    throw nb::value_error("motion: each is None, or a time and the pose of the laser then");
+  }
+  return SensorReading{readPose(reading[1], "motion"), time};
+}
+
+/// @param motion  None, or three: before, in the middle, after.
+SweepMotion readMotion(nb::handle motion) {
+  if (motion.is_none()) return {};
+  if (nb::len(motion) != 3) throw nb::value_error("motion: before, in the middle, after: three");
+  return {readReading(motion[1]), readReading(motion[0]), readReading(motion[2])};
+}
+
+nb::object motionOf(const LogRecord& record) {
+  const SweepMotion& motion = record.motion;
+  if (!motion.before && !motion.middle && !motion.after) return nb::none();
+  const auto told = [](const std::optional<SensorReading>& reading) -> nb::object {
+    if (!reading) return nb::none();
+    return nb::make_tuple(reading->time, triple(reading->T_odom_sensor));
+  };
+  return nb::make_tuple(told(motion.before), told(motion.middle), told(motion.after));
+}
+
 void constructRecord(LogRecord* self, nb::handle ranges, double angle_min, double angle_increment,
                      std::optional<double> time, nb::handle odometry, nb::handle robot_pose,
-                     nb::handle sensor_pose, nb::handle pose, double free_range_without_return) {
+                     nb::handle sensor_pose, nb::handle pose, double free_range_without_return,
+                     double sweep_duration, nb::handle motion) {
   LogRecord record;
   readScan(ranges, angle_min, angle_increment, record.scan);
   readPlace(nb::make_tuple(0.0, 0.0, 0.0), free_range_without_return, record.scan);
@@ -56,6 +84,11 @@ void constructRecord(LogRecord* self, nb::handle ranges, double angle_min, doubl
   record.time = time.value_or(0.0);
   if (!std::isfinite(record.time)) throw nb::value_error("time: a finite number is needed");
   record.T_robot_sensor = readPose(sensor_pose, "sensor_pose");
+  if (!std::isfinite(sweep_duration)) {
+    throw nb::value_error("sweep_duration: a finite number is needed");
+  }
+  record.scan.sweep_duration = sweep_duration;
+  record.motion = readMotion(motion);
   if (!odometry.is_none()) record.odometry = readPose(odometry, "odometry");
   if (!robot_pose.is_none()) record.corrected = readPose(robot_pose, "robot_pose");
   const Pose2 T_map_robot =
@@ -75,13 +108,14 @@ nb::tuple recordState(LogRecord& r) {
   return nb::make_tuple(recordRanges(r).attr("copy")(), r.scan.angle_min, r.scan.angle_increment,
                         r.has_time ? std::optional<double>(r.time) : std::nullopt,
                         triple(r.odometry), triple(r.corrected), triple(r.T_robot_sensor),
-                        triple(r.scan.T_map_sensor), r.scan.free_range_without_return);
+                        triple(r.scan.T_map_sensor), r.scan.free_range_without_return,
+                        r.scan.sweep_duration, motionOf(r));
 }
 
 void restoreRecord(LogRecord& self, const nb::tuple& state) {
   constructRecord(&self, state[0], nb::cast<double>(state[1]), nb::cast<double>(state[2]),
                   nb::cast<std::optional<double>>(state[3]), state[4], state[5], state[6], state[7],
-                  nb::cast<double>(state[8]));
+                  nb::cast<double>(state[8]), nb::cast<double>(state[9]), state[10]);
 }
 
 std::string describeRecord(LogRecord& record) {
@@ -109,19 +143,26 @@ Args:
     odometry: (x, y, theta) of the robot by its wheels, in any frame that stays; None: unknown.
     robot_pose: (x, y, theta) of the robot in the map frame, where somebody knows it.
     sensor_pose: (x, y, theta) of the laser in the robot's frame; m, m, rad.
-    pose: (x, y, theta) of the laser in the map frame; None: by `robot_pose`, else `odometry`.)")
+    pose: (x, y, theta) of the laser in the map frame; None: by `robot_pose`, else `odometry`.
+    sweep_duration: s, from the first beam to the last; negative where the last was the first in time; 0: of one
+        instant, or not known: it is learned.
+    motion: where the laser was before, in the middle and after the sweep, best at its ends: three of (time,
+        (x, y, theta)) or None, in a frame in which the robot never leaps; None: by `odometry` and `time`.)")
       .def("__init__", &constructRecord, nb::arg("ranges").none(), nb::arg("angle_min"),
            nb::arg("angle_increment"), nb::kw_only(), nb::arg("time").none() = nb::none(),
            nb::arg("odometry").none() = nb::none(), nb::arg("robot_pose").none() = nb::none(),
            nb::arg("sensor_pose").none() = nb::make_tuple(0.0, 0.0, 0.0),
            nb::arg("pose").none() = nb::none(), nb::arg("free_range_without_return") = 0.0,
+           nb::arg("sweep_duration") = 0.0, nb::arg("motion").none() = nb::none(),
            nb::sig("def __init__(self, ranges: numpy.typing.ArrayLike, angle_min: float, "
                    "angle_increment: float, *, time: float | None = None, odometry: "
                    "collections.abc.Sequence[float] | None = None, robot_pose: "
                    "collections.abc.Sequence[float] | None = None, sensor_pose: "
                    "collections.abc.Sequence[float] = (0.0, 0.0, 0.0), pose: "
                    "collections.abc.Sequence[float] | None = None, free_range_without_return: "
-                   "float = 0.0) -> None"))
+                   "float = 0.0, sweep_duration: float = 0.0, motion: "
+                   "collections.abc.Sequence[tuple[float, collections.abc.Sequence[float]] | "
+                   "None] | None = None) -> None"))
       .def("__getstate__", &recordState,
            nb::sig("def __getstate__(self) -> tuple[typing.Any, ...]"))
       .def("__setstate__", &restoreRecord, nb::arg("state"),
@@ -149,6 +190,13 @@ Args:
       .def_prop_ro(
           "sensor_pose", [](const LogRecord& record) { return triple(record.T_robot_sensor); },
           "(x, y, theta) of the laser in the robot's frame; m, m, rad.")
+      .def_prop_ro(
+          "sweep_duration", [](const LogRecord& record) { return record.scan.sweep_duration; },
+          "s, from the first beam to the last; 0 where the log does not tell.")
+      .def_prop_ro("motion", &motionOf,
+                   nb::sig("def motion(self) -> tuple[tuple[float, tuple[float, float, float]] | "
+                           "None, ...] | None"),
+                   "Of the laser before, in the middle and after the sweep; None: not told.")
       .def_ro("time", &LogRecord::time, "s; 0 where the log does not tell.");
 }
 

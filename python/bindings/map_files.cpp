@@ -111,6 +111,7 @@ nb::object filesAndArrays(MappedScans result) {
   held["trajectory"] = trajectoryArray(result.trajectory);
   held["times"] = nb::cast(result.times);
   held["is_placed"] = is_placed;
+  held["warnings"] = result.warnings;
   summary["finished"] = result.finished;
   summary["pose"] = result.pose;
   summary["scans"] = result.trajectory.size();

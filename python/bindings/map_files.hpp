@@ -32,6 +32,7 @@ struct MappedScans {
   double agreement = 0.0;
   Eigen::Vector2d origin = Eigen::Vector2d::Zero();  ///< m, map frame: where that frame lies
   bool finished = false;
+  std::string warnings;
 };
 
 /// (dict of arrays and numbers, dict of files by name), in the map frame.

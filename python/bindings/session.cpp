@@ -24,6 +24,7 @@
 #include "on_all_cores.hpp"
 #include "owned_array.hpp"
 #include "parameters.hpp"
+#include "sound_log.hpp"
 
 namespace cca::python {
 namespace {
@@ -128,7 +129,7 @@ nb::object mapLog(nb::handle records, const std::string& pose, nb::kwargs keywor
   PoseSource source = is_auto ? PoseSource::kSlam : sourceOf(pose);
   try {
     const nb::gil_scoped_release others_may_run;
-    LocalLog log(std::move(reader));
+    LocalLog log(soundScansOf(std::move(reader)));
     if (is_auto && log.beginsCorrected()) source = PoseSource::kLog;
     mapping = std::make_unique<Mapping>(source, parameters, true);
     mapping->origin = log.origin();
@@ -136,6 +137,7 @@ nb::object mapLog(nb::handle records, const std::string& pose, nb::kwargs keywor
     mapping->session->finish(apps::doOnAllCores);
     mapping->finished = true;
     result = resultOf(*mapping);
+    result->warnings = log.warnings();
   } catch (const std::runtime_error& error) {
     throw nb::value_error(error.what());
   }

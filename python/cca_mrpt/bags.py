@@ -28,6 +28,10 @@ TF_OF_ALL = ("/tf", "/tf_static", "tf", "tf_static")
 FULL_TURN = 2 * math.pi + 0.05  # drivers round 2 pi / n up and repeat the first beam at the end
 BEAMS_OFF, SHARE_OFF = 2.5, 0.1  # drivers miscount beams, round their increment, and turn not quite evenly
 FARTHEST_MEDIAN = 250.0  # m: no 2-D laser has half of its returns from farther off
+SLOWEST_LASER = 1.0  # s, a sweep; drivers are wrong by orders of magnitude
+LEAST_SWEEP, USUAL_SWEEP = 0.01, 0.1  # s; below the first, a driver does not mean it
+
+Reading = Tuple[float, Pose]  # s, of the laser then
 
 
 class Topic(NamedTuple):
@@ -382,7 +386,9 @@ class BagScans:
         check_header(message, ranges)
         beams = len(ranges)
         # The message is stamped with its first beam; one pose for a whole sweep errs least at its middle.
-        middle = nanoseconds(message.header.stamp) + _duration(0.5 * max(0, beams - 1) * message.time_increment)
+        sweep = (beams - 1.0) * message.time_increment
+        sweep = sweep if beams > 1 and abs(sweep) <= SLOWEST_LASER else 0.0
+        middle = nanoseconds(message.header.stamp) + _duration(0.5 * sweep)
         frame = frame_name(message.header.frame_id)
         laser = self._laser(frame)
         place = self._place(laser, frame, middle)
@@ -397,9 +403,30 @@ class BagScans:
         record = LogRecord(read, side * message.angle_min,
                            side * message.angle_increment, time=seconds(middle),
                            free_range_without_return=message.range_max if math.isfinite(message.range_max) else 0.0,
-                           **place)
+                           sweep_duration=sweep, motion=self._motion(laser, frame, middle, sweep), **place)
         laser.missing_returns.judge(record)
         return record
+
+    def _motion(self, laser: Laser, frame: str, middle: int, sweep: float) -> Optional[List[Optional[Reading]]]:
+        """Where the laser was half a sweep before the middle, then, and half a sweep after, as tf tells it."""
+        if not laser.fixed:
+            return None
+        source = frame if laser.mount is None else laser.frames.base
+        is_smooth = bool(laser.frames.odom) and self._tf.lookup(laser.frames.odom, source, middle) is not None
+        target = laser.frames.odom if is_smooth else laser.fixed
+        half = _duration(0.5 * (abs(sweep) if abs(sweep) > LEAST_SWEEP else USUAL_SWEEP))
+
+        def at(stamp: int) -> Optional[Reading]:
+            try:
+                found = self._tf.lookup(target, source, stamp) if stamp > 0 else None
+                pose = planar(found).pose if found else None
+            except Unplanar:
+                return None
+            if pose is None:
+                return None
+            return seconds(stamp), pose if laser.mount is None else product(pose, laser.mount.pose)
+
+        return [at(middle - half), at(middle), at(middle + half)]
 
     def _place(self, laser: Laser, frame: str, stamp: int) -> Optional[Dict[str, Any]]:
         """What tf, or else the odometry, tells of the scan's place; None: nothing, at that time."""

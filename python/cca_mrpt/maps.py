@@ -59,7 +59,7 @@ class Map:
         self.times: NDArray[np.float64] = np.asarray(held["times"], dtype=float)
         self.is_placed: NDArray[np.bool_] = np.asarray(held["is_placed"], dtype=bool)
         self.summary: Dict[str, Any] = dict(held["summary"])
-        self.warnings = warnings
+        self.warnings = warnings = "; ".join(filter(None, [warnings, held.get("warnings", "")]))
         if not self.is_placed.all():
             self.summary["unplaced_scans"] = np.flatnonzero(~self.is_placed).tolist()
         if warnings:

@@ -166,7 +166,9 @@ def test_the_program_makes_the_same_bytes(log, pose, tmp_path):
 
 @pytest.mark.skipif(not (installed_program() and SHARED.exists()), reason="needs the program and the shared data")
 @pytest.mark.parametrize("pose", ["log", "slam"])
-@pytest.mark.parametrize("name", ["logs/fhw-corrected.log.gz", "logs/orebro-corrected.log.gz", "bags/intel.bag"])
+@pytest.mark.parametrize("name", ["logs/fhw-corrected.log.gz", "logs/orebro-corrected.log.gz", "bags/intel.bag",
+                                  "field/03_turning_lidar_7Hz.bag", "field/03_turning_lidar_7Hz.log.gz",
+                                  "field/05_laser_freezes.bag", "field/09_namespaced_frames.bag"])
 def test_the_program_makes_the_same_bytes_of_real_logs(name, pose, tmp_path):
     for file, of_program, of_python in both(installed_program(), SHARED / name, pose, tmp_path):
         assert of_program == of_python, file

@@ -135,7 +135,7 @@ void shake(std::vector<Scan>& scans, int seed) {
 void studyLogs(const AblationOptions& options, Progress& progress, Study& study) {
   double done = 0.0;
   for (const std::string& path : options.logs) {
-    const auto reader = openLog(path);
+    const auto reader = openUndistortedLog(path);
     std::vector<Scan> scans;
     while (auto record = reader->next()) scans.push_back(std::move(record->scan));
     tellWarnings(path, reader->warnings());

@@ -83,7 +83,7 @@ std::vector<Method> allMethods() {
 }
 
 Log readLog(const std::string& path) {
-  LocalLog reader(openLog(path));
+  LocalLog reader(openUndistortedLog(path));
   Log log;
   while (auto record = reader.next()) log.push_back(std::move(*record));
   if (log.empty()) throw std::runtime_error(path + ": holds no scan");

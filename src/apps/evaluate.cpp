@@ -41,7 +41,7 @@ void refuseExtracted(const std::string& path) {
 }
 
 LogScore evaluateLog(const std::string& log, const std::vector<Segment2>& map) {
-  auto reader = openLog(log);
+  auto reader = openUndistortedLog(log);
   std::vector<Scan> scans;
   while (auto record = reader->next()) scans.push_back(std::move(record->scan));
   tellWarnings(log, reader->warnings());

@@ -24,8 +24,11 @@ double microsecondsSince(std::chrono::steady_clock::time_point start) {
       .count();
 }
 
-ExplorationSession::Settings settingsOf(const Parameters& parameters) {
-  return {parameters.mapping, parameters.robot, parameters.exploration};
+/// A laser whose scans are of one instant is known to have such.
+ExplorationSession::Settings settingsOf(const Parameters& parameters,
+                                        const LaserParameters& laser) {
+  return {parameters.mapping, parameters.robot, parameters.exploration,
+          laser.sweep == 0.0 ? std::optional<double>(0.0) : std::nullopt};
 }
 
 /// How far the robot still has to go, as far as it knows: to each frontier.
@@ -51,7 +54,7 @@ ExplorationRun::ExplorationRun(Simulation& simulation, const Eigen::Vector2d& or
       parameters_(parameters),
       record_(simulation, origin, parameters, folder),
       session_(makeLocaliser(poseSource(parameters.run.pose), parameters.icp),
-               settingsOf(parameters), &record_,
+               settingsOf(parameters, simulation.parameters().laser), &record_,
                [this](std::function<void()> work) { mapBeside(std::move(work)); }) {
   slam_ = dynamic_cast<SlamLocaliser*>(&session_.mapping().localiser());
 }
@@ -68,18 +71,6 @@ void ExplorationRun::mapBeside(std::function<void()> work) {
   });
 }
 
-/// The scan of a real laser is judged and brought to one instant, as that of any robot.
-void ExplorationRun::undistort(Scan& scan) {
-  const LaserParameters& laser = simulation_.parameters().laser;
-  if (laser.sweep == 0.0 && laser.missing == MissingReading::kTold) return;
-  missing_returns_.judge(scan);
-  const Instant &begun = simulation_.sweepBegun(), &scanned = simulation_.scanned();
-  scan = motion_compensation_.undistort(
-      scan, {}, OdometryReading{scanned.T_odom_robot, scanned.time},
-      {OdometryReading{begun.T_odom_robot, begun.time},
-       OdometryReading{simulation_.T_odom_robot(), simulation_.time()}});
-}
-
 /// A scan tells where the robot was in the middle of its sweep; the wheels, how it has gone on.
 Observation ExplorationRun::asOfNow(Observation observation) const {
   const Instant& scanned = simulation_.scanned();
@@ -93,9 +84,12 @@ Observation ExplorationRun::asOfNow(Observation observation) const {
 Action ExplorationRun::step() {
   Observation seen = simulation_.observe();
   const Clock::time_point start = Clock::now();
-  undistort(seen.scan);
+  if (simulation_.parameters().laser.missing != MissingReading::kTold) {
+    missing_returns_.judge(seen.scan);
+  }
   const Instant& scanned = simulation_.scanned();
-  observation_ = session_.sense(measurementOf(seen, scanned.T_odom_robot), seen.velocity);
+  observation_ = session_.sense(
+      measurementOf(seen, scanned.T_odom_robot, simulation_.sweepMotion()), seen.velocity);
   const Action action = session_.decide(asOfNow(observation_));
   ExplorationRecord::Cycle cycle{scanned.time,
                                  simulation_.distance(),

@@ -10,7 +10,6 @@
 #include "cca_mrpt/io/memory_file.hpp"
 #include "cca_mrpt/io/parameters.hpp"
 #include "cca_mrpt/sensing/missing_returns.hpp"
-#include "cca_mrpt/sensing/motion_compensation.hpp"
 #include "cca_mrpt/session/exploration_session.hpp"
 #include "cca_mrpt/simulation/simulation.hpp"
 #include "cca_mrpt/slam/slam_localiser.hpp"
@@ -56,7 +55,6 @@ class ExplorationRun {
 
  private:
   using Clock = std::chrono::steady_clock;
-  void undistort(Scan& scan);
   Observation asOfNow(Observation observation) const;
   Action step();
   void mapBeside(std::function<void()> work);
@@ -66,7 +64,6 @@ class ExplorationRun {
 
   Simulation& simulation_;
   MissingReturns missing_returns_;
-  MotionCompensation motion_compensation_;
   Parameters parameters_;
   ExplorationRecord record_;
   SlamLocaliser* slam_ = nullptr;  ///< the session's, where the poses are line SLAM's

@@ -64,7 +64,7 @@ void addExtractCommand(CLI::App& program) {
     const Parameters parameters = options->resolve();
     requireNew(*out, *force);
     requireNew(*arcs, *force);
-    auto reader = openLog(*log, *hints);
+    auto reader = openUndistortedLog(*log, *hints);
     std::string csv = kHeader, arcs_csv = kArcHeader;
     for (int id = 0; auto record = reader->next(); ++id) {
       if (arcs->empty()) {

@@ -67,6 +67,7 @@ std::unique_ptr<MappedLogs> mapLogs(const MapOptions& options, std::unique_ptr<L
   logs.paths = options.logs;
   logs.pose = chosenPose(options, *first);
   logs.resumed = options.resume;
+  logs.sweep = options.hints->sweep;
   if (!options.resume.empty()) logs.memory = loadMemory(options.resume);
   auto mapped = std::make_unique<MappedLogs>(logs, *first, parameters);
   for (std::size_t k = 0; k < options.logs.size() && !mapped->isInterrupted(); ++k) {

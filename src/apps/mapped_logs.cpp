@@ -36,6 +36,7 @@ MappedLogs::MappedLogs(const LogsToMap& logs, const LocalLog& first, const Param
   MappingSession::Settings settings;
   settings.mapping = parameters_.mapping;
   settings.maps_at_the_end = true;
+  settings.sweep = logs_.sweep;
   session_ = std::make_unique<MappingSession>(
       std::move(localiser), settings, this,
       [this](std::function<void()> work) { background_->add(std::move(work)); });
@@ -48,6 +49,7 @@ void MappedLogs::take(const std::string& path, LocalLog& log,
   log.moveTo(origin_);
   Progress progress(slam_ ? "locate" : "map");
   // A drive begins where its log does, for then its errors can be told; a second one anywhere.
+  if (scans() > 0) session_->beginDrive();
   if (slam_ && scans() > 0) slam_->startAnywhere();
   while (!interrupted_) {
     std::optional<LogRecord> record = log.next();

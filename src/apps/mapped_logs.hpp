@@ -26,6 +26,7 @@ struct LogsToMap {
   PoseSource pose;
   std::optional<StoredMemory> memory;  ///< of earlier drives
   std::string resumed;                 ///< the folder that it is from
+  std::optional<double> sweep;         ///< s, see MappingSession::Settings
 };
 
 /// Takes logs through a mapping session, and keeps what goes into the map's folder. All of it

@@ -53,7 +53,7 @@ std::string readFile(const std::string& path) {
 
 /// Puts a log's scans and poses below the map.
 void addLog(const std::string& path, MapProducts& products) {
-  const auto log = openLog(path);
+  const auto log = openUndistortedLog(path);
   ScanGrid grid(wholeView(products).center());
   while (auto record = log->next()) {
     record->scan.T_map_sensor = seenFrom(products.origin, record->scan.T_map_sensor);
@@ -108,7 +108,7 @@ void renderPicture(RenderOptions options) {
 }
 
 std::size_t countScans(const std::string& path) {
-  const auto log = openLog(path);
+  const auto log = openUndistortedLog(path);
   std::size_t scans = 0;
   while (log->next()) ++scans;
   return scans;
@@ -123,7 +123,7 @@ void renderVideo(const RenderOptions& options, const Parameters& parameters) {
   const Interruption interruption;
   Progress progress("render");
   for (const bool drawing : {false, true}) {
-    LocalLog log(openLog(options.log));
+    LocalLog log(openUndistortedLog(options.log));
     if (!drawing && picture.view) picture.view->translate(-log.origin());
     LineMap map(parameters.mapping);
     ScanGrid grid(log.start());

@@ -269,7 +269,7 @@ std::vector<LabelledScan> samplePolygons(const Sampling& sampling) {
 }
 
 std::vector<LabelledScan> sampleLog(const std::string& path, int scans) {
-  const auto reader = openLog(path);
+  const auto reader = openUndistortedLog(path);
   std::vector<Scan> all;
   while (auto record = reader->next()) all.push_back(std::move(record->scan));
   const auto wanted = std::min<std::size_t>(all.size(), static_cast<std::size_t>(scans));

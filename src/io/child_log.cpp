@@ -16,6 +16,7 @@
 #include <filesystem>
 #include <new>
 #include <stdexcept>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -26,11 +27,14 @@ namespace {
 /// program.
 struct Message {
   enum Kind : std::uint32_t { kRecord, kEnd, kFailed } kind;
-  bool has_time, has_corrected, has_odometry, has_truth;
+  bool has_time;
   std::uint64_t beams, text_length;
   double progress, time, angle_min, angle_increment, free_range_without_return, sweep_duration;
-  Pose2 T_map_sensor, T_robot_sensor, corrected, odometry, truth;
+  Pose2 T_map_sensor, T_robot_sensor;
+  std::optional<Pose2> corrected, odometry, truth;
+  SweepMotion motion;
 };
+static_assert(std::is_trivially_copyable_v<Message>);
 
 constexpr std::uint64_t kMostTold = 1U << 27;  // what is more was never written by a sound child
 
@@ -97,12 +101,10 @@ Message toMessage(const LogRecord& record, double progress) {
   m.free_range_without_return = record.scan.free_range_without_return;
   m.T_map_sensor = record.scan.T_map_sensor;
   m.T_robot_sensor = record.T_robot_sensor;
-  m.has_corrected = record.corrected.has_value();
-  m.corrected = record.corrected.value_or(Pose2{});
-  m.has_odometry = record.odometry.has_value();
-  m.odometry = record.odometry.value_or(Pose2{});
-  m.has_truth = record.truth.has_value();
-  m.truth = record.truth.value_or(Pose2{});
+  m.corrected = record.corrected;
+  m.odometry = record.odometry;
+  m.truth = record.truth;
+  m.motion = record.motion;
   return m;
 }
 
@@ -117,9 +119,10 @@ LogRecord toRecord(const Message& m, std::vector<double> ranges) {
   record.T_robot_sensor = m.T_robot_sensor;
   record.has_time = m.has_time;
   record.time = m.time;
-  if (m.has_corrected) record.corrected = m.corrected;
-  if (m.has_odometry) record.odometry = m.odometry;
-  if (m.has_truth) record.truth = m.truth;
+  record.corrected = m.corrected;
+  record.odometry = m.odometry;
+  record.truth = m.truth;
+  record.motion = m.motion;
   return record;
 }
 

@@ -13,8 +13,8 @@
 #include "gzip_lines.hpp"
 #include "mrpt_objects.hpp"
 #include "rawlog_reader.hpp"
+#include "sound_log.hpp"
 #include "truth_file.hpp"
-#include "undistorted_log.hpp"
 #include "unzipped_file.hpp"
 
 namespace cca {
@@ -113,8 +113,7 @@ void addLogKind(LogKind kind) { addedKinds().push_back(std::move(kind)); }
 std::unique_ptr<LogReader> openLog(const std::string& path, const LogHints& hints) {
   auto log = openAsWhatItIs(path, hints);
   if (const auto truth = findTruthFile(path)) log = withTruth(std::move(log), *truth);
-  const auto openAnew = [&] { return openAsWhatItIs(path, hints); };
-  log = undistorted(std::move(log), openAnew, hints.sweep);
+  log = soundScansOf(std::move(log));
   auto first = log->next();
   if (!first) {
     const std::string why = log->warnings();

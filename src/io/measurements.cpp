@@ -43,6 +43,8 @@ Measurement measurementOf(LogRecord record, PoseSource source) {
   measurement.T_robot_sensor = record.T_robot_sensor;
   measurement.T_odom_robot = record.odometry;
   measurement.time = record.has_time ? record.time : 0.0;
+  // Poses that somebody has corrected are not for who is to find his own.
+  if (record.odometry || source == PoseSource::kLog) measurement.motion = record.motion;
   if (source == PoseSource::kLog) {
     measurement.T_map_robot = logPose(record);
   } else {

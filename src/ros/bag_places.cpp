@@ -49,6 +49,7 @@ const BagPlaces::Laser& BagPlaces::laserOf(const std::string& frame) {
     laser.frames.mount = PlanarPose{};
   }
   if (frames.base != frame || laser.frames.mount) laser.frames.base = frames.base;
+  laser.frames.smooth = frames.odom;
   return laser;
 }
 
@@ -65,6 +66,8 @@ bool BagPlaces::place(LogRecord& record, const std::string& frame, const ros::Ti
   const ScanPlacement placement = placementOf(transforms_, laser.frames, frame, time);
   placeScan(record.scan, placement.T_fixed_sensor);
   record.T_robot_sensor = placement.T_robot_sensor;
+  record.motion =
+      sweepMotion(transforms_, laser.frames, frame, time, halfSweep(record.scan.sweep_duration));
   if (laser.is_fixed_map) {
     record.corrected = placement.T_fixed_robot;
     record.odometry = placement.T_odom_robot ? placement.T_odom_robot : wheelsAt(time);

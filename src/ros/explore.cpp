@@ -93,8 +93,8 @@ void exploreSimulated(const Settings& settings, ros::NodeHandle& node,
     if (robot.scanIsDue()) {
       const ros::WallTime begin = ros::WallTime::now();
       const Observation seen = robot.scan();
-      const Measurement measurement =
-          measurementOf(seen, robot.simulation().scanned().T_odom_robot);
+      const Measurement measurement = measurementOf(seen, robot.simulation().scanned().T_odom_robot,
+                                                    robot.simulation().sweepMotion());
       velocity = exploration.step(exploration.sense(measurement, seen.velocity), robot.now());
       diagnostics.scanUsed((ros::WallTime::now() - begin).toSec(), exploration.agreement());
       diagnostics.setState(exploration.state());

@@ -48,11 +48,11 @@ LineMapperParameters readParameters(const ros::NodeHandle& private_node) {
     throw std::runtime_error("parameter ~resume needs _pose:=slam");
   }
   parameters.flag("corrections", p.corrections);
+  parameters.text("odom_frame", p.frames.odom);
   if (p.pose == "slam" || p.corrections) {
-    parameters.text("odom_frame", p.frames.odom);
     parameters.text("base_frame", p.frames.base);
   } else {
-    for (const char* slams : {"odom_frame", "base_frame"}) parameters.withoutEffect(slams);
+    parameters.withoutEffect("base_frame");
   }
   parameters.text("out", p.out);
   parameters.flag("save_at_end", p.save_at_end);
@@ -84,6 +84,7 @@ class LineMapper {
 
   void end() {
     ros::getGlobalCallbackQueue()->callAvailable();  // scans that have come belong to the map
+    scans_.finish();
     if (!parameters_.save_at_end) return;
     {
       const std::lock_guard<std::mutex> lock(saver_.mutex());
@@ -95,10 +96,13 @@ class LineMapper {
  private:
   ScanFeed::Settings scanSettings() const {
     const FrameNames& frames = parameters_.frames;
-    if (parameters_.pose == "slam") return {parameters_.scans, frames.odom, frames.base};
-    if (parameters_.corrections)
-      return {parameters_.scans, frames.map, frames.base, 0.0, frames.odom};
-    return {parameters_.scans, frames.map};
+    const bool is_slam = parameters_.pose == "slam", corrects = parameters_.corrections;
+    return {parameters_.scans,
+            is_slam ? frames.odom : frames.map,
+            is_slam || corrects ? frames.base : "",
+            0.0,
+            frames.odom,
+            corrects};
   }
 
   /// An empty map.
@@ -154,9 +158,10 @@ class LineMapper {
     way_shown_ = now;
   }
 
+  /// Of the session's last scan.
   void showLinesOf(const PlacedScan& scan) {
     std::vector<MapLine> numbered;
-    for (const LineSegment& line : extractLines(scan.scan, parameters_.program.mapping)) {
+    for (const LineSegment& line : extractLines(session_->scan(), parameters_.program.mapping)) {
       numbered.push_back({numbered.size(), line, line.moments.weight});
     }
     std_msgs::Header header;

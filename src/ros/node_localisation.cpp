@@ -26,7 +26,8 @@ Measurement measurementOf(const PlacedScan& placed, bool is_in_odometry) {
   Measurement measurement;
   measurement.scan = placed.scan;
   measurement.T_robot_sensor = placed.T_robot_sensor;
-  measurement.time = placed.stamp.toSec();
+  measurement.time = placed.middle.toSec();
+  measurement.motion = placed.motion;
   if (is_in_odometry) {
     measurement.T_odom_robot = placed.T_fixed_robot;
   } else {

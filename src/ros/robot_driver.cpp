@@ -59,7 +59,7 @@ RobotDriver::RobotDriver(ros::NodeHandle& node, ros::NodeHandle& private_node,
       hazards_(node, {settings.hazard_points, settings.hazard_range, fixedFrame(settings)}),
       scans_(node,
              {settings.scans, fixedFrame(settings), settings.frames.base, kOldestScan,
-              settings.frames.odom},
+              settings.frames.odom, true},
              [this](const PlacedScan& placed) { use(placed); }),
       diagnostics_(
           node, private_node, [this]() -> const auto& { return scans_.dropped(); }),
@@ -185,8 +185,8 @@ void RobotDriver::use(const PlacedScan& placed) {
     if (move_base_) move_base_->forget();
     return;
   }
-  if (!move_base_ && !looksTowards(placed.scan, placed.T_fixed_robot * Eigen::Vector2d(kAhead, 0)))
-    return waitForSight(placed);
+  const Eigen::Vector2d ahead_map = observation.T_map_robot * Eigen::Vector2d(kAhead, 0);
+  if (!move_base_ && !looksTowards(observation.scan, ahead_map)) return waitForSight(placed);
   if (const auto silent = silentLaser(1)) {
     if (exploration_.drives()) waitForLaser(*silent);
     return stand();
@@ -227,9 +227,10 @@ void RobotDriver::obey(const Velocity& velocity) {
 
 void RobotDriver::useBeside(const PlacedScan& placed) {
   last_used_[placed.topic] = placed.arrival;
-  beside_[placed.topic] = {returnsAround(placed.scan, placed.T_fixed_robot.position()),
-                           placed.stamp};
   exploration_.addSecondary(measurementOf(placed, slam_ != nullptr), placed.topic);
+  Scan scan = exploration_.session().mapping().scan();
+  scan.T_map_sensor = placed.scan.T_map_sensor;
+  beside_[placed.topic] = {returnsAround(scan, placed.T_fixed_robot.position()), placed.stamp};
 }
 
 std::vector<Eigen::Vector2d> RobotDriver::seenElsewhere(const ros::Time& stamp,

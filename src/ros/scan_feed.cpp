@@ -12,8 +12,7 @@ namespace {
 
 constexpr double kSmallestSeeingFraction = 0.1;  // below it a laser is covered or broken
 constexpr double kFurthestFuture = 1.0;          // s; clocks of two computers differ by less
-constexpr double kLeastHalf = 0.005, kUsualHalf = 0.05;  // s, of a sweep
-constexpr double kLongWait = 1.0;                        // s; no localisation takes as long
+constexpr double kLongWait = 1.0;                // s; no localisation takes as long
 // Scans that have come, and that wait for tf: a mapper may be seconds behind a bag played 40 times
 // as fast. Who drives has no use for scans of seconds ago.
 constexpr std::uint32_t kQueue = 5000;
@@ -33,7 +32,9 @@ sensor_msgs::LaserScan scanOf(const topic_tools::ShapeShifter& message) try {
 
 ScanFeed::ScanFeed(ros::NodeHandle& node, Settings settings, Sink sink)
     : settings_(std::move(settings)),
-      frames_{settings_.fixed_frame, settings_.robot_frame, settings_.odom_frame, std::nullopt},
+      frames_{settings_.fixed_frame, settings_.robot_frame,
+              settings_.asks_odometry ? settings_.odom_frame : "", std::nullopt,
+              settings_.odom_frame},
       sink_(std::move(sink)),
       periods_(settings_.topics.size()),
       transforms_(node, [this] { serve(); }) {
@@ -63,7 +64,6 @@ void ScanFeed::startAnewIfClockWasSetBack() {
     transforms_.clear();
     waiting_.clear();
     last_stamps_.clear();
-    motion_compensation_.clear();
     gate_ = PoseGate();
   }
   last_now_ = now;
@@ -114,7 +114,8 @@ std::optional<ros::Time> ScanFeed::latestPose(const std::string& laser_frame) co
 ScanFeed::Pose ScanFeed::pose(const Waiting& w, const std::optional<ros::Time>& latest) const {
   // Who maps can wait until tf has come to the end of the sweep: what is undone does not depend on
   // how late it is.
-  const ros::Duration rest(drives() ? 0.0 : 0.5 * std::abs(w.scan.sweep_duration));
+  const bool waits = !drives() && !is_at_end_;
+  const ros::Duration rest = waits ? halfSweep(w.scan.sweep_duration) : ros::Duration(0.0);
   if (!latest || (!latest->isZero() && w.middle + rest > *latest)) return Pose::kExpected;
   if (hasPlacement(transforms_.transforms(), frames_, w.frame, w.middle)) return Pose::kKnown;
   return w.middle <= *latest ? Pose::kNever : Pose::kExpected;
@@ -152,23 +153,9 @@ void ScanFeed::serve() {
   }
 }
 
-/// At the ends of the sweep, as far as tf has come; of a laser whose driver tells none, a little
-/// before and after.
-OdometryAround ScanFeed::odometryAround(const Waiting& w, const PlacedScan& placed) const {
-  const double told = 0.5 * std::abs(w.scan.sweep_duration);
-  const ros::Duration half(told > kLeastHalf ? told : kUsualHalf);
-  const std::string& fixed = placed.T_odom_robot ? settings_.odom_frame : settings_.fixed_frame;
-  const std::string& source = settings_.robot_frame.empty() ? w.frame : settings_.robot_frame;
-  const auto at = [&](const ros::Time& time) -> std::optional<OdometryReading> {
-    const Transforms& tf = transforms_.transforms();
-    if (!tf.has(fixed, source, time)) return std::nullopt;
-    try {
-      return OdometryReading{tf.lookup(fixed, source, time).pose, time.toSec()};
-    } catch (const std::runtime_error&) {
-      return std::nullopt;
-    }
-  };
-  return {at(w.middle - half), at(w.middle + half)};
+void ScanFeed::finish() {
+  is_at_end_ = true;
+  serve();
 }
 
 void ScanFeed::use(const Waiting& waiting) {
@@ -177,6 +164,7 @@ void ScanFeed::use(const Waiting& waiting) {
   PlacedScan placed;
   placed.scan = waiting.scan;
   placed.stamp = waiting.stamp;
+  placed.middle = waiting.middle;
   placed.arrival = waiting.arrival;
   placed.frame = waiting.frame;
   placed.topic = waiting.topic;
@@ -187,6 +175,8 @@ void ScanFeed::use(const Waiting& waiting) {
     placed.T_fixed_robot = placement.T_fixed_robot;
     placed.T_robot_sensor = placement.T_robot_sensor;
     placed.T_odom_robot = placement.T_odom_robot;
+    placed.motion = sweepMotion(transforms_.transforms(), frames_, waiting.frame, waiting.middle,
+                                halfSweep(waiting.scan.sweep_duration));
   } catch (const std::runtime_error& error) {
     return drop("no usable transform", error.what());
   }
@@ -203,10 +193,6 @@ void ScanFeed::use(const Waiting& waiting) {
   }
   last_trouble_.clear();
   missing_returns_[waiting.frame].judge(placed.scan);
-  placed.scan = motion_compensation_[waiting.frame].undistort(
-      placed.scan, placed.T_fixed_robot.inverse() * placed.scan.T_map_sensor,
-      OdometryReading{placed.T_odom_robot.value_or(placed.T_fixed_robot), waiting.middle.toSec()},
-      odometryAround(waiting, placed));
   sink_(placed);
 }
 

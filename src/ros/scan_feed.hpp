@@ -15,7 +15,6 @@
 #include "cca_mrpt/ros/pose_gate.hpp"
 #include "cca_mrpt/ros/scan_placement.hpp"
 #include "cca_mrpt/sensing/missing_returns.hpp"
-#include "cca_mrpt/sensing/motion_compensation.hpp"
 #include "cca_mrpt/sensing/scan.hpp"
 #include "cca_mrpt/sensing/scan_faults.hpp"
 #include "scan_period.hpp"
@@ -33,10 +32,13 @@ struct PlacedScan {
   std::string frame;                  ///< of the message: which laser
   std::size_t topic;                  ///< which of the topics it came by
   std::optional<Pose2> T_odom_robot;  ///< where that is asked for and known
+  ros::Time middle;                   ///< of the sweep: of the poses
+  SweepMotion motion;                 ///< by tf
 };
 
 /// Turns scans (sensor_msgs/LaserScan, or the first echoes of MultiEchoLaserScan) and tf into
-/// placed scans. A scan waits until tf has come to its stamp. What cannot be used is dropped,
+/// placed scans, as the laser took them, with their motion. A scan waits until tf has come to its
+/// middle; for mapping, to its end. What cannot be used is dropped,
 /// counted by reason, and told at most once in five seconds.
 ///
 /// For mapping, that is a message that no laser can have meant, and a scan that tf knows no pose
@@ -52,11 +54,14 @@ class ScanFeed {
     std::string robot_frame =
         {};               ///< empty: not asked for; T_fixed_robot is the sensor's pose then
     double oldest = 0.0;  ///< s, of a scan of one instant that may be driven by; 0: mapping only
-    std::string odom_frame = {};  ///< empty: not asked for
+    std::string odom_frame = "odom";  ///< in which the robot never leaps, where tf knows it
+    bool asks_odometry = false;       ///< whether PlacedScan::T_odom_robot is wanted
   };
   using Sink = std::function<void(const PlacedScan&)>;
 
   ScanFeed(ros::NodeHandle& node, Settings settings, Sink sink);
+  /// No more comes: scans that wait for the end of their sweep are used as they are.
+  void finish();
 
   const Transforms& transforms() const { return transforms_.transforms(); }
   /// Of the laser of that topic.
@@ -76,7 +81,6 @@ class ScanFeed {
 
   using Event = ros::MessageEvent<const topic_tools::ShapeShifter>;
 
-  OdometryAround odometryAround(const Waiting& waiting, const PlacedScan& placed) const;
   void receive(const Event& event, std::size_t topic);
   void serve();
   void use(const Waiting& waiting);
@@ -96,12 +100,12 @@ class ScanFeed {
   Sink sink_;
   std::deque<Waiting> waiting_;
   PoseGate gate_;
-  std::map<std::string, MissingReturns> missing_returns_;          ///< of each laser, by its frame
-  std::map<std::string, ScanFaults> faults_;                       ///< the same
-  std::map<std::string, MotionCompensation> motion_compensation_;  ///< the same
-  std::map<std::string, ros::Time> last_stamps_;                   ///< the same
-  std::vector<ScanPeriod> periods_;                                ///< by topic
+  std::map<std::string, MissingReturns> missing_returns_;  ///< of each laser, by its frame
+  std::map<std::string, ScanFaults> faults_;               ///< the same
+  std::map<std::string, ros::Time> last_stamps_;           ///< the same
+  std::vector<ScanPeriod> periods_;                        ///< by topic
   ros::Time last_now_;
+  bool is_at_end_ = false;
   std::string last_trouble_;
   std::map<std::string, long> dropped_;
   std::set<std::string> told_;  ///< reasons and rules

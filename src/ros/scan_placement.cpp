@@ -1,7 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "cca_mrpt/ros/scan_placement.hpp"
 
+#include <cmath>
+#include <stdexcept>
+
 namespace cca {
+namespace {
+
+/// s; below the first, a driver does not mean it. Lasers turn ten times a second, many of them.
+constexpr double kLeastSweep = 0.01, kUsualSweep = 0.1;
+
+}  // namespace
 
 bool hasPlacement(const Transforms& transforms, const PlacementFrames& frames,
                   const std::string& laser, const ros::Time& time) {
@@ -32,6 +41,30 @@ ScanPlacement placementOf(const Transforms& transforms, const PlacementFrames& f
     placement.T_odom_robot = transforms.lookup(frames.odom, robot, time).pose;
   }
   return placement;
+}
+
+ros::Duration halfSweep(double sweep_duration) {
+  const double told = std::abs(sweep_duration);
+  return ros::Duration(0.5 * (told > kLeastSweep ? told : kUsualSweep));
+}
+
+SweepMotion sweepMotion(const Transforms& transforms, const PlacementFrames& frames,
+                        const std::string& laser, const ros::Time& middle,
+                        const ros::Duration& half) {
+  const std::string& source = frames.mount ? frames.base : laser;
+  const bool has_smooth = !frames.smooth.empty() && transforms.has(frames.smooth, source, middle);
+  const std::string& target = has_smooth ? frames.smooth : frames.fixed;
+  const auto at = [&](const ros::Time& time) -> std::optional<SensorReading> {
+    if (!transforms.has(target, source, time)) return std::nullopt;
+    try {
+      const Pose2 pose = transforms.lookup(target, source, time).pose;
+      return SensorReading{frames.mount ? pose * frames.mount->pose : pose, time.toSec()};
+    } catch (const std::runtime_error&) {  // it is tilted then
+      return std::nullopt;
+    }
+  };
+  const bool has_before = middle.toSec() > half.toSec();
+  return {at(middle), has_before ? at(middle - half) : std::nullopt, at(middle + half)};
 }
 
 }  // namespace cca

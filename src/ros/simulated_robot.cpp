@@ -121,13 +121,7 @@ Observation SimulatedRobot::scan() {
   const auto message = scanToMessage(observation.scan, limits, header);
   scans_.publish(message);
   bag_.write(scans_.getTopic(), now(), message);
-  if (laser.sweep == 0.0 && laser.missing == MissingReading::kTold) return observation;
-  missing_returns_.judge(observation.scan);
-  const Instant &begun = simulation_.sweepBegun(), &scanned = simulation_.scanned();
-  observation.scan = motion_compensation_.undistort(
-      observation.scan, {}, OdometryReading{scanned.T_odom_robot, scanned.time},
-      {OdometryReading{begun.T_odom_robot, begun.time},
-       OdometryReading{simulation_.T_odom_robot(), simulation_.time()}});
+  if (laser.missing != MissingReading::kTold) missing_returns_.judge(observation.scan);
   return observation;
 }
 

@@ -50,7 +50,6 @@ class SimulatedRobot {
 
   Simulation simulation_;
   MissingReturns missing_returns_;
-  MotionCompensation motion_compensation_;
   FrameNames frames_;
   bool has_localisation_;
   ros::Time start_;

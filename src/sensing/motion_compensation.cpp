@@ -16,23 +16,23 @@ constexpr double kLongest = 1.1;    // likewise, above
 constexpr double kSlowestLaser = 1.0;  // s; no sweep lasts longer
 constexpr double kOther = 0.1;  // of a duration: another one is another question to identification
 
-bool follows(const OdometryReading& before, const OdometryReading& after) {
+bool follows(const SensorReading& before, const SensorReading& after) {
   return after.time > before.time && after.time - before.time <= kLongestGap;
 }
 
-Twist twistBetween(const OdometryReading& before, const OdometryReading& after) {
-  return twistBetween(before.T_odom_robot, after.T_odom_robot, after.time - before.time);
+Twist twistBetween(const SensorReading& before, const SensorReading& after) {
+  return twistBetween(before.T_odom_sensor, after.T_odom_sensor, after.time - before.time);
 }
 
 /// The mean twist from one time to another, by the last three readings: constant acceleration; none
 /// of a single one.
-Twist meanTwist(const std::vector<OdometryReading>& readings, double from, double to) {
+Twist meanTwist(const std::vector<SensorReading>& readings, double from, double to) {
   const std::size_t n = readings.size();
   if (n < 2) return {};
-  const OdometryReading &b = readings[n - 2], &c = readings[n - 1];
+  const SensorReading &b = readings[n - 2], &c = readings[n - 1];
   const Twist last = twistBetween(b, c);
   if (n < 3) return last;
-  const OdometryReading& a = readings[n - 3];
+  const SensorReading& a = readings[n - 3];
   const Twist first = twistBetween(a, b);
   // Each is that of the middle of its interval.
   const double share = (0.5 * (from + to) - 0.5 * (a.time + b.time)) / (0.5 * (c.time - a.time));
@@ -42,34 +42,36 @@ Twist meanTwist(const std::vector<OdometryReading>& readings, double from, doubl
 
 }  // namespace
 
-Scan MotionCompensation::undistort(const Scan& scan, const Pose2& T_robot_sensor,
-                                   const std::optional<OdometryReading>& now,
-                                   const OdometryAround& around) {
-  if (!now || (!taken_.empty() && !follows(taken_.back().odometry, *now))) taken_.clear();
+Scan MotionCompensation::undistort(const Scan& scan, const SweepMotion& motion) {
+  const auto& now = motion.middle;
+  if (!now || (!taken_.empty() && !follows(taken_.back().middle, *now))) taken_.clear();
   Scan swept = scan;
   swept.sweep_duration = duration_ = 0.0;
   if (!now || scan.size() < 2) return swept;
-  if (!taken_.empty()) periods_.push_back(now->time - taken_.back().odometry.time);
+  if (!taken_.empty()) periods_.push_back(now->time - taken_.back().middle.time);
   if (periods_.size() > kPeriods) periods_.pop_front();
   const double duration = told_ ? std::abs(*told_) : candidate(scan);
-  const Taken taken{scan, T_robot_sensor, *now, duration};
-  if (!told_) identify(taken);
+  const Taken taken{scan, *now, duration};
+  if (!told_ && !is_repeating_) identify(taken);
   taken_.push_back(taken);
   if (taken_.size() > 3) taken_.pop_front();
   swept.sweep_duration = duration_ = told_ ? *told_ : signedDuration(scan, duration);
-  std::vector<OdometryReading> readings;
-  for (const Taken& last : taken_) readings.push_back(last.odometry);
-  if (around.before && follows(*around.before, *now)) readings = {*around.before, *now};
-  if (around.after && follows(*now, *around.after)) readings.push_back(*around.after);
+  std::vector<SensorReading> readings;
+  for (const Taken& last : taken_) readings.push_back(last.middle);
+  if (motion.before && follows(*motion.before, *now)) readings = {*motion.before, *now};
+  if (motion.after && follows(*now, *motion.after)) readings.push_back(*motion.after);
   const double half = 0.5 * std::abs(duration_);
-  return cca::undistort(
-      swept, sensorTwist(meanTwist(readings, now->time - half, now->time), T_robot_sensor),
-      sensorTwist(meanTwist(readings, now->time, now->time + half), T_robot_sensor));
+  return cca::undistort(swept, meanTwist(readings, now->time - half, now->time),
+                        meanTwist(readings, now->time, now->time + half));
 }
 
-bool MotionCompensation::isLearning() const {
-  if (told_ || taken_.empty() || !(taken_.back().candidate > 0.0)) return false;
-  return !identification_.isSettled();
+void MotionCompensation::amend(const Pose2& T_odom_sensor) {
+  if (!taken_.empty()) taken_.back().middle.T_odom_sensor = T_odom_sensor;
+}
+
+void MotionCompensation::repeat() {
+  taken_.clear();
+  is_repeating_ = true;
 }
 
 /// s, between the scans; nothing where they come as the robot moves, or too few have come.
@@ -113,11 +115,13 @@ void MotionCompensation::identify(const Taken& next) {
   if (!(asked.candidate > 0.0)) return;
   if (std::abs(asked.candidate - identified_for_) > kOther * asked.candidate) {
     identification_ = SweepIdentification();
+    lasers_ += identified_for_ > 0.0;
     identified_for_ = asked.candidate;
   }
-  const Twist robot = twistBetween(before.odometry, next.odometry);
-  identification_.add(asked.scan, identified_for_, sensorTwist(robot, asked.T_robot_sensor),
-                      asked.odometry.T_odom_robot * asked.T_robot_sensor);
+  const double believed = signedDuration(asked.scan, asked.candidate);
+  identification_.add(asked.scan, identified_for_, twistBetween(before.middle, next.middle),
+                      asked.middle.T_odom_sensor);
+  version_ += signedDuration(asked.scan, asked.candidate) != believed;
 }
 
 }  // namespace cca

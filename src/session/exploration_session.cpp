@@ -5,28 +5,30 @@
 
 namespace cca {
 
-Measurement measurementOf(const Observation& seen, const std::optional<Pose2>& T_odom_robot) {
+Measurement measurementOf(const Observation& seen, const std::optional<Pose2>& T_odom_robot,
+                          const SweepMotion& motion) {
   Measurement measurement;
   measurement.scan = seen.scan;
   measurement.T_robot_sensor = seen.T_map_robot.inverse() * seen.scan.T_map_sensor;
   measurement.T_odom_robot = T_odom_robot;
   measurement.T_map_robot = seen.T_map_robot;
   measurement.time = seen.time;
+  measurement.motion = motion;
   return measurement;
 }
 
 ExplorationSession::ExplorationSession(std::unique_ptr<Localiser> localiser,
                                        const Settings& settings, MapRecorder* recorder,
                                        Executor executor)
-    : mapping_(std::move(localiser), {settings.mapping}, recorder, std::move(executor)),
+    : mapping_(std::move(localiser), {settings.mapping, false, settings.sweep}, recorder,
+               std::move(executor)),
       explorer_(settings.robot, settings.exploration) {}
 
 Observation ExplorationSession::sense(const Measurement& measurement, const Velocity& velocity) {
   estimate_ = mapping_.add(measurement);
   if (estimate_.was_corrected) explorer_.correct(mapping_.past());
   Observation observation;
-  observation.scan = measurement.scan;
-  observation.scan.T_map_sensor = estimate_.T_map_sensor;
+  observation.scan = mapping_.scan();
   observation.T_map_robot = estimate_.T_map_robot;
   observation.velocity = velocity;
   observation.time = measurement.time;
@@ -36,10 +38,9 @@ Observation ExplorationSession::sense(const Measurement& measurement, const Velo
 
 Estimate ExplorationSession::addSecondary(const Measurement& measurement, std::size_t sensor) {
   const Estimate estimate = mapping_.addSecondary(measurement, sensor);
+  if (estimate.was_corrected) explorer_.correct(mapping_.past());
   if (!estimate.is_known) return estimate;
-  Scan scan = measurement.scan;
-  scan.T_map_sensor = estimate.T_map_sensor;
-  explorer_.observe(scan, estimate.T_map_robot);
+  explorer_.observe(mapping_.scan(), estimate.T_map_robot);
   return estimate;
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "cca_mrpt/session/mapping_session.hpp"
 
+#include <algorithm>
 #include <utility>
 
 namespace cca {
@@ -15,52 +16,155 @@ MappingSession::MappingSession(std::unique_ptr<Localiser> localiser, const Setti
       execute_(std::move(executor)),
       line_map_(settings.mapping) {}
 
+void MappingSession::beginDrive() {
+  compensations_.clear();
+  lesson_.reset();
+  lesson_is_due_ = true;
+}
+
 Estimate MappingSession::add(const Measurement& measurement) {
-  last_ = localiser_->update(measurement, past_);
-  trajectory_.push_back(last_.T_map_robot);
-  times_.push_back(measurement.time);
-  is_localised_.push_back(last_.is_known);
-  if (last_.was_corrected) {
-    takeCorrection();
-    if (!settings_.maps_at_the_end) rebuild();
-  }
-  T_map_odom_.reset();
-  if (measurement.T_odom_robot && last_.is_known) {
-    T_map_odom_ = last_.T_map_robot * measurement.T_odom_robot->inverse();
-  }
-  Scan scan = measurement.scan;
-  scan.T_map_sensor = last_.T_map_sensor;
-  const bool corrects = localiser_->correctsPast();
-  const bool is_kept = corrects && past_.add(scan, last_.T_map_robot, last_.is_known);
-  if (last_.is_known && (is_kept || !corrects)) insert(std::move(scan), last_.T_map_robot, 0);
-  return last_;
+  return undistort(measurement, 0) ? repeat() : localise(measurement, 0);
 }
 
 Estimate MappingSession::addSecondary(const Measurement& measurement, std::size_t sensor) {
+  return undistort(measurement, sensor) ? repeat() : localise(measurement, sensor);
+}
+
+MotionCompensation& MappingSession::compensationOf(std::size_t sensor) {
+  const auto found = compensations_.find(sensor);
+  if (found != compensations_.end()) return found->second;
+  const auto fresh = settings_.sweep ? MotionCompensation(*settings_.sweep) : MotionCompensation();
+  return compensations_.emplace(sensor, fresh).first->second;
+}
+
+/// Where nobody tells, the robot goes on as from the scan before the last one to the last one.
+SweepMotion MappingSession::motionOf(const Measurement& measurement, std::size_t sensor) const {
+  SweepMotion motion = measurement.motion;
+  const Pose2& T_robot_sensor = measurement.T_robot_sensor;
+  if (motion.middle || !(measurement.time > 0.0)) return motion;
+  if (measurement.T_odom_robot) {
+    motion.middle = SensorReading{*measurement.T_odom_robot * T_robot_sensor, measurement.time};
+    return motion;
+  }
+  const std::size_t n = state_.trajectory.size();
+  if (sensor != 0 || n < 2 || !state_.is_localised[n - 1] || !state_.is_localised[n - 2]) return {};
+  const SensorReading before{state_.trajectory[n - 2] * T_robot_sensor, state_.times[n - 2]};
+  const SensorReading last{state_.trajectory[n - 1] * T_robot_sensor, state_.times[n - 1]};
+  if (!(last.time > before.time)) return {};
+  const Twist twist =
+      twistBetween(before.T_odom_sensor, last.T_odom_sensor, last.time - before.time);
+  const Pose2 T_map_sensor = last.T_odom_sensor * moveBy(twist, measurement.time - last.time);
+  return {SensorReading{T_map_sensor, measurement.time}, last};
+}
+
+bool MappingSession::undistort(const Measurement& measurement, std::size_t sensor) {
+  MotionCompensation& compensation = compensationOf(sensor);
+  const int version = compensation.version(), lasers = compensation.lasers();
+  scan_ = compensation.undistort(measurement.scan, motionOf(measurement, sensor));
+  if (lesson_is_due_ || compensation.lasers() != lasers) beginLesson();
+  if (!lesson_) return false;
+  lesson_->taken.push_back({measurement, sensor});
+  if (compensation.version() != version) return true;
+  if (!isLearning() || lesson_->taken.size() >= kMostRepeated) lesson_.reset();
+  return false;
+}
+
+/// Where poses are final, no map can be made anew but that of all scans.
+void MappingSession::beginLesson() {
+  lesson_is_due_ = false;
+  lesson_.reset();
+  if (!isLearning() || (!localiser_->correctsPast() && !state_.trajectory.empty())) return;
+  if (auto snapshot = localiser_->snapshot()) {
+    lesson_.emplace(Lesson{state_, std::move(snapshot), {}});
+  }
+}
+
+bool MappingSession::isLearning() const {
+  return std::any_of(compensations_.begin(), compensations_.end(),
+                     [](const auto& laser) { return laser.second.isLearning(); });
+}
+
+Estimate MappingSession::repeat() {
+  std::vector<Pose2> was = localiser_->trajectory();
+  std::vector<bool> was_localised = localiser_->isLocalised();
+  localiser_->restore(*lesson_->localiser);
+  state_ = lesson_->before;
+  for (auto& [sensor, compensation] : compensations_) compensation.repeat();
+  const bool corrects = localiser_->correctsPast();
+  if (!corrects || !settings_.maps_at_the_end) rebuild();
   Estimate estimate;
-  Scan scan = measurement.scan;
-  estimate.is_known = !trajectory_.empty() && (measurement.T_map_robot || T_map_odom_);
+  for (const Taken& taken : lesson_->taken) {
+    const SweepMotion motion = motionOf(taken.measurement, taken.sensor);
+    scan_ = compensationOf(taken.sensor).undistort(taken.measurement.scan, motion);
+    estimate = localise(taken.measurement, taken.sensor);
+  }
+  for (auto& [sensor, compensation] : compensations_) compensation.learnOn();
+  if (!corrects) return estimate;
+  estimate.was_corrected = true;
+  // Who moves along has to know from where.
+  const std::vector<Pose2> poses = localiser_->trajectory();
+  const std::vector<bool> localised = localiser_->isLocalised();
+  for (std::size_t k = was.size(); k < poses.size(); ++k) {
+    was.push_back(poses[k]);
+    was_localised.push_back(localised[k]);
+  }
+  state_.past.correct(was, was_localised);
+  state_.past.correct(poses, localised);
+  return estimate;
+}
+
+/// @pre  scan_ is that of the measurement, undistorted.
+Estimate MappingSession::localise(const Measurement& measurement, std::size_t sensor) {
+  if (sensor != 0) return localiseSecondary(measurement, sensor);
+  Measurement still = measurement;
+  still.scan = scan_;
+  state_.last = localiser_->update(still, state_.past);
+  const Estimate& now = state_.last;
+  state_.trajectory.push_back(now.T_map_robot);
+  state_.times.push_back(measurement.time);
+  state_.is_localised.push_back(now.is_known);
+  if (now.was_corrected) {
+    takeCorrection();
+    if (!settings_.maps_at_the_end) rebuild();
+  }
+  state_.T_map_odom.reset();
+  if (measurement.T_odom_robot && now.is_known) {
+    state_.T_map_odom = now.T_map_robot * measurement.T_odom_robot->inverse();
+  }
+  if (!measurement.motion.middle && !measurement.T_odom_robot) {
+    compensationOf(0).amend(now.T_map_sensor);
+  }
+  scan_.T_map_sensor = now.T_map_sensor;
+  const bool corrects = localiser_->correctsPast();
+  const bool is_kept = corrects && state_.past.add(scan_, now.T_map_robot, now.is_known);
+  if (now.is_known && (is_kept || !corrects)) insert(scan_, now.T_map_robot, 0);
+  return now;
+}
+
+Estimate MappingSession::localiseSecondary(const Measurement& measurement, std::size_t sensor) {
+  Estimate estimate;
+  estimate.is_known = !state_.trajectory.empty() &&
+                      (measurement.T_map_robot || (state_.T_map_odom && measurement.T_odom_robot));
   if (!estimate.is_known) return estimate;
   if (measurement.T_map_robot) {
     estimate.T_map_robot = *measurement.T_map_robot;
-    estimate.T_map_sensor = scan.T_map_sensor;
+    estimate.T_map_sensor = measurement.scan.T_map_sensor;
   } else {
-    estimate.is_known = measurement.T_odom_robot.has_value();
-    if (!estimate.is_known) return estimate;
-    estimate.T_map_robot = *T_map_odom_ * *measurement.T_odom_robot;
+    estimate.T_map_robot = *state_.T_map_odom * *measurement.T_odom_robot;
     estimate.T_map_sensor = estimate.T_map_robot * measurement.T_robot_sensor;
   }
-  scan.T_map_sensor = estimate.T_map_sensor;
+  scan_.T_map_sensor = estimate.T_map_sensor;
   const bool corrects = localiser_->correctsPast();
+  PastScans& past = state_.past;
   const bool is_kept =
-      corrects && past_.addBeside(past_.size() - 1, scan, last_.T_map_robot, sensor);
-  if (is_kept || !corrects) insert(std::move(scan), estimate.T_map_robot, sensor);
+      corrects && past.addBeside(past.size() - 1, scan_, state_.last.T_map_robot, sensor);
+  if (is_kept || !corrects) insert(scan_, estimate.T_map_robot, sensor);
   return estimate;
 }
 
 void MappingSession::remember(Scan scan, const Pose2& T_map_robot, const Pose2& T_map_sensor) {
   scan.T_map_sensor = T_map_sensor;
-  past_.add(scan, T_map_robot, false);
+  state_.past.add(scan, T_map_robot, false);
 }
 
 void MappingSession::finish(const DoAll& do_all) {
@@ -77,14 +181,14 @@ void MappingSession::mapAsItIs() {
 void MappingSession::takeCorrection() {
   const std::vector<Pose2> poses = localiser_->trajectory();
   const std::vector<bool> localised = localiser_->isLocalised();
-  past_.correct(poses, localised);
+  state_.past.correct(poses, localised);
   const auto own = static_cast<std::ptrdiff_t>(localiser_->remembered());
-  trajectory_.assign(poses.begin() + own, poses.end());
-  is_localised_.assign(localised.begin() + own, localised.end());
+  state_.trajectory.assign(poses.begin() + own, poses.end());
+  state_.is_localised.assign(localised.begin() + own, localised.end());
 }
 
 void MappingSession::rebuild() {
-  execute_([this, kept = past_.kept(), earlier = localiser_->remembered()] {
+  execute_([this, kept = state_.past.kept(), earlier = localiser_->remembered()] {
     line_map_ = LineMap(settings_.mapping);
     agreement_ = ScanAgreement();
     if (recorder_) recorder_->restart();
@@ -98,9 +202,10 @@ void MappingSession::rebuild() {
 
 void MappingSession::insert(Scan scan, const Pose2& T_map_robot, std::size_t sensor) {
   if (localiser_->correctsPast() && settings_.maps_at_the_end) return;
-  execute_([this, number = trajectory_.size() - 1, sensor, T_map_robot, scan = std::move(scan)] {
-    insertNow({number, sensor, false, T_map_robot, scan});
-  });
+  execute_(
+      [this, number = state_.trajectory.size() - 1, sensor, T_map_robot, scan = std::move(scan)] {
+        insertNow({number, sensor, false, T_map_robot, scan});
+      });
 }
 
 void MappingSession::insertNow(const MappedScan& mapped) {

@@ -64,6 +64,12 @@ Observation Simulation::observe() {
   return observation;
 }
 
+SweepMotion Simulation::sweepMotion() const {
+  if (parameters_.laser.sweep == 0.0) return {};
+  const auto reading = [](const Instant& at) { return SensorReading{at.T_odom_robot, at.time}; };
+  return {reading(scanned_), reading(sweep_begun_), SensorReading{T_odom_robot(), time_}};
+}
+
 void Simulation::remember() {
   const double sweep = std::abs(parameters_.laser.sweep);
   if (sweep == 0.0) return;

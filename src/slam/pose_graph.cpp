@@ -299,6 +299,11 @@ Settlement::Settlement(const PoseGraph& graph, bool has_new_loops)
   if (has_new_loops) state_->kernels = {kLoopKernel, 10.0 * kLoopKernel, 100.0 * kLoopKernel};
 }
 Settlement::~Settlement() = default;
+Settlement::Settlement(const Settlement& other) : state_(std::make_unique<State>(*other.state_)) {}
+Settlement& Settlement::operator=(const Settlement& other) {
+  state_ = std::make_unique<State>(*other.state_);
+  return *this;
+}
 Settlement::Settlement(Settlement&&) noexcept = default;
 Settlement& Settlement::operator=(Settlement&&) noexcept = default;
 

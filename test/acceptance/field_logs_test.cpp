@@ -28,7 +28,7 @@ std::filesystem::path fieldLog(const std::string& name) {
 }
 
 Localised localise(const std::filesystem::path& path) {
-  LocalLog log(openLog(path.string()));
+  LocalLog log(openUndistortedLog(path.string()));
   Slam slam;
   Localised localised;
   double begin = 0.0;

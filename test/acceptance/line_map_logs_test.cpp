@@ -29,7 +29,7 @@ TEST_P(RealLog, MapIsCompleteCleanAndOnTheWalls) {
   const auto path = sharedData() / "logs" / (std::string(GetParam()) + "-corrected.log.gz");
   if (!std::filesystem::exists(path)) GTEST_SKIP() << path << " is missing";
   std::vector<Scan> scans;
-  const auto reader = openLog(path.string());
+  const auto reader = openUndistortedLog(path.string());
   while (const auto record = reader->next()) scans.push_back(record->scan);
   LineMap map;
   ScanAgreement agreement;

@@ -5,17 +5,18 @@
 #include <gtest/gtest.h>
 
 #include <cstdio>
+#include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "cca_mrpt/io/parameters.hpp"
 #include "cca_mrpt/io/trajectory_error.hpp"
 #include "cca_mrpt/io/world_files.hpp"
-#include "cca_mrpt/mapping/line_map.hpp"
 #include "cca_mrpt/sensing/missing_returns.hpp"
-#include "cca_mrpt/sensing/motion_compensation.hpp"
+#include "cca_mrpt/session/exploration_session.hpp"
 #include "cca_mrpt/simulation/simulation.hpp"
-#include "cca_mrpt/slam/slam.hpp"
+#include "cca_mrpt/slam/slam_localiser.hpp"
 
 namespace cca {
 namespace {
@@ -55,36 +56,29 @@ struct Outcome {
   std::size_t lines;
 };
 
+/// @param sweep  s, told to the session; nothing: it has to learn it.
 Outcome mapOf(const std::string& world, const LaserParameters& laser,
               const OdometryParameters& wheels, const std::vector<Velocity>& commands,
-              MotionCompensation compensation = {}) {
+              const std::optional<double>& sweep = {}) {
   Simulation robot = robotIn(world, laser, wheels);
-  Slam slam(robot.T_map_robot());
+  MappingSession::Settings settings;
+  settings.maps_at_the_end = true;
+  settings.sweep = sweep;
+  MappingSession session(std::make_unique<SlamLocaliser>(), settings);
   MissingReturns missing_returns;
-  std::vector<Scan> scans;
   std::vector<Pose2> truth;
   for (std::size_t k = 0; k < commands.size(); ++k) {
     robot.drive(commands[k], kPeriod);
     if (k % kCommandsAScan != 0) continue;
-    Scan scan = robot.observe().scan;
+    Observation seen = robot.observe();
+    missing_returns.judge(seen.scan);
     const Instant& scanned = robot.scanned();
-    missing_returns.judge(scan);
-    const Instant& begun = robot.sweepBegun();
-    scan = compensation.undistort(scan, {}, OdometryReading{scanned.T_odom_robot, scanned.time},
-                                  {OdometryReading{begun.T_odom_robot, begun.time},
-                                   OdometryReading{robot.T_odom_robot(), robot.time()}});
-    slam.step(scan, {}, scanned.T_odom_robot);
-    scans.push_back(scan);
+    session.add(measurementOf(seen, scanned.T_odom_robot, robot.sweepMotion()));
     truth.push_back(scanned.T_map_robot);
   }
-  slam.finish();
-  const std::vector<Pose2> poses = slam.trajectory();
-  LineMap map((CcaParameters()));
-  for (std::size_t k = 0; k < scans.size(); ++k) {
-    scans[k].T_map_sensor = poses[k];
-    map.insert(scans[k]);
-  }
-  const Outcome outcome{compareTrajectories(poses, truth).rms_m, map.lines().size()};
+  session.finish();
+  const Outcome outcome{compareTrajectories(session.trajectory(), truth).rms_m,
+                        session.lineMap().lines().size()};
   std::printf("%s, sweep %g s: %.4f m rms, %zu lines\n", world.c_str(), laser.sweep, outcome.rms,
               outcome.lines);
   return outcome;
@@ -111,7 +105,7 @@ TEST_P(TwinDrives, OnWheelsThatDoNotErrGiveTheSameMap) {
   const Outcome instant = mapOf(world, laser, exact, commands);
   for (const double sweep : {kSweep, -kSweep}) {
     laser.sweep = sweep;
-    const Outcome swept = mapOf(world, laser, exact, commands, MotionCompensation(sweep));
+    const Outcome swept = mapOf(world, laser, exact, commands, sweep);
     EXPECT_LT(swept.rms, instant.rms + laser.range_noise / 3.0);
     EXPECT_NEAR(static_cast<double>(swept.lines), static_cast<double>(instant.lines),
                 0.1 * static_cast<double>(instant.lines));
@@ -138,7 +132,7 @@ TEST(SweepThatNobodyUndoes, SpoilsAMap) {
   LaserParameters laser = cheapLaser();
   laser.sweep = kSweep;
   const std::vector<Velocity> commands = commandsIn("apartment", 150.0);
-  const Outcome raw = mapOf("apartment", laser, {}, commands, MotionCompensation(0.0));
+  const Outcome raw = mapOf("apartment", laser, {}, commands, 0.0);
   const Outcome undone = mapOf("apartment", laser, {}, commands);
   EXPECT_GT(raw.rms, 2.5 * undone.rms);
 }

@@ -30,7 +30,7 @@ double quantile(const std::vector<double>& sorted, double share) {
 }
 
 void measure(const char* path) {
-  LocalLog log(openLog(path));
+  LocalLog log(openUndistortedLog(path));
   Slam slam;
   std::vector<double> steps;
   std::size_t beams = 0;

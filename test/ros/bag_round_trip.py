@@ -57,8 +57,6 @@ class AwkwardBag:
         scan = LaserScan()
         scan.header.stamp, scan.header.frame_id = self.at(t + off), "/laser"
         scan.angle_min, scan.angle_max, scan.angle_increment = -2.35, 2.35, 4.7 / 360.0
-        # Its scans are of one instant, and say so. One that sweeps is undistorted offline by a first pass over the
-        # whole log, and played by what is known till then: its bytes differ.
         scan.time_increment, scan.range_min, scan.range_max = 0.0, 0.02, 80.0
         bearings = scan.angle_min + scan.angle_increment * numpy.arange(361)
         x, y, theta = compose(self.pose(t), LASER)
@@ -89,6 +87,29 @@ class WheelsOnlyBag(AwkwardBag):
         return 0.9 * math.sin(1.02 * a), 0.9 * (1.0 - math.cos(1.02 * a)), 1.02 * a
 
 
+class SweepingBag(WheelsOnlyBag):
+    """The same by a laser whose last beam is .09 s later than its first one, with or without a driver that says so."""
+
+    SWEEP = 0.09
+
+    def __init__(self, path, says_so):
+        self.says_so = says_so
+        super().__init__(path)
+
+    def scan(self, t, blind, off):
+        scan = super().scan(t, blind, off)
+        ranges = numpy.array(scan.ranges)
+        begin = t if self.says_so else t - self.SWEEP / 2
+        for i in range(361):
+            x, y, theta = compose(self.pose(begin + self.SWEEP * i / 360 if off >= 1.0 else t), LASER)
+            beam = theta + scan.angle_min + scan.angle_increment * i
+            if numpy.isfinite(ranges[i]):
+                ranges[i] = cast(self.walls, x, y, numpy.array([beam]))[0] + self.random.normal(0.0, 0.01)
+        scan.ranges = ranges.tolist()
+        scan.time_increment = self.SWEEP / 360 if self.says_so else 0.0
+        return scan
+
+
 class BagRoundTrip(OwnMaster):
     def record(self):
         bag = os.path.join(self.home.name, "run.bag")
@@ -103,7 +124,7 @@ class BagRoundTrip(OwnMaster):
     def map_offline(self, bag, pose):
         """@return the folder of the map, and the scans in it."""
         folder = os.path.join(self.home.name, "offline")
-        done = self.start(os.path.join(NODES, "cca-mrpt"), "map", bag, "--out", folder, "--pose", pose)
+        done = self.start(os.path.join(NODES, "cca-mrpt"), "map", bag, "--out", folder, "--pose", pose, "--force")
         output, _ = done.communicate(timeout=60)
         self.assertEqual(done.returncode, 0, output)
         with open(os.path.join(folder, "summary.json")) as file:
@@ -160,6 +181,14 @@ class BagRoundTrip(OwnMaster):
         WheelsOnlyBag(bag)
         lines = self.check(bag, offline_pose="slam", pose="slam")
         self.assertLess(len(lines), 25)  # of walls that are drawn once
+
+    def test_so_does_a_laser_that_sweeps(self):
+        for says_so in (True, False):
+            with self.subTest(says_so=says_so):
+                bag = os.path.join(self.home.name, "sweep_%d.bag" % says_so)
+                SweepingBag(bag, says_so)
+                lines = self.check(bag, offline_pose="slam", pose="slam")
+                self.assertLess(len(lines), 25)
 
 
 if __name__ == "__main__":

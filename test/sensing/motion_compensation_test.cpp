@@ -48,7 +48,7 @@ double learned(const Drive& drive, int scans, MotionCompensation compensation = 
     for (double& range : scan.ranges) range += noise(generator);
     scan.sweep_duration = drive.told;
     const Pose2 T_odom_robot{0.5, -0.3, wrapAngle(drive.scale * heading)};
-    compensation.undistort(scan, kMount, OdometryReading{T_odom_robot, k * drive.period});
+    compensation.undistort(scan, {SensorReading{T_odom_robot * kMount, k * drive.period}});
   }
   return compensation.sweepDuration();
 }
@@ -108,7 +108,7 @@ TEST(MotionCompensation, ScansWithoutOdometryStayAsTheyAre) {
   const Scan scan = SweptRoom().sweep(kFullTurn, {}, {{0.0, 0.0}, 1.0}, 0.17);
   MotionCompensation compensation;
   for (int k = 0; k < 5; ++k) {
-    EXPECT_EQ(compensation.undistort(scan, {}, std::nullopt).ranges, scan.ranges);
+    EXPECT_EQ(compensation.undistort(scan, {}).ranges, scan.ranges);
   }
 }
 
@@ -120,16 +120,15 @@ double errorWhileSpeedingUp(double around) {
   double largest = 0.0;
   const auto at = [](double k) {
     const double t = 0.1 * k;
-    return OdometryReading{{0.2, 0.1, t * t}, t};
+    return SensorReading{{0.2, 0.1, t * t}, t};
   };
   for (int k = 0; k < 8; ++k) {
-    const Pose2 T_map_sensor = at(k).T_odom_robot;
+    const Pose2 T_map_sensor = at(k).T_odom_sensor;
     const Twist twist{{0.0, 0.0}, 0.2 * k};
     const Laser laser{-0.5 * M_PI, M_PI / 180.0, 181};
-    OdometryAround known;
-    if (around > 0.0) known = {at(k - around), at(k + around)};
-    const Scan still =
-        compensation.undistort(room.sweep(laser, T_map_sensor, twist, 0.1), {}, at(k), known);
+    SweepMotion motion{at(k)};
+    if (around > 0.0) motion = {at(k), at(k - around), at(k + around)};
+    const Scan still = compensation.undistort(room.sweep(laser, T_map_sensor, twist, 0.1), motion);
     const Scan truth = room.sweep(laser, T_map_sensor, twist, 0.0);
     for (std::size_t i = 0; i < truth.size(); ++i) {
       const double off = std::abs(still.ranges[i] - truth.ranges[i]);

@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 
+#include "cca_mrpt/sensing/motion_compensation.hpp"
 #include "cca_mrpt/sensing/scan.hpp"
 
 namespace cca {
@@ -20,6 +21,7 @@ struct LogRecord {
   std::optional<Pose2> corrected;  ///< T_map_robot as a SLAM system had stored it
   std::optional<Pose2> odometry;   ///< T_odom_robot
   std::optional<Pose2> truth;      ///< T_map_robot of a simulation
+  SweepMotion motion;              ///< as far as the log tells
 };
 
 /// A log, scan by scan. The scans' number counts from 0 in the order that next() gives.
@@ -54,11 +56,18 @@ struct LogHints {
 
 /// Opens a log by its content: MRPT .rawlog, .simplemap(.gz), CARMEN .log(.gz), ROS .bag (in builds
 /// with ROS), each also gzipped. A file of true poses beside it (LOG.GT.txt, STEM_GT.txt) is read
-/// with it. Each scan is brought to one instant, see MotionCompensation.
+/// with it. Scans that are no evidence (see ScanFaults) are left out, with a warning. The others
+/// are as the laser took them: see MappingSession and openUndistortedLog().
 /// @param hints  all but the sweep for bags only.
 /// @throws std::runtime_error naming the file and the reason; also where it holds no scan, and for
 ///         hints that it cannot heed.
 std::unique_ptr<LogReader> openLog(const std::string& path, const LogHints& hints = {});
+
+/// A log whose scans are brought to one instant each, see MotionCompensation, by its odometry, else
+/// by its corrected poses: for who has no MappingSession. A first pass finds out how each laser
+/// sweeps.
+/// @throws std::runtime_error  as openLog().
+std::unique_ptr<LogReader> openUndistortedLog(const std::string& path, const LogHints& hints = {});
 
 /// A kind of log that openLog() knows besides its own.
 struct LogKind {

@@ -10,6 +10,12 @@ namespace cca {
 class GivenPoses : public Localiser {
  public:
   Estimate update(const Measurement& measurement, const PastScans& past) override;
+  std::unique_ptr<Localiser> snapshot() const override {
+    return std::make_unique<GivenPoses>(*this);
+  }
+  void restore(const Localiser& snapshot) override {
+    *this = dynamic_cast<const GivenPoses&>(snapshot);
+  }
 };
 
 }  // namespace cca

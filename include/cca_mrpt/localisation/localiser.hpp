@@ -3,9 +3,11 @@
 
 #include <Eigen/Core>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <vector>
 
+#include "cca_mrpt/sensing/motion_compensation.hpp"
 #include "cca_mrpt/sensing/past_scans.hpp"
 #include "cca_mrpt/sensing/scan.hpp"
 
@@ -19,12 +21,14 @@ void doInTurn(int count, const std::function<void(int)>& task);
 
 /// One scan of the laser that the robot is localised by, and what is known of where it was taken.
 struct Measurement {
-  /// Its T_map_sensor is where T_map_robot puts the laser, and has no meaning without that pose.
+  /// Its T_map_sensor is where T_map_robot puts the laser, and has no meaning without that pose. As
+  /// the driver gives it where a MappingSession takes it, which brings it to one instant.
   Scan scan;
   Pose2 T_robot_sensor;
   std::optional<Pose2> T_odom_robot{};  ///< from the wheels, in any frame that stays
   std::optional<Pose2> T_map_robot{};   ///< where somebody else knows it
-  double time = 0.0;                    ///< s, never falling; 0 where nobody tells
+  double time = 0.0;                    ///< s, of the poses, never falling; 0 where nobody tells
+  SweepMotion motion{};                 ///< during the sweep, as far as it is known
 };
 
 /// Where a localiser believes that a scan was taken.
@@ -59,6 +63,11 @@ class Localiser {
   virtual std::vector<bool> isLocalised() const { return {}; }
   /// How many scans are of earlier drives: the first ones.
   virtual std::size_t remembered() const { return 0; }
+
+  /// What it believes now, to go back to; null where it cannot go back. Cost: a copy.
+  virtual std::unique_ptr<Localiser> snapshot() const { return nullptr; }
+  /// Goes back. @param snapshot  one of its own.
+  virtual void restore(const Localiser& /*snapshot*/) {}
 };
 
 }  // namespace cca

@@ -14,6 +14,12 @@ Pose2 startOf(const Measurement& first);
 class WheelOdometry : public Localiser {
  public:
   Estimate update(const Measurement& measurement, const PastScans& past) override;
+  std::unique_ptr<Localiser> snapshot() const override {
+    return std::make_unique<WheelOdometry>(*this);
+  }
+  void restore(const Localiser& snapshot) override {
+    *this = dynamic_cast<const WheelOdometry&>(snapshot);
+  }
 
  private:
   std::optional<Pose2> T_map_odom_;

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "cca_mrpt/ros/transforms.hpp"
+#include "cca_mrpt/sensing/motion_compensation.hpp"
 
 namespace cca {
 
@@ -14,6 +15,7 @@ struct PlacementFrames {
   std::string base = {};            ///< of the robot; empty: it is the laser itself
   std::string odom = {};            ///< empty: not asked for
   std::optional<PlanarPose> mount;  ///< of the laser on the base, told instead of tf's
+  std::string smooth = {};          ///< in which the robot never leaps; empty: the fixed one
 };
 
 /// Where tf has a laser and its robot at one time.
@@ -32,5 +34,14 @@ bool hasPlacement(const Transforms& transforms, const PlacementFrames& frames,
 /// @throws std::runtime_error where tf does not know a pose, or planarPose() refuses it.
 ScanPlacement placementOf(const Transforms& transforms, const PlacementFrames& frames,
                           const std::string& laser, const ros::Time& time);
+
+/// Half of a sweep. Of a laser whose driver tells none, half of a usual one.
+ros::Duration halfSweep(double sweep_duration);
+
+/// How the laser moved during a sweep, by tf in the smooth frame where that is known, else in the
+/// fixed one: in the middle, and half of a sweep before and after, where tf knows it.
+SweepMotion sweepMotion(const Transforms& transforms, const PlacementFrames& frames,
+                        const std::string& laser, const ros::Time& middle,
+                        const ros::Duration& half);
 
 }  // namespace cca

@@ -10,18 +10,22 @@
 
 namespace cca {
 
-/// What the wheels say at a time.
-struct OdometryReading {
-  Pose2 T_odom_robot;
+/// Where the laser was at a time, in a frame in which the robot moves smoothly: its odometry's.
+struct SensorReading {
+  Pose2 T_odom_sensor;
   double time;  ///< s
 };
 
-/// What they say before and after the middle of a sweep, best at its ends.
-struct OdometryAround {
-  std::optional<OdometryReading> before, after;
+/// What is known of the laser's motion during a sweep.
+struct SweepMotion {
+  /// In the middle of the sweep, or at the stamp where that is not known; nothing where there is no
+  /// odometry or no time.
+  std::optional<SensorReading> middle = {};
+  /// Before and after that, best at the sweep's ends; nothing where nobody tells.
+  std::optional<SensorReading> before = {}, after = {};
 };
 
-/// Brings each scan of one laser to one instant, by the motion of the robot while it was taken.
+/// Brings each scan of one laser to one instant, by the laser's motion while it was taken.
 ///
 /// How long a sweep is comes from the scan (sweep_duration, of the driver's time_increment) where
 /// it is plausible: at most the time between two scans, and not below a fiftieth of that. Else it
@@ -39,19 +43,23 @@ class MotionCompensation {
   ///              learned then. 0: of one instant.
   explicit MotionCompensation(double told) : told_(told) {}
 
-  /// @param scan    as the driver gives it; the scans of one laser, in the order of time.
-  /// @param now     in the middle of the sweep, or at the stamp where that is not known; nothing
-  ///                where there is no odometry or no time.
-  /// @param around  as far as it is known.
-  /// @return        the scan of one instant; `scan` itself where there is nothing to undo.
+  /// @param scan  as the driver gives it; the scans of one laser, in the order of time.
+  /// @return      the scan of one instant; `scan` itself where there is nothing to undo.
   /// Cost: O(beams); see SweepIdentification while that learns.
-  Scan undistort(const Scan& scan, const Pose2& T_robot_sensor,
-                 const std::optional<OdometryReading>& now, const OdometryAround& around = {});
+  Scan undistort(const Scan& scan, const SweepMotion& motion);
+  /// The middle of the last sweep as it has become known since.
+  void amend(const Pose2& T_odom_sensor);
 
   /// Whether more scans may tell more of the sweep.
-  bool isLearning() const;
-  /// Goes on with other scans, or the same from the first on: what has been learned stays.
-  void beginAnew() { taken_.clear(); }
+  bool isLearning() const { return !told_ && !identification_.isSettled(); }
+  /// How often more scans have told another sweep than what the scans before were undistorted by.
+  int version() const { return version_; }
+  /// How often another laser, or another rate of turning, has begun to be learned.
+  int lasers() const { return lasers_; }
+  /// Goes through the scans so far once more, by what is known now; learns nothing from them until
+  /// learnOn().
+  void repeat();
+  void learnOn() { is_repeating_ = false; }
 
   /// s, with its sign: what the last scan was undistorted by.
   double sweepDuration() const { return duration_; }
@@ -59,8 +67,7 @@ class MotionCompensation {
  private:
   struct Taken {
     Scan scan;
-    Pose2 T_robot_sensor;
-    OdometryReading odometry;
+    SensorReading middle;
     double candidate;
   };
   std::optional<double> period() const;
@@ -74,6 +81,8 @@ class MotionCompensation {
   std::deque<double> periods_;  ///< s, the last ones between scans
   SweepIdentification identification_;
   double identified_for_ = 0.0;  ///< s, the duration that it has been asked about
+  int version_ = 0, lasers_ = 0;
+  bool is_repeating_ = false;
 };
 
 }  // namespace cca

@@ -10,7 +10,8 @@ namespace cca {
 
 /// An observation made at a known pose as a measurement that brings this pose along.
 /// @param T_odom_robot  what the wheels say at that time.
-Measurement measurementOf(const Observation& seen, const std::optional<Pose2>& T_odom_robot);
+Measurement measurementOf(const Observation& seen, const std::optional<Pose2>& T_odom_robot,
+                          const SweepMotion& motion = {});
 
 /// The one pipeline from scans to commands: a mapping session, and an explorer that sees each scan
 /// where the session has localised it, and moves along where the past is corrected.
@@ -22,6 +23,7 @@ class ExplorationSession {
     CcaParameters mapping;
     RobotParameters robot;
     ExplorerParameters exploration;
+    std::optional<double> sweep = {};  ///< see MappingSession::Settings
   };
 
   /// See MappingSession.

@@ -2,12 +2,15 @@
 #pragma once
 
 #include <functional>
+#include <map>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "cca_mrpt/localisation/localiser.hpp"
 #include "cca_mrpt/mapping/line_map.hpp"
 #include "cca_mrpt/mapping/scan_agreement.hpp"
+#include "cca_mrpt/sensing/motion_compensation.hpp"
 #include "cca_mrpt/sensing/past_scans.hpp"
 
 namespace cca {
@@ -35,8 +38,14 @@ class MapRecorder {
 using Executor = std::function<void(std::function<void()> work)>;
 void doNow(std::function<void()> work);
 
-/// The one pipeline from scans to a line map, whoever brings the scans: a scan is localised, kept,
-/// and mapped; where the past is corrected, the map is made anew of the scans kept.
+/// The one pipeline from scans to a line map, whoever brings the scans: a scan is brought to one
+/// instant, localised, kept, and mapped; where the past is corrected, the map is made anew of the
+/// scans kept.
+///
+/// How each laser sweeps is learned from its scans (see MotionCompensation). Once it is known, the
+/// scans before, at most kMostRepeated, are gone through once more from the first on: a map does
+/// not depend on when that was. The motion during a sweep is the odometry's, else what the last two
+/// estimates tell.
 ///
 /// Which scans make the map: where the localiser corrects the past, those that PastScans keeps, one
 /// every 10 cm or 5 degrees, so that a map can be made anew in time, and so that it depends on
@@ -47,13 +56,20 @@ class MappingSession {
     CcaParameters mapping;
     /// Whether nobody looks at the map before finish(). It is the same map then, and is made once.
     bool maps_at_the_end = false;
+    /// s, of each laser, as Scan::sweep_duration, with its sign; nothing: is learned.
+    std::optional<double> sweep = {};
   };
+
+  static constexpr std::size_t kMostRepeated = 5000;  ///< scans; some minutes of a robot that turns
 
   /// @param recorder  may be null; must outlive the session.
   /// @param executor  does the mapping. Who hands over one that does it later waits for all of it
   ///                  before looking at lineMap(), agreement() or the recorder.
   MappingSession(std::unique_ptr<Localiser> localiser, const Settings& settings,
                  MapRecorder* recorder = nullptr, Executor executor = doNow);
+
+  /// Another drive begins, perhaps with other lasers: how these sweep is learned anew.
+  void beginDrive();
 
   /// Takes the next scan. Cost: does not depend on the size of the map, but where the past is
   /// corrected: that of all scans kept.
@@ -76,20 +92,51 @@ class MappingSession {
   /// The map of the poses as they are believed now, without a last pass.
   void mapAsItIs();
 
+  /// The last scan, of whichever laser, of one instant, at its T_map_sensor where that is known.
+  const Scan& scan() const { return scan_; }
   Localiser& localiser() { return *localiser_; }
   const Localiser& localiser() const { return *localiser_; }
   const LineMap& lineMap() const { return line_map_; }
   /// How far the scans of the map agree with the map that the earlier ones made.
   const ScanAgreement& agreement() const { return agreement_; }
   /// The scans kept, where the localiser corrects the past; else none.
-  const PastScans& past() const { return past_; }
+  const PastScans& past() const { return state_.past; }
   /// T_map_robot of each scan of this drive, as believed now, and its time [s].
-  const std::vector<Pose2>& trajectory() const { return trajectory_; }
-  const std::vector<double>& times() const { return times_; }
+  const std::vector<Pose2>& trajectory() const { return state_.trajectory; }
+  const std::vector<double>& times() const { return state_.times; }
   /// Of each scan of this drive, whether its pose is known.
-  const std::vector<bool>& isLocalised() const { return is_localised_; }
+  const std::vector<bool>& isLocalised() const { return state_.is_localised; }
 
  private:
+  /// All that the scans so far have changed, but the map.
+  struct State {
+    PastScans past;
+    Estimate last;
+    std::optional<Pose2> T_map_odom;  ///< of the last scan
+    std::vector<Pose2> trajectory;
+    std::vector<double> times;
+    std::vector<bool> is_localised;
+  };
+  struct Taken {
+    Measurement measurement;
+    std::size_t sensor;
+  };
+  /// The scans from which it is being learned how the lasers sweep.
+  struct Lesson {
+    State before;  ///< the first of them
+    std::unique_ptr<Localiser> localiser;
+    std::vector<Taken> taken;
+  };
+
+  MotionCompensation& compensationOf(std::size_t sensor);
+  SweepMotion motionOf(const Measurement& measurement, std::size_t sensor) const;
+  /// @return  whether the scans of the lesson have to be gone through once more, this one included.
+  bool undistort(const Measurement& measurement, std::size_t sensor);
+  void beginLesson();
+  bool isLearning() const;
+  Estimate repeat();
+  Estimate localise(const Measurement& measurement, std::size_t sensor);
+  Estimate localiseSecondary(const Measurement& measurement, std::size_t sensor);
   void takeCorrection();
   void rebuild();
   void insert(Scan scan, const Pose2& T_map_robot, std::size_t sensor);
@@ -99,12 +146,11 @@ class MappingSession {
   Settings settings_;
   MapRecorder* recorder_;
   Executor execute_;
-  PastScans past_;
-  Estimate last_;
-  std::optional<Pose2> T_map_odom_;  ///< of the last scan
-  std::vector<Pose2> trajectory_;
-  std::vector<double> times_;
-  std::vector<bool> is_localised_;
+  State state_;
+  Scan scan_;
+  std::map<std::size_t, MotionCompensation> compensations_;  ///< of each laser
+  std::optional<Lesson> lesson_;
+  bool lesson_is_due_ = true;
   // Changed by the executor alone.
   LineMap line_map_;
   ScanAgreement agreement_;

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "cca_mrpt/navigation/explorer.hpp"
+#include "cca_mrpt/sensing/motion_compensation.hpp"
 #include "cca_mrpt/simulation/laser.hpp"
 #include "cca_mrpt/simulation/movers.hpp"
 #include "cca_mrpt/simulation/robot.hpp"
@@ -49,8 +50,9 @@ class Simulation {
   Observation observe();
   /// The middle of the last scan's sweep: now, where it was taken in an instant.
   const Instant& scanned() const { return scanned_; }
-  /// Its begin; it ended when observe() was called.
-  const Instant& sweepBegun() const { return sweep_begun_; }
+  /// By the wheels, of the last scan: at its begin, in the middle, and at its end, now. Nothing
+  /// where the laser takes its scans in an instant.
+  SweepMotion sweepMotion() const;
 
   /// Drives for dt seconds towards a commanded velocity, within the robot's limits. The base hears
   /// of the command when the robot's latency is over, and drives by the one before until then.

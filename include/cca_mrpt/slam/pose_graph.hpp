@@ -77,6 +77,8 @@ class Settlement {
   ///                       their errors begins wide and narrows (graduated non-convexity).
   Settlement(const PoseGraph& graph, bool has_new_loops);
   ~Settlement();
+  Settlement(const Settlement& other);
+  Settlement& operator=(const Settlement& other);
   Settlement(Settlement&&) noexcept;
   Settlement& operator=(Settlement&&) noexcept;
 

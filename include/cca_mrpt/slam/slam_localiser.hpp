@@ -15,6 +15,12 @@ class SlamLocaliser : public Localiser {
   std::vector<Pose2> trajectory() const override { return slam_.trajectory(); }
   std::vector<bool> isLocalised() const override { return slam_.isPlaced(); }
   std::size_t remembered() const override { return static_cast<std::size_t>(slam_.remembered()); }
+  std::unique_ptr<Localiser> snapshot() const override {
+    return std::make_unique<SlamLocaliser>(*this);
+  }
+  void restore(const Localiser& snapshot) override {
+    *this = dynamic_cast<const SlamLocaliser&>(snapshot);
+  }
 
   /// See Slam::remember() and Slam::startAnywhere().
   void remember(const SlamMemory& memory) { slam_.remember(memory); }

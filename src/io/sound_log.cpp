@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sound_log.hpp"
+
+#include <cstdio>
+#include <map>
+#include <string>
+#include <tuple>
+#include <utility>
+
+#include "cca_mrpt/sensing/scan_faults.hpp"
+
+namespace cca {
+namespace {
+
+/// Of the laser at a record's place on the robot. @param record  that tells where the robot was.
+std::optional<SensorReading> readingOf(const LogRecord& record, const Pose2& T_robot_sensor) {
+  const auto& pose = record.odometry ? record.odometry : record.corrected;
+  if (!pose || !record.has_time) return std::nullopt;
+  return SensorReading{*pose * T_robot_sensor, record.time};
+}
+
+/// "12 scan(s) left out: ..."; empty where there are none.
+std::string toldOf(std::size_t count, const std::string& what) {
+  return count > 0 ? std::to_string(count) + " scan(s) left out: " + what : "";
+}
+
+class SoundLog : public LogReader {
+ public:
+  explicit SoundLog(std::unique_ptr<LogReader> log) : log_(std::move(log)), ahead_(nextSound()) {}
+
+  std::optional<LogRecord> next() override {
+    if (!ahead_) return std::nullopt;
+    LogRecord record = std::move(*ahead_);
+    ahead_ = nextSound();
+    if (record.motion.middle) return record;
+    record.motion.middle = readingOf(record, record.T_robot_sensor);
+    if (ahead_) record.motion.after = readingOf(*ahead_, record.T_robot_sensor);
+    return record;
+  }
+
+  std::string warnings() const override {
+    std::string text = log_->warnings();
+    char long_ranges[120];
+    std::snprintf(long_ranges, sizeof long_ranges,
+                  "ranges look like millimetres (median %g), and must be metres", median_);
+    for (const std::string& told :
+         {toldOf(repeated_,
+                 "equal to the one before, though the wheels went on (the driver hangs); the "
+                 "first is number " +
+                     std::to_string(first_repeated_)),
+          toldOf(long_, long_ranges)}) {
+      text += (text.empty() || told.empty() ? "" : "; ") + told;
+    }
+    return text;
+  }
+  double progress() const override { return log_->progress(); }
+
+ private:
+  /// The next scan that is evidence of anything.
+  std::optional<LogRecord> nextSound() {
+    while (auto record = log_->next()) {
+      const auto fault =
+          faults_[placeOf(record->T_robot_sensor)].check(record->scan, record->odometry);
+      ++read_;
+      if (fault == ScanFault::kNone) return record;
+      if (fault == ScanFault::kRepeated && repeated_++ == 0) first_repeated_ = read_ - 1;
+      if (fault == ScanFault::kMillimetres && long_++ == 0) median_ = medianReturn(record->scan);
+    }
+    return std::nullopt;
+  }
+
+  /// Logs tell lasers apart by where they are on the robot.
+  using Place = std::tuple<double, double, double>;
+  static Place placeOf(const Pose2& T) { return {T.x, T.y, T.theta}; }
+
+  std::unique_ptr<LogReader> log_;
+  std::map<Place, ScanFaults> faults_;
+  std::size_t read_ = 0, repeated_ = 0, first_repeated_ = 0, long_ = 0;
+  double median_ = 0.0;  ///< m, of the first scan that looks like millimetres
+  std::optional<LogRecord> ahead_;
+};
+
+}  // namespace
+
+std::unique_ptr<LogReader> soundScansOf(std::unique_ptr<LogReader> log) {
+  return std::make_unique<SoundLog>(std::move(log));
+}
+
+}  // namespace cca

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <memory>
+
+#include "cca_mrpt/io/log_reader.hpp"
+
+namespace cca {
+
+/// A log without the scans that are no evidence (see ScanFaults), of which it warns. Of the motion
+/// during a sweep, it adds what the log's poses tell, those of the next scan included.
+std::unique_ptr<LogReader> soundScansOf(std::unique_ptr<LogReader> log);
+
+}  // namespace cca
