@@ -20,6 +20,7 @@ constexpr double kBody = 0.8;      // m, how far a mover reaches from its suspic
 constexpr double kNearby = 0.75;   // m, around a place where a mover was
 constexpr double kStill = 0.05;    // m, beyond the noise: a walker of 0.15 m/s goes farther in kAge
 constexpr double kStampError = 0.01;  // s, between a scan's beams and its pose
+constexpr double kPlaceError = 0.01;  // m, of a scan's pose as seen from another's
 constexpr double kHeeded = 2.0;       // m; what is farther cannot come before the robot stands
 
 // rad/s, of the robot, from one scan to another. A sweep that is undone by wheels that err, and
@@ -73,7 +74,8 @@ std::vector<std::pair<std::size_t, std::size_t>> runsInFreeSpace(
     bool in_free_space = false;
     if (i < scan.size() && isReturn(scan.ranges[i]) && scan.ranges[i] <= MovingPoints::kFarthest) {
       const Eigen::Vector2d p = toOther(points[i]);
-      in_free_space = p.norm() < seenAround(other, p, slack) - clearly;
+      const double range = p.norm();
+      in_free_space = range < seenAround(other, p, slack + kPlaceError / range) - clearly;
     }
     const bool goes_on =
         in_free_space && length > 0 && (points[i] - points[i - 1]).norm() < kJoined;
@@ -144,7 +146,10 @@ std::vector<bool> MovingPoints::update(const Scan& scan, double range_sigma, dou
       return (place.p_map - points[i]).squaredNorm() < kNearby * kNearby;
     });
   }
-  if (!places_.empty() && places_.back().time == time) last_seen_ = time;
+  if (!places_.empty() && places_.back().time == time) {
+    // Who moves is suspicious in one scan after the other; what noise and lost beams show is not.
+    if (places_.front().time < time) last_seen_ = time;
+  }
   findUnsettled(scan, points, moving, range_sigma, time);
   past_.push_back({scan, points, time});
   return moving;

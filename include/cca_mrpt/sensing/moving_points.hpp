@@ -23,7 +23,8 @@ class MovingPoints {
   /// @return      by beam.
   std::vector<bool> update(const Scan& scan, double range_sigma, double time);
 
-  /// Whether movers have been seen within the last minute: there may be more around the corner.
+  /// Whether movers have been seen within the last minute, in more than one scan: there may be more
+  /// around the corner.
   bool areAround(double time) const { return time - last_seen_ < 60.0; }
 
   /// Returns of the last scan, m, map frame, that may belong to a mover though none was found in
