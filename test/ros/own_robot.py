@@ -1,13 +1,16 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
 """own_robot.py WORLD.yaml X,Y,DEG REPORT.json [--latency S] [--localised] [--wrong-until S [--path]] [--speed N]
-             [--seed N] [--bend DEG] [--two-lasers] [--bar X1,Y1,X2,Y2 --bar-seen-by points|range]
+             [--seed N] [--bend DEG] [--stretch F] [--two-lasers | --turning-laser]
+             [--bar X1,Y1,X2,Y2 --bar-seen-by points|range]
 
 A robot that shares no code with the project: a disc on two wheels, whose base answers late and has limits,
 whose odometry is 2 % too long and turns a degree a metre (or --bend), and whose laser sees 270 degrees, hangs off the
 centre, and errs by 1 cm. Gives /clock, scan, odom and tf, takes cmd_vel; --localised: also map -> odom, the
 truth, which it is WRONG by for the first --wrong-until seconds; --path: then it tells where the robot has been,
-as corrected_path. --two-lasers: one looks ahead, one back, 150 degrees each, as scan_front and scan_rear. --bar: lies
+as corrected_path. --two-lasers: one looks ahead, one back, 150 degrees each, as scan_front and scan_rear.
+--turning-laser: a cheap one that looks all around in SLOW_SWEEP, beam by beam, clockwise, and loses LOST of them (+inf).
+--bar: lies
 below their plane; hazard_points or hazard_range tell what is within SHORT_SIGHT ahead. Time stands until a
 scan has been answered: how fast the machine is decides nothing. REPORT: contacts, share of the cells that it
 can see at all and has seen, metres, seconds, the last true pose, where it was, every APART metres and at the end."""
@@ -42,6 +45,8 @@ FRONT, REAR = (0.15, 0.0, 0.0), (-0.15, 0.0, math.pi)
 HALF_BEAMS, HALF_FIELD = 301, math.radians(150.0)
 SHORT_SIGHT, SHORT_FIELD = 0.8, math.radians(20.0)
 SHORT_BEARINGS = [math.radians(degrees) for degrees in (-80, -60, -40, -20, 0, 20, 40, 60, 80)]
+SLOW_TICKS, SLOW_BEAMS, LOST = 7, 360, 0.03
+SLOW_SWEEP = SLOW_TICKS * TICK * (SLOW_BEAMS - 1) / SLOW_BEAMS  # s
 STRETCH = 1.02  # of the odometry
 SPACING = 0.2  # m, between the places that what can be seen at all is looked for from
 APART = 0.2  # m
@@ -66,13 +71,16 @@ class World:
         return numpy.clip(row, 0, rows - 1), numpy.clip(column, 0, columns - 1)
 
     def cast(self, x, y, bearings):
-        """Ranges to the first occupied cell, inf beyond RANGE; what the beams pass is seen."""
+        """Ranges to the first occupied cell, inf beyond RANGE; what the beams pass is seen. x, y: one for all beams,
+        or one each."""
         steps = numpy.arange(0.5, RANGE / self.resolution * 2.0, dtype=numpy.float32) * 0.5
         c, s = numpy.cos(bearings), numpy.sin(bearings)
         rows, columns = self.occupied.shape
         # In cells, in single precision: this is what the robot's time goes to.
-        along_x = numpy.float32((x - self.origin[0]) / self.resolution) + c.astype(numpy.float32)[:, None] * steps
-        along_y = numpy.float32((y - self.origin[1]) / self.resolution) + s.astype(numpy.float32)[:, None] * steps
+        from_x = numpy.float32((x - self.origin[0]) / self.resolution).reshape(-1, 1)
+        from_y = numpy.float32((y - self.origin[1]) / self.resolution).reshape(-1, 1)
+        along_x = from_x + c.astype(numpy.float32)[:, None] * steps
+        along_y = from_y + s.astype(numpy.float32)[:, None] * steps
         column = numpy.clip(along_x.astype(numpy.int32), 0, columns - 1)
         row = numpy.clip(along_y.astype(numpy.int32), 0, rows - 1)
         cell = row * columns + column
@@ -213,6 +221,8 @@ class OwnRobot:
         self.tf_static = rospy.Publisher("/tf_static", TFMessage, queue_size=1, latch=True)
         self.odom = rospy.Publisher("odom", Odometry, queue_size=50)
         lasers = [("scan", "laser", LASER, FIELD, BEAMS)]
+        self.ticks_a_scan = SLOW_TICKS if options.turning_laser else TICKS_A_SCAN
+        self.way_lately = collections.deque([(0.0, *self.pose)], maxlen=SLOW_TICKS + 1)
         if options.two_lasers:
             lasers = [("scan_rear", "laser_rear", REAR, HALF_FIELD, HALF_BEAMS),
                       ("scan_front", "laser_front", FRONT, HALF_FIELD, HALF_BEAMS)]
@@ -259,9 +269,11 @@ class OwnRobot:
             self.v, step = 0.0, (0.0, 0.0, step[2])
         self.pose = compose(self.pose, step)
         self.way += abs(self.v) * TICK
-        self.odometry = compose(self.odometry, (STRETCH * step[0], STRETCH * step[1],
+        stretch = self.options.stretch
+        self.odometry = compose(self.odometry, (stretch * step[0], stretch * step[1],
                                                 step[2] + math.radians(self.options.bend) * abs(self.v) * TICK))
         self.time += TICK
+        self.way_lately.append((self.time, *self.pose))
 
     def tell_path(self):
         path = Path()
@@ -295,17 +307,40 @@ class OwnRobot:
             self.places.append(self.pose[:2])
         time.sleep(SETTLING)
         self.answer.clear()
+        if self.options.turning_laser:
+            self.lasers[0][0].publish(self.turn_round())
+            self.answer.wait(PATIENCE if self.has_heard else FIRST_PATIENCE)
+            return
         for publisher, frame, T_robot_laser, field, beams in self.lasers:
             scan = LaserScan()
             scan.header.stamp, scan.header.frame_id = self.now(), frame
             scan.angle_min, scan.angle_max = -0.5 * field, 0.5 * field
             scan.angle_increment = field / (beams - 1)
-            scan.scan_time, scan.range_min, scan.range_max = TICKS_A_SCAN * TICK, 0.02, RANGE
+            scan.scan_time, scan.range_min, scan.range_max = self.ticks_a_scan * TICK, 0.02, RANGE
             x, y, theta = compose(self.pose, T_robot_laser)
             ranges = self.world.cast(x, y, theta + numpy.linspace(-0.5 * field, 0.5 * field, beams))
             scan.ranges = (ranges + self.random.normal(0.0, NOISE, beams)).tolist()
             publisher.publish(scan)
         self.answer.wait(PATIENCE if self.has_heard else FIRST_PATIENCE)
+
+    def turn_round(self):
+        """A scan, each beam of which was taken when the laser had come round to it, the last one now."""
+        scan = LaserScan()
+        scan.header.stamp, scan.header.frame_id = self.now() - rospy.Duration(SLOW_SWEEP), "laser"
+        scan.angle_increment = -2.0 * math.pi / SLOW_BEAMS
+        scan.angle_min, scan.angle_max = math.pi, math.pi + (SLOW_BEAMS - 1) * scan.angle_increment
+        scan.time_increment, scan.scan_time = SLOW_SWEEP / (SLOW_BEAMS - 1), SLOW_TICKS * TICK
+        scan.range_min, scan.range_max = 0.02, RANGE
+        times = self.time + scan.time_increment * numpy.arange(1 - SLOW_BEAMS, 1)
+        known, x, y, theta = numpy.array(self.way_lately).T
+        x, y, theta = (numpy.interp(times, known, values) for values in (x, y, theta))
+        lx, ly, turned = LASER
+        x, y = x + lx * numpy.cos(theta) - ly * numpy.sin(theta), y + lx * numpy.sin(theta) + ly * numpy.cos(theta)
+        bearings = theta + turned + scan.angle_min + scan.angle_increment * numpy.arange(SLOW_BEAMS)
+        ranges = self.world.cast(x, y, bearings) + self.random.normal(0.0, NOISE, SLOW_BEAMS)
+        ranges[self.random.uniform(size=SLOW_BEAMS) < LOST] = numpy.inf
+        scan.ranges = ranges.tolist()
+        return scan
 
     def feel(self):
         """What the sensors near the ground tell of the bar."""
@@ -341,7 +376,7 @@ class OwnRobot:
             self.drive()
             if tick % TICKS_A_WORD == 0:
                 self.tell()
-            if tick % TICKS_A_SCAN == 0:
+            if tick % self.ticks_a_scan == 0:
                 self.look()
             if tick % 50 == 0:
                 self.report()
@@ -357,6 +392,8 @@ def main():
     parser.add_argument("--speed", type=float, default=1.0)
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--bend", type=float, default=1.0)
+    parser.add_argument("--stretch", type=float, default=STRETCH)
+    parser.add_argument("--turning-laser", action="store_true")
     parser.add_argument("--localised", action="store_true")
     parser.add_argument("--wrong-until", type=float, default=0.0)
     parser.add_argument("--path", action="store_true")
