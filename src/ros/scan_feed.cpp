@@ -18,7 +18,8 @@ constexpr double kLongWait = 1.0;                // s; no localisation takes as 
 constexpr std::uint32_t kQueue = 5000;
 constexpr std::size_t kMostWaiting = 5000, kMostWaitingToDrive = 50;
 
-/// @throws std::runtime_error where it holds no scan.
+}  // namespace
+
 sensor_msgs::LaserScan scanOf(const topic_tools::ShapeShifter& message) try {
   if (message.getDataType() == "sensor_msgs/MultiEchoLaserScan") {
     return firstEchoes(*message.instantiate<sensor_msgs::MultiEchoLaserScan>());
@@ -27,8 +28,6 @@ sensor_msgs::LaserScan scanOf(const topic_tools::ShapeShifter& message) try {
 } catch (const ros::Exception&) {
   throw std::runtime_error("a " + message.getDataType() + " is no scan");
 }
-
-}  // namespace
 
 ScanFeed::ScanFeed(ros::NodeHandle& node, Settings settings, Sink sink)
     : settings_(std::move(settings)),

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <ros/ros.h>
+#include <sensor_msgs/LaserScan.h>
 #include <topic_tools/shape_shifter.h>
 
 #include <deque>
@@ -21,6 +22,10 @@
 #include "transform_feed.hpp"
 
 namespace cca {
+
+/// Of a LaserScan, or the first echoes of a MultiEchoLaserScan.
+/// @throws std::runtime_error where it holds no scan.
+sensor_msgs::LaserScan scanOf(const topic_tools::ShapeShifter& message);
 
 /// A scan that may be used: sound, and at a pose that tf vouches for.
 struct PlacedScan {

@@ -30,6 +30,11 @@ Estimate MappingSession::addSecondary(const Measurement& measurement, std::size_
   return undistort(measurement, sensor) ? repeat() : localise(measurement, sensor);
 }
 
+double MappingSession::sweepDuration(std::size_t sensor) const {
+  const auto found = compensations_.find(sensor);
+  return found != compensations_.end() ? found->second.sweepDuration() : 0.0;
+}
+
 MotionCompensation& MappingSession::compensationOf(std::size_t sensor) {
   const auto found = compensations_.find(sensor);
   if (found != compensations_.end()) return found->second;

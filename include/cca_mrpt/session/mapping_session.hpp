@@ -94,6 +94,8 @@ class MappingSession {
 
   /// The last scan, of whichever laser, of one instant, at its T_map_sensor where that is known.
   const Scan& scan() const { return scan_; }
+  /// s, with its sign: what the last scan of a laser was undistorted by.
+  double sweepDuration(std::size_t sensor) const;
   Localiser& localiser() { return *localiser_; }
   const Localiser& localiser() const { return *localiser_; }
   const LineMap& lineMap() const { return line_map_; }
