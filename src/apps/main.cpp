@@ -15,7 +15,7 @@ constexpr int kDone = 0, kRunFailed = 1, kUsage = 2, kFellShort = 3;
 const std::string kStatuses =
     "Exit status: 0 done; 1 failed, or interrupted (what was mapped so far is saved);\n"
     "2 no such command or option, or a value that is not allowed; 3 done, but the result\n"
-    "falls short, as the last message says (contacts, much that was not reached, ...).";
+    "falls short, as the last message says (contacts, scans that contradict the map, ...).";
 
 /// MRPT's own errors are pages with a call stack; the cause stands behind "Message:".
 std::string withoutCallStack(const std::string& error) {

@@ -108,6 +108,10 @@ void makeMap(const MapOptions& options, const Parameters& parameters) {
     throw std::runtime_error("interrupted after " + std::to_string(mapped->scans()) +
                              " scans; the map so far is in " + options.out);
   }
+  const std::string shortcoming = mapped->shortcoming();
+  if (!shortcoming.empty()) {
+    throw Shortcoming(options.logs.front() + ": " + shortcoming + "; the map is in " + options.out);
+  }
 }
 
 }  // namespace

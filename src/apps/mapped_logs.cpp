@@ -81,8 +81,9 @@ void MappedLogs::finish() {
   warn(withoutOdometry());
   if (slam_) warn(slamWarnings());
   warn(strayWarning());
-  warn(contradiction(session_->agreement()));
 }
+
+std::string MappedLogs::shortcoming() const { return contradiction(session_->agreement()); }
 
 void MappedLogs::restart() {
   grid_ = ScanGrid(start_);
@@ -187,7 +188,9 @@ MapProducts MappedLogs::products() const {
       summary["found_in_memory"] = slam.isInMemory();
     }
   }
-  if (!warnings_.empty()) summary["warnings"] = warnings_;
+  const std::string lacks = shortcoming();
+  const std::string warnings = warnings_ + (warnings_.empty() || lacks.empty() ? "" : "; ") + lacks;
+  if (!warnings.empty()) summary["warnings"] = warnings;
   std::vector<std::string> used{"mapping"};
   if (logs_.pose == PoseSource::kIcp) used.push_back("icp");
   summary["parameters"] = parametersJson(parameters_, used);

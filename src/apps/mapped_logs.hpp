@@ -43,6 +43,8 @@ class MappedLogs : public MapRecorder {
 
   MapProducts products() const;
   const std::string& warnings() const { return warnings_; }
+  /// Why this is not the map that was asked for; empty where it is.
+  std::string shortcoming() const;
   std::size_t scans() const { return session_->trajectory().size(); }
   bool isInterrupted() const { return interrupted_; }
 

@@ -11,6 +11,7 @@
 #include "cca_mrpt/io/memory_file.hpp"
 #include "cca_mrpt/session/earlier_drive.hpp"
 #include "commands.hpp"
+#include "contradiction.hpp"
 #include "on_all_cores.hpp"
 #include "parameter_options.hpp"
 
@@ -80,12 +81,15 @@ void merge(const MergeOptions& options, const Parameters& parameters) {
   const FolderLock folder = prepareMapFolder(options.out, options.force);
   const MapProducts products = productsOf(merged, stored.front().origin, options, parameters);
   writeMapFolder(options.out, products);
-  if (options.quiet) return;
-  std::printf("%zu lines from %zu maps, %d key frames, %zu loops between and within them\n",
-              products.lines.size(), options.maps.size(), products.graph.size(),
-              merged.slam->slam().loops().size());
-  std::printf("%s holds the map: map.png to look at, lines.csv and others to use\n",
-              options.out.c_str());
+  if (!options.quiet) {
+    std::printf("%zu lines from %zu maps, %d key frames, %zu loops between and within them\n",
+                products.lines.size(), options.maps.size(), products.graph.size(),
+                merged.slam->slam().loops().size());
+    std::printf("%s holds the map: map.png to look at, lines.csv and others to use\n",
+                options.out.c_str());
+  }
+  const std::string shortcoming = contradiction(merged.session->agreement());
+  if (!shortcoming.empty()) throw Shortcoming(shortcoming + "; the map is in " + options.out);
 }
 
 }  // namespace
