@@ -96,24 +96,26 @@ Velocity Exploration::step(Observation observation, const ros::Time& stamp) {
 }
 
 void Exploration::followErrand(const Action& action, double passed) {
-  if (action.status == ExplorationStatus::kArrived) return endErrand(true, "the goal is reached");
+  if (action.status == ExplorationStatus::kArrived)
+    return endErrand(ErrandOutcome::kReached, "the goal is reached");
   if (action.status == ExplorationStatus::kUnreachable)
-    return endErrand(false, "the goal is unreachable: " + action.reason);
-  if (isContradicted(passed)) return endErrand(false, "scans contradict the map");
+    return endErrand(ErrandOutcome::kUnreachable, "the goal is unreachable: " + action.reason);
+  if (isContradicted(passed))
+    return endErrand(ErrandOutcome::kCalledOff, "scans contradict the map");
   tell(action);
 }
 
-void Exploration::endErrand(bool is_reached, const std::string& how) {
+void Exploration::endErrand(ErrandOutcome outcome, const std::string& how) {
   session_->explorer().recall();
   why_paused_ = how + "; call ~pause with false to go on";
   state_ = finished_ ? "finished: " + how : "paused: " + why_paused_;
   publisher_.showStatus(state_);
-  std::exchange(errand_end_, nullptr)(is_reached, how);
+  std::exchange(errand_end_, nullptr)(outcome, how);
 }
 
 void Exploration::sendTo(const Pose2& T_map_goal, ErrandEnd end) {
   recall("another goal was set");
-  if (!session_) return end(false, "it is not known yet where the robot is");
+  if (!session_) return end(ErrandOutcome::kCalledOff, "it is not known yet where the robot is");
   setMode(Mode::kPaused);
   const std::lock_guard<std::mutex> lock(saver_.mutex());
   session_->explorer().sendTo(T_map_goal);
@@ -124,7 +126,7 @@ void Exploration::sendTo(const Pose2& T_map_goal, ErrandEnd end) {
 
 void Exploration::recall(const std::string& why) {
   const std::lock_guard<std::mutex> lock(saver_.mutex());
-  if (errand_end_) endErrand(false, why);
+  if (errand_end_) endErrand(ErrandOutcome::kCalledOff, why);
 }
 
 void Exploration::conclude(const ros::Time& stamp) {

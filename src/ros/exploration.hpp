@@ -62,7 +62,8 @@ class Exploration {
   void pause() { setMode(Mode::kPaused); }
 
   /// What became of a place that the robot was sent to.
-  using ErrandEnd = std::function<void(bool is_reached, const std::string& how)>;
+  enum class ErrandOutcome { kReached, kUnreachable, kCalledOff };
+  using ErrandEnd = std::function<void(ErrandOutcome outcome, const std::string& how)>;
   /// Leaves off exploring and drives to a place of the map; there it stays paused, or finished. A
   /// place that it was sent to before, or the services above, call it off, which is told to `end`,
   /// too.
@@ -107,7 +108,7 @@ class Exploration {
   MapProducts products() const;
   void tell(const Action& action);
   void followErrand(const Action& action, double passed);
-  void endErrand(bool is_reached, const std::string& how);
+  void endErrand(ErrandOutcome outcome, const std::string& how);
   bool isContradicted(double seconds);
   bool hasBegun() const { return session_ && !session_->mapping().times().empty(); }
 

@@ -21,6 +21,7 @@ GoalServer::GoalServer(ros::NodeHandle& node, ros::NodeHandle& private_node, std
       transforms_(node, [] {}),
       action_(private_node, "goal", kStartLater),
       simple_(node.subscribe("move_base_simple/goal", 1, &GoalServer::takeOfTopic, this)),
+      path_(node.subscribe("patrol", 1, &GoalServer::takePatrol, this)),
       progress_(node.createWallTimer(kProgressPeriod,
                                      [this](const ros::WallTimerEvent&) { tellProgress(); })) {
   action_.registerGoalCallback([this] { takeOfAction(); });
@@ -45,9 +46,9 @@ void GoalServer::takeOfAction() {
   const auto goal = action_.acceptNewGoal();
   try {
     const Pose2 T_map_goal = inMap(goal->target_pose);
-    exploration_.sendTo(T_map_goal, [this](bool is_reached, const std::string& how) {
-      endAction(is_reached, how);
-    });
+    patrol_.reset();
+    exploration_.sendTo(T_map_goal, [this](Exploration::ErrandOutcome outcome,
+                                           const std::string& how) { endAction(outcome, how); });
   } catch (const std::runtime_error& error) {
     ROS_WARN("the goal is refused: %s", error.what());
     action_.setAborted({}, error.what());
@@ -55,9 +56,46 @@ void GoalServer::takeOfAction() {
 }
 
 void GoalServer::takeOfTopic(const geometry_msgs::PoseStamped& goal) try {
-  exploration_.sendTo(inMap(goal), [](bool, const std::string&) {});
+  const Pose2 T_map_goal = inMap(goal);
+  patrol_.reset();
+  exploration_.sendTo(T_map_goal, [](Exploration::ErrandOutcome, const std::string&) {});
 } catch (const std::runtime_error& error) {
   ROS_WARN("the goal is refused: %s", error.what());
+}
+
+void GoalServer::takePatrol(const nav_msgs::Path& path) try {
+  Patrol patrol;
+  for (geometry_msgs::PoseStamped place : path.poses) {
+    if (place.header.frame_id.empty()) place.header = path.header;
+    patrol.places.push_back(inMap(place));
+  }
+  if (patrol_) exploration_.recall("the patrol is over");
+  patrol_.reset();
+  if (!patrol.places.empty()) patrol_ = std::move(patrol);
+} catch (const std::runtime_error& error) {
+  ROS_WARN("the patrol is refused: %s", error.what());
+}
+
+/// Not when the last place ends, but at the next tick: who ends it is not to be called back.
+void GoalServer::goOnPatrol() {
+  if (!patrol_ || !patrol_->is_due) return;
+  if (patrol_->missed >= patrol_->places.size()) {
+    ROS_WARN("the patrol is over: none of its places can be reached");
+    return patrol_.reset();
+  }
+  patrol_->is_due = false;
+  const std::size_t place = patrol_->next;
+  patrol_->next = (place + 1) % patrol_->places.size();
+  const Pose2 T_map_goal = patrol_->places[place];
+  exploration_.sendTo(T_map_goal,
+                      [this, place](Exploration::ErrandOutcome outcome, const std::string& how) {
+                        if (outcome == Exploration::ErrandOutcome::kCalledOff)
+                          return patrol_.reset();
+                        const bool is_missed = outcome == Exploration::ErrandOutcome::kUnreachable;
+                        if (is_missed) ROS_WARN("place %zu of the patrol: %s", place, how.c_str());
+                        patrol_->missed = is_missed ? patrol_->missed + 1 : 0;
+                        patrol_->is_due = true;
+                      });
 }
 
 /// Another goal of the action comes by takeOfAction().
@@ -65,14 +103,15 @@ void GoalServer::cancel() {
   if (!action_.isNewGoalAvailable()) exploration_.recall("cancelled");
 }
 
-void GoalServer::endAction(bool is_reached, const std::string& how) {
+void GoalServer::endAction(Exploration::ErrandOutcome outcome, const std::string& how) {
   if (!action_.isActive()) return;
-  if (is_reached) return action_.setSucceeded({}, how);
+  if (outcome == Exploration::ErrandOutcome::kReached) return action_.setSucceeded({}, how);
   if (action_.isPreemptRequested()) return action_.setPreempted({}, how);
   action_.setAborted({}, how);
 }
 
 void GoalServer::tellProgress() {
+  goOnPatrol();
   if (!action_.isActive()) return;
   move_base_msgs::MoveBaseFeedback feedback;
   feedback.base_position.header.frame_id = map_frame_;

@@ -11,7 +11,7 @@ import rospy
 from actionlib_msgs.msg import GoalStatus
 from geometry_msgs.msg import PoseStamped, Twist
 from move_base_msgs.msg import MoveBaseAction, MoveBaseGoal
-from nav_msgs.msg import OccupancyGrid
+from nav_msgs.msg import OccupancyGrid, Path
 from nav_msgs.srv import GetMap
 from std_msgs.msg import String
 from std_srvs.srv import SetBool
@@ -107,6 +107,17 @@ class Goals(OwnMaster):
             self.assertEqual(self.outcome(client, 120), GoalStatus.SUCCEEDED)
             self.assertLess(self.robot.off(*start[:2]), 0.25)
             self.expect("finished: the goal is reached")
+        with self.subTest("a patrol, with a place in between that no way leads to"):
+            patrol = rospy.Publisher("patrol", Path, queue_size=1)
+            self.assertTrue(until(lambda: patrol.get_num_connections() > 0))
+            places = [(start[0] + 1.0, start[1]), start[:2]]
+            path = Path(poses=[stamped(*places[0], 0.0), stamped(*IN_A_WALL, 0.0), stamped(*places[1], 0.0)])
+            patrol.publish(path)
+            for place in (*places, places[0]):  # and round again
+                self.assertTrue(until(lambda: self.robot.off(*place) < 0.25, 60), place)
+            patrol.publish(Path())
+            time.sleep(2.0)
+            self.assertTrue(self.status.messages[-1].data.startswith("finished"), self.status.messages[-1])
         with self.subTest("the map, for those who ask"):
             shown = rospy.wait_for_message("map", OccupancyGrid, 20)
             for name in ("static_map", "dynamic_map"):
