@@ -9,6 +9,7 @@ namespace cca {
 
 BagRecorder::BagRecorder(const std::string& path) : path_(path) {
   if (path.empty()) return;
+  if (std::filesystem::exists(path)) throw std::runtime_error(path + ": is there already");
   try {
     bag_.open(path + ".active", rosbag::bagmode::Write);
   } catch (const rosbag::BagException& error) {

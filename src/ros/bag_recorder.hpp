@@ -4,6 +4,7 @@
 #include <ros/console.h>
 #include <rosbag/bag.h>
 
+#include <algorithm>
 #include <boost/make_shared.hpp>
 #include <string>
 
@@ -14,7 +15,7 @@ namespace cca {
 class BagRecorder {
  public:
   BagRecorder() = default;
-  /// @throws std::runtime_error where the file cannot be made.
+  /// @throws std::runtime_error where the file cannot be made, or is there already.
   explicit BagRecorder(const std::string& path);
   ~BagRecorder();
   BagRecorder(const BagRecorder&) = delete;
@@ -32,7 +33,8 @@ class BagRecorder {
     (*header)["message_definition"] = ros::message_traits::definition(message);
     if (latched) (*header)["latching"] = "1";
     try {
-      bag_.write(topic, stamp, message, header);
+      // Before the first word of a simulated clock it is no time yet.
+      bag_.write(topic, std::max(stamp, ros::TIME_MIN), message, header);
     } catch (const rosbag::BagException& error) {
       ROS_ERROR("%s: recording has ended: %s", path_.c_str(), error.what());
       path_.clear();

@@ -15,6 +15,7 @@
 #include "robot_driver.hpp"
 #include "simulated_robot.hpp"
 #include "simulator_parameters.hpp"
+#include "topic_recorder.hpp"
 
 namespace cca {
 namespace {
@@ -25,6 +26,7 @@ struct Settings {
   SimulatorParameters simulator;
   RobotDriver::Settings driver;
   Exploration::Settings exploration;
+  std::string record;  ///< bag to write, of a robot that is out there
   bool exit_at_end = false;
   Parameters program;
 };
@@ -46,7 +48,8 @@ Settings readSettings() {
     parameters.text("hazard_range", s.driver.hazard_range);
     parameters.choice("driver", s.driver.driver, {"cmd_vel", "move_base"});
     parameters.choice("pose", s.driver.pose, {"tf", "slam", "auto", "odometry"});
-    for (const char* simulated : {"start_pose", "speed", "scan_rate", "seed", "record"}) {
+    parameters.text("record", s.record);
+    for (const char* simulated : {"start_pose", "speed", "scan_rate", "seed"}) {
       parameters.withoutEffect(simulated);
     }
   } else {
@@ -118,6 +121,9 @@ std::string chosenPose(const RobotDriver::Settings& settings, ros::NodeHandle& n
 
 void exploreWithRobot(const Settings& settings, ros::NodeHandle& node,
                       ros::NodeHandle& private_node) {
+  std::set<std::string> topics = topicsOfRobot(settings.driver.scans);
+  topics.insert({settings.driver.hazard_points, settings.driver.hazard_range});
+  const TopicRecorder recorder(node, settings.record, topics);
   Exploration exploration(node, private_node, settings.exploration, settings.program);
   std::optional<GoalServer> goals;  // where move_base drives, it takes them itself
   if (settings.driver.driver != "move_base") {

@@ -19,6 +19,7 @@
 #include "private_parameters.hpp"
 #include "scan_feed.hpp"
 #include "slam_publisher.hpp"
+#include "topic_recorder.hpp"
 #include "way_publisher.hpp"
 
 namespace cca {
@@ -34,6 +35,7 @@ struct LineMapperParameters {
   bool corrections = false;     ///< of the past where tf's map -> odom leaps
   std::string out = "cca_map";  ///< directory, relative to where the node runs
   bool save_at_end = false;
+  std::string record;  ///< bag to write
   Parameters program;
 };
 
@@ -56,6 +58,7 @@ LineMapperParameters readParameters(const ros::NodeHandle& private_node) {
   }
   parameters.text("out", p.out);
   parameters.flag("save_at_end", p.save_at_end);
+  parameters.text("record", p.record);
   parameters.program(p.program, {"mapping"});
   parameters.refuseUnknown();
   return p;
@@ -67,6 +70,7 @@ class LineMapper {
   LineMapper(ros::NodeHandle node, ros::NodeHandle private_node)
       : parameters_(readParameters(private_node)),
         node_(node),
+        recorder_(node, parameters_.record, topicsOfRobot(parameters_.scans)),
         publisher_(node, parameters_.frames.map),
         way_(node, parameters_.frames.map),
         scans_(node, scanSettings(), [this](const PlacedScan& scan) { insert(scan); }),
@@ -197,6 +201,7 @@ class LineMapper {
 
   LineMapperParameters parameters_;
   ros::NodeHandle node_;
+  TopicRecorder recorder_;
   GridRecorder grid_;
   SlamLocaliser* slam_ = nullptr;  ///< the session's, with line SLAM
   std::unique_ptr<MappingSession> session_;
@@ -226,7 +231,8 @@ const NodeDescription kNode{
     "  odom_frame [odom], base_frame [base_link] for slam and corrections\n"
     "  config [] .ini file, read first\n"
     "  out [cca_map] folder for the map\n"
-    "  save_at_end [false]",
+    "  save_at_end [false]\n"
+    "  record [] bag to write of scans, tf, odom and cmd_vel",
     {"mapping"}};
 
 }  // namespace

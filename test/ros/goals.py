@@ -3,6 +3,8 @@
 """goals.py DEVEL_SPACE: `explore` is sent to places as a move_base is, beside a robot of its own process, and asked for
 its map."""
 import math
+import os
+import subprocess
 import time
 import unittest
 
@@ -18,7 +20,7 @@ from std_srvs.srv import SetBool
 from tf2_msgs.msg import TFMessage
 from visualization_msgs.msg import MarkerArray
 
-from own_master import OwnMaster, main, until
+from own_master import NODES, OwnMaster, main, until
 from own_robot import compose
 from ros_watch import Watch, yaw
 
@@ -57,7 +59,9 @@ class Goals(OwnMaster):
     def test_it_drives_where_it_is_sent_and_says_how_that_ended(self):
         self.ask("rosparam", "set", "/use_sim_time", "true")
         self.node("simulator", "_world:=two_rooms", "_speed:=%d" % SPEED)
-        self.node("explore", "_world:=none", "_pose:=tf", "_out:=" + self.out, "_save_at_end:=false")
+        recorded = os.path.join(self.home.name, "run.bag")
+        explore = self.node("explore", "_world:=none", "_pose:=tf", "_out:=" + self.out, "_save_at_end:=false",
+                            "_record:=" + recorded)
         rospy.init_node("goals")
         self.status, self.commands = Watch("status", String), Watch("cmd_vel", Twist)
         self.robot, markers = Robot(), Watch("robot_markers", MarkerArray)
@@ -125,6 +129,17 @@ class Goals(OwnMaster):
                 self.assertEqual((told.info.width, told.info.height), (shown.info.width, shown.info.height))
                 self.assertEqual(told.header.frame_id, "map")
                 self.assertGreater(sum(cell == 0 for cell in told.data), 1000)
+        with self.subTest("what it was told is recorded, to be gone through again"):
+            explore.terminate()
+            explore.communicate(timeout=60)
+            told = self.ask("rosbag", "info", recorded) or ""
+            for topic in ("/scan", "/tf", "/tf_static", "/odom", "/cmd_vel"):
+                self.assertIn(topic + " ", told)
+            mapped = subprocess.run([os.path.join(NODES, "cca-mrpt"), "map", recorded, "--out", self.out],
+                                    capture_output=True, text=True)
+            self.assertEqual(mapped.returncode, 0, mapped.stderr)
+            again = self.node("explore", "_world:=none", "_record:=" + recorded)
+            self.assertIn("is there already", again.communicate(timeout=60)[0])
 
     def expect(self, word, seconds=60):
         self.assertIsNotNone(self.status.wait(lambda m: m.data.startswith(word), seconds), "no '%s'; last: %s"
