@@ -9,9 +9,9 @@
 namespace cca {
 namespace {
 
-constexpr int kFewestOfCircle = 4;  // three always lie on a circle
-constexpr int kMostSteps = 10;
-constexpr double kConverged = 1e-9;  // m
+constexpr int kFewestOfCircle = 4;   // three always lie on a circle
+constexpr int kMostSteps = 10;       // Gauss-Newton from a good circle needs three or four
+constexpr double kConverged = 1e-9;  // m; far below what any laser measures
 constexpr double kFlattest = 1e3;    // radii per spread of the points: a line
 
 struct Circle {

@@ -16,7 +16,7 @@ Eigen::Vector2d LineSegment::direction() const {
 }
 
 std::optional<Eigen::Vector2d> intersection(const FittedLine& a, const FittedLine& b) {
-  constexpr double kLeastSine = 0.05;
+  constexpr double kLeastSine = 0.05;  // 3 degrees: lines closer to parallel meet anywhere
   const double sine = cross(a.direction, b.direction);
   if (std::abs(sine) < kLeastSine) return std::nullopt;
   const Eigen::Vector2d between = b.centroid - a.centroid;

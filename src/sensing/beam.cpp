@@ -16,7 +16,7 @@ bool looksTowards(const Scan& scan, const Eigen::Vector2d& p_map) {
 }
 
 std::uint32_t sectorsInView(const Scan& scan) {
-  constexpr int kSectors = 32;
+  constexpr int kSectors = 32;  // bits of the word that they are kept in
   constexpr double kSector = 2.0 * M_PI / kSectors;
   const double span = static_cast<double>(scan.size()) * std::abs(scan.angle_increment);
   if (scan.size() == 0 || !std::isfinite(span)) return 0;

@@ -11,8 +11,9 @@
 namespace cca {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr double kFar = 0.9;  // of the reach
+constexpr double kInfinity =
+    std::numeric_limits<double>::infinity();  // what a beam reads that met nothing
+constexpr double kFar = 0.9;                  // of the reach: surfaces do not shun its last tenth
 /// Of the missing returns, how many have to be matched by far ones. In halls much larger than the
 /// laser's reach it is some hundredths; real lasers that lose beams on surfaces have none.
 constexpr double kLeastShare = 0.01;
@@ -21,7 +22,7 @@ constexpr double kLeastShare = 0.01;
 /// weight of a scan.
 constexpr double kUsualLoss = 0.03, kUsualBeams = 360.0;
 constexpr double kMostLoss = 0.5;    // a laser that loses more is no use
-constexpr double kFalseRuns = 1e-3;  // a scan
+constexpr double kFalseRuns = 1e-3;  // a scan: one in two minutes at ten a second
 constexpr double kBeamsKept = 1e6;   // that the rate follows a laser that gets dirty
 
 /// Beams without return next to each other; of a full turn they may go on past the last beam.

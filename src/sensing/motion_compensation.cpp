@@ -9,7 +9,8 @@ namespace cca {
 namespace {
 
 constexpr double kLongestGap = 0.5;  // s; the motion in between is not that during the sweep
-constexpr std::size_t kPeriods = 31, kLeastPeriods = 5;
+constexpr std::size_t kPeriods = 31,
+                      kLeastPeriods = 5;  // some seconds; a median of five bears two gaps
 constexpr double kIrregular = 0.1;  // of the median period, within which half of them have to lie
 constexpr double kShortest = 0.02;  // of the period: below, a driver's duration is nonsense
 constexpr double kLongest = 1.1;    // likewise, above

@@ -17,7 +17,7 @@ constexpr double kBearingShare = 0.25 * kUniformToSigma;
 /// The smallest step between neighbouring ranges: the quantum, where ranges are rounded. Not sought
 /// below `least`.
 double rangeQuantum(const std::vector<double>& ranges, double least) {
-  constexpr double kRounding = 1e-9;
+  constexpr double kRounding = 1e-9;  // m; ranges that differ by less were printed alike
   double quantum = 0.0;
   for (std::size_t i = 1; i < ranges.size(); ++i) {
     if (!isReturn(ranges[i - 1]) || !isReturn(ranges[i])) continue;
@@ -67,9 +67,9 @@ double medianDeviation(std::vector<Deviation>* all) {
   return *median;
 }
 
-constexpr double kWantedSigma = 0.005;  // m
+constexpr double kWantedSigma = 0.005;  // m; the clearance of the driver allows for it
 constexpr double kPatch = 0.03;         // m, to each side
-constexpr double kFarther = 0.75;       // sigmas
+constexpr double kFarther = 0.75;       // sigmas; beyond, an edge has been smoothed away
 constexpr double kGate = 3.0 * 2.45;    // sigmas, of a second difference
 
 }  // namespace

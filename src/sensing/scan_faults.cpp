@@ -10,7 +10,7 @@ namespace {
 
 // Of the wheels, since the first of equal scans: any laser's readings change by then.
 constexpr double kMovedOn = 0.05;                 // m
-constexpr double kTurnedOn = 2.0 * M_PI / 180.0;  // rad
+constexpr double kTurnedOn = 2.0 * M_PI / 180.0;  // rad, by the wheels: ten beams of a fine laser
 constexpr std::size_t kLeastReturns = 10;         // fewer may be equal by chance
 
 bool areEqual(const std::vector<double>& a, const std::vector<double>& b) {

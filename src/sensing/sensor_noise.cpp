@@ -13,7 +13,7 @@ namespace {
 constexpr std::size_t kHalf = 3;         // neighbours to each side
 constexpr std::size_t kEnough = 100;     // deviations, for a median to be told
 constexpr std::size_t kLeastAtOnce = 5;  // in a scan: clutter looks slanted, too
-constexpr std::size_t kScansKept = 50;   // scans
+constexpr std::size_t kScansKept = 50;   // scans: the mean follows in five seconds
 constexpr double kLeastSlant = 1.0;      // tangent of the angle of incidence
 constexpr double kLeastSlope = 3.0;      // m: below, half a degree is less than 3 cm of range noise
 constexpr double kMostBend = 0.5;  // of the rise: an edge or a corner has all of it at one place

@@ -21,8 +21,8 @@ constexpr double kOneSurface = 0.1;     // of the range, between neighbouring be
 constexpr std::size_t kPoints = 180;    // of a scan that are compared
 constexpr double kLeastCommon = 0.4;    // of them, that the reference has to see
 constexpr double kSearch = 0.06;        // rad, of heading, from where the last scan fitted
-constexpr double kCoarse = 0.01, kFine = 0.002;  // rad
-constexpr int kLeastTests = 4, kSettled = 30, kMostTests = 200;
+constexpr double kCoarse = 0.01, kFine = 0.002;  // rad: half a beam of a cheap laser; a tenth
+constexpr int kLeastTests = 4, kSettled = 30, kMostTests = 200;  // scans; see isSettled()
 // Scans that follow each other do not err independently; of a few, the spread is not known well.
 constexpr double kSigmas = 4.0, kSigmasOfFew = 16.0;
 constexpr double kLeastGain = 0.03;  // of the mean difference, that a sense is worth telling

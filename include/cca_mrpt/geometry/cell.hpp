@@ -47,7 +47,9 @@ inline Cell cellAt(const Eigen::Vector2d& p) {
 template <class Visit>
 void walkBeam(const Eigen::Vector2d& origin, const Eigen::Vector2d& direction, double length,
               Visit&& visit) {
-  constexpr double kNever = std::numeric_limits<double>::infinity();
+  constexpr double kNever =
+      std::numeric_limits<double>::infinity();  // a ray that runs along an axis meets no line
+                                                // across it
   Cell c = cellAt(origin);
   const int step_x = direction.x() > 0.0 ? 1 : -1, step_y = direction.y() > 0.0 ? 1 : -1;
   const double spacing_x = direction.x() != 0.0 ? std::abs(1.0 / direction.x()) : kNever;

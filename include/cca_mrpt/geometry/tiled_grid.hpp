@@ -38,7 +38,8 @@ class TiledGrid {
   }
 
  private:
-  static constexpr int kBits = 6;
+  static constexpr int kBits =
+      6;  // tiles of 64 x 64 cells: a page of memory for bytes, cut by shifts
   static constexpr int kSide = 1 << kBits;
   static std::size_t offset(Cell c) {
     return static_cast<std::size_t>(((c.y & (kSide - 1)) << kBits) | (c.x & (kSide - 1)));

@@ -66,10 +66,11 @@ class ShownMotion {
   /// What a standstill is reckoned with: the same, but half of the linear parameter at most.
   Velocity reliableBrakes() const;
 
-  static constexpr double kUnsure = 0.15;  ///< s
-  static constexpr double kSure = 0.1;     ///< s
+  static constexpr double kUnsure = 0.15;  ///< s, from what was told: farther off has to be shown
+  static constexpr double kSure = 0.1;     ///< s, a control period: within it they count as one
 
  private:
+  /// Up to .6 s, and down to a fifth of the brakes.
   static constexpr std::size_t kLatencies = 25, kShares = 8;
   static constexpr double kStep = 0.025;  // s, between two latencies
   static constexpr std::array<double, kShares> kShare{1.0, 0.85, 0.7, 0.6, 0.5, 0.4, 0.3, 0.2};

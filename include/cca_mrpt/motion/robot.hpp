@@ -20,7 +20,7 @@ struct RobotParameters {
   /// A simulated robot obeys at once, one out there hardly ever does: the nodes of ROS begin there
   /// with kLatencyOutThere.
   double latency = 0.0;
-  static constexpr double kLatencyOutThere = 0.15;  ///< s
+  static constexpr double kLatencyOutThere = 0.15;  ///< s, a control period and some buffers
 
   /// Of the safety margin, never given up: narrow passages are worth a try. Paths ask for as much
   /// as Tangent Bug does; where they differ, passages in between are tried in vain, for minutes.

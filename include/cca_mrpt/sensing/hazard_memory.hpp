@@ -26,8 +26,8 @@ class HazardMemory {
   /// Takes all along to where it is now. @param T_now_was  of the frame.
   void move(const Pose2& T_now_was);
 
-  static constexpr double kAge = 60.0;   ///< s
-  static constexpr double kReach = 6.0;  ///< m
+  static constexpr double kAge = 60.0;   ///< s; odometry is off by centimetres after it
+  static constexpr double kReach = 6.0;  ///< m, what a robot drives in ten seconds
 
  private:
   struct Point {

@@ -32,7 +32,7 @@ class MovingPoints {
   /// place. Somebody slow, or somebody who has just come from behind something.
   const std::vector<Eigen::Vector2d>& unsettled() const { return unsettled_; }
 
-  static constexpr double kFarthest = 6.0;  ///< m
+  static constexpr double kFarthest = 6.0;  ///< m; a leg has one beam of a cheap laser there
   /// s; longer than people pause, who are gone again after two
   static constexpr double kMemory = 3.0;
 

@@ -29,7 +29,7 @@ class SensorNoise {
   double variance(double range) const;
 
  private:
-  static constexpr std::size_t kKept = 500;
+  static constexpr std::size_t kKept = 500;  // deviations: a median of so many is good to 6 %
 
   struct Deviation {
     double across;  ///< rad, as if all of it were the bearing's

@@ -38,7 +38,8 @@ class SweepIdentification {
   std::optional<SweepSense> sense() const;
 
  private:
-  static constexpr std::size_t kHypotheses = 3;
+  static constexpr std::size_t kHypotheses =
+      3;  // of one instant, first beam first, last beam first
   using Costs = std::array<double, kHypotheses>;  ///< m, of one scan
 
   struct Reference {

@@ -17,7 +17,7 @@ namespace cca {
 Velocity velocityTowards(const Eigen::Vector2d& target_robot, bool stop_at_target,
                          const RobotParameters& robot);
 
-inline constexpr double kTurnOnTheSpot = 0.7;  ///< rad
+inline constexpr double kTurnOnTheSpot = 0.7;  ///< rad, 40 degrees; the speed falls to 0 there
 /// m/s, as measured: a robot that is slower stands. Odometry is noisy.
 inline constexpr double kStands = 0.05;
 

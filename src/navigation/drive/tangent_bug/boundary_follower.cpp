@@ -10,8 +10,9 @@ namespace cca {
 namespace {
 
 constexpr double kArc = 20.0 * M_PI / 180.0;  // rad, between two points of a trace
-constexpr double kRounding = 1e-6;            // rad
-constexpr int kMostContacts = 2000;
+constexpr double kRounding = 1e-6;            // rad; contacts nearer to each other are one
+constexpr int kMostContacts =
+    2000;  // 40 m of boundary at 2 cm; ends a trace that rounding keeps alive
 
 int nearestObstacle(const ConfigurationSpace& space, const Eigen::Vector2d& p_map) {
   int nearest = -1;
@@ -58,11 +59,11 @@ constexpr double kOverlap = 0.8;       // m, walked twice: seen from all of the 
 constexpr double kTurnTolerance =
     0.8;  // rad, of the whole turn; the boundary is seen anew each time
 
-constexpr double kAhead = 4.0;  // m, traced in front of the robot
-constexpr double kAheadClosely = 0.6;
-constexpr double kLookedAt = 0.15;      // m
+constexpr double kAhead = 4.0;          // m, traced in front of the robot
+constexpr double kAheadClosely = 0.6;   // m, traced where nothing farther ahead matters
+constexpr double kLookedAt = 0.15;      // m, by which the nearest place may be missed
 constexpr double kSensed = 8.0;         // m, traced each way for the first d_followed
-constexpr double kBeside = 1.0;         // m
+constexpr double kBeside = 1.0;         // m; a boundary farther off is another one
 constexpr double kBoundaryMoves = 0.3;  // m, at most, between two steps
 constexpr double kNarrow = 0.3;         // m, ahead
 constexpr double kHidden = 0.1;         // m, beyond what a beam sees

@@ -12,7 +12,7 @@
 namespace cca {
 namespace {
 
-constexpr double kGoalTolerance = 0.1;  // m
+constexpr double kGoalTolerance = 0.1;  // m, two cells of the grid that goals come from
 constexpr double kAtTheGoal = 0.07;     // m, worth leaving any boundary
 constexpr double kLeave = 0.1;          // m, by which d_reach must be below d_followed
 constexpr double kUnsure = 0.03;        // of the distance: beams are sparse far away
@@ -21,13 +21,13 @@ constexpr double kLookAgain = 0.5;      // of the distance from which that was f
 // Of the margin, given up on the way.
 constexpr double kSlack = 1.0 - RobotParameters::kLeastMargin;
 constexpr double kTraceSlack = 0.3;       // of the margin, given up along a boundary
-constexpr double kOnTheBoundary = 0.001;  // m
-constexpr double kSameArea = 1.0;         // m
-constexpr double kLost = 1.0;             // s
+constexpr double kOnTheBoundary = 0.001;  // m; rounding must not count as touching
+constexpr double kSameArea = 1.0;         // m; from farther off another boundary may be near
+constexpr double kLost = 1.0;             // s; noise hides a boundary for some scans
 // Boundaries followed and gaps shut, without coming nearer to the goal. The proof needs fewer;
 // noise and moving obstacles break it, and then this is the end.
 constexpr int kMostTries = 10;
-constexpr double kWaitFor = 2.5;  // m
+constexpr double kWaitFor = 2.5;  // m; who moves farther off is no reason to wait
 constexpr double kNear = 0.15;    // m, beyond the radius
 const std::vector<Eigen::Vector2d> kDirections = directionsAround(360, 0.0);
 

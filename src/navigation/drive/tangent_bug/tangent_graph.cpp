@@ -11,7 +11,7 @@ namespace cca {
 namespace {
 
 constexpr double kSlide = 0.01;  // m, how much deeper a slide along a disc may lead
-constexpr double kTouch = 1e-9;  // m
+constexpr double kTouch = 1e-9;  // m; rounding of equal distances
 
 // The radius of a disc as seen from a place at this distance from its centre.
 double discRadius(double radius, double distance) {
