@@ -27,7 +27,7 @@ std::vector<Passage> candidatePassages(const Structure& structure, const Raster<
   const std::vector<WallEnd> ends = freeWallEnds(structure.solid, lines);
   std::vector<Passage> gaps = gapsInWalls(structure.solid, lines, tuning);
   for (const Passage& gap : gapsBetweenEnds(structure.solid, ends, tuning)) gaps.push_back(gap);
-  for (const Passage& gap : gapsBetweenCorners(structure.solid, lines, tuning)) gaps.push_back(gap);
+  for (const Passage& gap : gapsAtCorners(structure.solid, lines, tuning)) gaps.push_back(gap);
   std::vector<Passage> narrow = narrowings(structure.solid, clearance, ends, tuning);
   for (Passage& gap : gaps) gap = centred(structure.solid, gap, tuning);
   for (Passage& gap : narrow) gap = centred(structure.solid, gap, tuning);

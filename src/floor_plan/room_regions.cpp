@@ -16,6 +16,7 @@ constexpr double kSmall = 10.0;   // excess: what is no room joins first
 
 constexpr double kNearest = 0.35,
                  kFarthest = 1.0;  // m from a passage: past the wall, before the next
+constexpr double kThrough = 0.25;  // m to both sides of a passage, that a way leads through
 constexpr double kWidest = 8.0;    // m to each side; wider is wide
 
 /// Cells from wall to wall, with one more at each end.
@@ -24,9 +25,13 @@ std::vector<Cell> cutCells(const Mask& space, const Passage& passage) {
   return cellsAlong(space, passage.a - beyond, passage.b + beyond);
 }
 
-/// Space with all passages closed.
-Mask cutSpace(const Mask& space, const std::vector<Passage>& passages) {
+/// Space with all passages closed, and without what is too narrow to pass.
+Mask cutSpace(const Mask& space, const Raster<float>& clearance,
+              const std::vector<Passage>& passages, double least_clearance) {
   Mask parted = space;
+  for (std::size_t k = 0; k < parted.values.size(); ++k) {
+    if (clearance.values[k] < least_clearance) parted.values[k] = 0;
+  }
   for (const Passage& passage : passages) {
     for (const Cell c : cutCells(space, passage)) parted[c] = 0;
   }
@@ -118,7 +123,7 @@ double depthBeside(const Passage& passage, double resolution, bool left, IsOpen&
 double widestDoor(PassageEvidence evidence, const RoomTuning& tuning) {
   switch (evidence) {
     case PassageEvidence::kNarrowing:
-    case PassageEvidence::kBetweenCorners:
+    case PassageEvidence::kAtCorner:
       return tuning.widest_narrowing;
     case PassageEvidence::kAbutting:
       return tuning.widest_abutting;
@@ -129,12 +134,29 @@ double widestDoor(PassageEvidence evidence, const RoomTuning& tuning) {
   return tuning.widest_collinear;
 }
 
+/// Whether one can go through a passage: from one side to the other, somewhere along it. A line
+/// that lies on the flank of a thin wall, or short of its end, makes a gap that leads along the
+/// wall.
+bool leadsThrough(const Mask& space, const Passage& passage) {
+  const Eigen::Vector2d way = passage.b - passage.a;
+  const Eigen::Vector2d across = Eigen::Vector2d(-way.y(), way.x()).normalized();
+  for (const double share : {0.5, 0.25, 0.75}) {
+    const Eigen::Vector2d p = passage.a + share * way;
+    bool is_open = true;
+    for (double off = -kThrough; off <= kThrough && is_open; off += 0.5 * space.resolution)
+      is_open = space.at(space.cellOf(p + off * across), 0) != 0;
+    if (is_open) return true;
+  }
+  return false;
+}
+
 /// The passages that are narrower than the space on one side at least; of mere narrowings, on both.
 std::vector<Passage> plausible(const Mask& space, const std::vector<Passage>& passages,
                                const RoomTuning& tuning) {
   const auto isOpen = [&](const Eigen::Vector2d& p) { return space.at(space.cellOf(p), 0) != 0; };
   std::vector<Passage> kept;
   for (const Passage& passage : passages) {
+    if (!leadsThrough(space, passage)) continue;
     const double q0 = passage.width() / widthBeside(passage, space.resolution, false, isOpen);
     const double q1 = passage.width() / widthBeside(passage, space.resolution, true, isOpen);
     const bool is_door = std::max(q0, q1) <= widestDoor(passage.evidence, tuning);
@@ -207,13 +229,14 @@ class RegionGraph {
     const RoomBorder& border = borders_[k];
     const int a = root(border.rooms[0]), b = root(border.rooms[1]);
     const double width = border.passage.width();
-    const auto narrower = [&](int side) {  // relative width
+    const auto besideOf = [&](int side) {  // m
       const double region = 2.0 * peak_[at(side ? b : a)];
-      return width / std::max(1e-9, std::min(region, beside_[k][static_cast<std::size_t>(side)]));
+      return std::max(1e-9, std::min(region, beside_[k][static_cast<std::size_t>(side)]));
     };
-    const double q0 = narrower(0), q1 = narrower(1);
-    const double door = std::max(q0, q1);
-    const double as_door = door / widestDoor(border.passage.evidence, tuning_);
+    const double q0 = width / besideOf(0), q1 = width / besideOf(1);  // relative width
+    const double as_door =
+        std::max(std::max(q0, q1) / widestDoor(border.passage.evidence, tuning_),
+                 (width + tuning_.least_step) / std::min(besideOf(0), besideOf(1)));
     if (border.passage.evidence == PassageEvidence::kNarrowing) return as_door;
     // A corridor's mouth.
     const int arm = q0 > q1 ? a : b;
@@ -267,7 +290,8 @@ class RegionGraph {
 RoomRegions partitionIntoRooms(const Mask& space, const Raster<float>& clearance,
                                const std::vector<Passage>& passages, const RoomTuning& tuning) {
   const std::vector<Passage> cuts = plausible(space, passages, tuning);
-  Components parts = connectedComponents(cutSpace(space, cuts), 4);
+  Components parts =
+      connectedComponents(cutSpace(space, clearance, cuts, tuning.least_clearance), 4);
   growLabels(space, parts.labels);
   RegionGraph graph(parts.labels, static_cast<int>(parts.sizes.size()), clearance, cuts, tuning);
   graph.joinAll();

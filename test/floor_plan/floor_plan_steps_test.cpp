@@ -11,6 +11,7 @@
 #include "cca_mrpt/floor_plan/polygon_measures.hpp"
 #include "cca_mrpt/floor_plan/region_outline.hpp"
 #include "cca_mrpt/floor_plan/room_outline.hpp"
+#include "cca_mrpt/floor_plan/room_regions.hpp"
 #include "cca_mrpt/floor_plan/structure.hpp"
 #include "cca_mrpt/floor_plan/walls.hpp"
 #include "drawn_map.hpp"
@@ -133,17 +134,79 @@ TEST(SmallLoops, AreCutWhereTheRingCrossesItself) {
   EXPECT_EQ(withoutSmallLoops(square), square);
 }
 
-TEST(GapsBetweenCorners, AreTheMouthOfACorridorIntoAnEightSidedHall) {
+TEST(GapsAtCorners, AreTheMouthOfACorridorIntoAnEightSidedHall) {
   // The hall's walls leave the corridor at 45 degrees: no wall's line goes on across the mouth.
   const Polygon outline{{0, 0},  {4, 0}, {7, -3},    {11, -3}, {14, 0}, {14, 4},
                         {11, 7}, {7, 7}, {5.8, 5.8}, {4, 2},   {0, 2}};
   const Pose2 T{0.01, 0.02, 0.2};
   const DrawnMap map = drawMap({outline}, T);
   const Structure found = tellStructure(cropToKnown(map.grid, 2), map.lines);
-  const std::vector<Passage> gaps = gapsBetweenCorners(found.solid, map.lines);
-  ASSERT_EQ(gaps.size(), 1u);
-  EXPECT_LT((gaps[0].middle() - T * Eigen::Vector2d(4, 1)).norm(), 1e-6);
-  EXPECT_EQ(gaps[0].evidence, PassageEvidence::kBetweenCorners);
+  const std::vector<Passage> gaps = gapsAtCorners(found.solid, map.lines);
+  // From one corner to the other, and straight across from each.
+  ASSERT_EQ(gaps.size(), 3u);
+  for (const Passage& gap : gaps) {
+    EXPECT_LT((gap.middle() - T * Eigen::Vector2d(4, 1)).norm(), 0.08);
+    EXPECT_EQ(gap.evidence, PassageEvidence::kAtCorner);
+  }
+}
+
+TEST(GapsAtCorners, AreNoneAtARoundColumn) {
+  // Its lines are chords, of which two that are no neighbours meet before it.
+  Polygon column;
+  for (int k = 0; k < 10; ++k)
+    column.push_back({3.0 + 0.6 * std::cos(-k * M_PI / 5), 1.2 + 0.6 * std::sin(-k * M_PI / 5)});
+  const DrawnMap map = drawMap({{{0, 0}, {8, 0}, {8, 3}, {0, 3}}, column}, {0.01, 0.02, 0.3});
+  const Structure found = tellStructure(cropToKnown(map.grid, 2), map.lines);
+  EXPECT_TRUE(gapsAtCorners(found.solid, map.lines).empty());
+}
+
+/// The space of two rooms of 4 m x 4 m in cells, and a wall of one cell between them.
+Mask twoRoomsOfCells() {
+  Mask space;
+  space.columns = 163;
+  space.rows = 82;
+  space.values.assign(163 * 82, 0);
+  for (int y = 1; y < 81; ++y) {
+    for (int x = 1; x < 162; ++x) space[{x, y}] = x != 81;
+  }
+  return space;
+}
+
+Raster<float> clearanceOf(const Mask& space) {
+  Mask solid = space;
+  for (auto& cell : solid.values) cell = !cell;
+  return distanceTransform(solid);
+}
+
+TEST(RoomRegions, HaveNoDoorAlongTheFlankOfAThinWall) {
+  const Mask space = twoRoomsOfCells();
+  const Passage along{{4.03, 1.0}, {4.03, 2.0}, PassageEvidence::kCollinear};
+  const RoomRegions rooms = partitionIntoRooms(space, clearanceOf(space), {along});
+  EXPECT_EQ(rooms.count, 2);
+  EXPECT_TRUE(rooms.borders.empty());
+}
+
+TEST(RoomRegions, ArePartedByGapsThatNobodyPasses) {
+  Mask space = twoRoomsOfCells();
+  for (int y = 20; y < 24; ++y) space[{81, y}] = 1;  // 0.2 m
+  for (int y = 50; y < 68; ++y) space[{81, y}] = 1;  // 0.9 m
+  const Passage door{{4.08, 2.5}, {4.08, 3.4}, PassageEvidence::kCollinear};
+  const RoomRegions rooms = partitionIntoRooms(space, clearanceOf(space), {door});
+  EXPECT_EQ(rooms.count, 2);
+  EXPECT_EQ(rooms.borders.size(), 1u);
+}
+
+TEST(RoomRegions, AreNotPartedByTheNoiseOfCellsInANarrowCorridor) {
+  // 1.25 m wide, for three cells 1.1 m; a wall's line goes on on both sides.
+  Mask space;
+  space.columns = 242;
+  space.rows = 27;
+  space.values.assign(242 * 27, 0);
+  for (int y = 1; y < 26; ++y) {
+    for (int x = 1; x < 241; ++x) space[{x, y}] = x < 120 || x > 122 || (y > 2 && y < 25);
+  }
+  const Passage narrow{{6.08, 0.15}, {6.08, 1.25}, PassageEvidence::kCollinear};
+  EXPECT_EQ(partitionIntoRooms(space, clearanceOf(space), {narrow}).count, 1);
 }
 
 TEST(Walls, OfOneFaceHaveNoThickness) {

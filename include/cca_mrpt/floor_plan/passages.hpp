@@ -12,10 +12,10 @@ namespace cca {
 /// What speaks for a border between rooms, in rising order.
 enum class PassageEvidence {
   kNarrowing,  ///< the space is narrower there than on both sides; no line says that a wall goes on
-  kBetweenCorners,  ///< both jambs are corners of blocks: the mouth of a corridor, if anything
-  kAbutting,        ///< a wall ends, and its line goes on to the flank of another wall
-  kCollinear,       ///< a wall's line goes on in another wall beyond the gap
-  kBetweenEnds,     ///< both jambs are free ends of walls
+  kAtCorner,   ///< a jamb is a corner of a block: the mouth of a corridor, if anything
+  kAbutting,   ///< a wall ends, and its line goes on to the flank of another wall
+  kCollinear,  ///< a wall's line goes on in another wall beyond the gap
+  kBetweenEnds,  ///< both jambs are free ends of walls
 };
 
 /// A straight border across open space from wall to wall, where one room may end and another begin.
@@ -49,10 +49,11 @@ std::vector<Passage> gapsInWalls(const Mask& solid, const std::vector<MapLine>& 
 std::vector<Passage> gapsBetweenEnds(const Mask& solid, const std::vector<WallEnd>& ends,
                                      const PassageTuning& tuning = {});
 
-/// Passages between two corners of walls that stick out and see each other. Cost: O(n^2) for n
+/// Passages at corners that stick out: between two that see each other, and from one straight off
+/// one of its faces to a wall that faces it. Cost: O(n^2) for n
 /// lines.
-std::vector<Passage> gapsBetweenCorners(const Mask& solid, const std::vector<MapLine>& lines,
-                                        const PassageTuning& tuning = {});
+std::vector<Passage> gapsAtCorners(const Mask& solid, const std::vector<MapLine>& lines,
+                                   const PassageTuning& tuning = {});
 
 /// Moves a passage along its way to the middle of the stretch that is as narrow: into the middle of
 /// the wall. One whose stretch is longer than `deepest` stays.

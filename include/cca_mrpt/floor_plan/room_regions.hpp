@@ -12,14 +12,16 @@ namespace cca {
 /// When a passage parts two rooms. Its relative width is its width over that of the narrower of
 /// both regions, which is twice the greatest clearance in it.
 struct RoomTuning {
-  double widest_narrowing = 0.5;  ///< relative width; of kNarrowing and kBetweenCorners
-  double widest_abutting = 0.85;  ///< the same of kAbutting
-  double widest_collinear = 0.9;  ///< the same of kCollinear and kBetweenEnds
+  double widest_narrowing = 0.55;  ///< relative width; of kNarrowing and kAtCorner
+  double widest_abutting = 0.85;   ///< the same of kAbutting
+  double widest_collinear = 0.9;   ///< the same of kCollinear and kBetweenEnds
+  double least_step = 0.16;  ///< m, three cells; a door is that much narrower than the space beside
   /// The mouth of a corridor is as wide as that. Its relative width on the other side is at most
   double widest_mouth = 0.6;
   double shallowest_mouth = 0.7;  ///< its width over the depth of the other side: no crossing
   double mouth_area = 2.5;        ///< squares of its width that a corridor has at least: no niche
   double smallest_room = 1.0;     ///< m^2
+  double least_clearance = 0.15;  ///< m to the next wall; with less a gap is none to pass through
 };
 
 /// A passage between two rooms.
