@@ -148,12 +148,12 @@ class BagRoundTrip(OwnMaster):
         self.assertTrue(os.path.exists(os.path.join(folder, "lines.csv")), output)
         return folder, output
 
-    def check(self, bag, offline_pose="log", pose="tf"):
+    def check(self, bag, offline_pose="log", pose="tf", speeds=SPEEDS):
         self.ask("rosparam", "set", "/use_sim_time", "true")
         offline, scans = self.map_offline(bag, offline_pose)
         expected = read_segments(os.path.join(offline, "lines.csv"))
         self.assertGreater(len(expected), 5)
-        for speed in SPEEDS:
+        for speed in speeds:
             with self.subTest(speed=speed):
                 played, output = self.map_played(bag, speed, scans, pose)
                 with open(os.path.join(offline, "lines.csv")) as a, open(os.path.join(played, "lines.csv")) as b:
@@ -187,7 +187,7 @@ class BagRoundTrip(OwnMaster):
             with self.subTest(says_so=says_so):
                 bag = os.path.join(self.home.name, "sweep_%d.bag" % says_so)
                 SweepingBag(bag, says_so)
-                lines = self.check(bag, offline_pose="slam", pose="slam")
+                lines = self.check(bag, offline_pose="slam", pose="slam", speeds=SPEEDS[1:])
                 self.assertLess(len(lines), 25)
 
 
