@@ -126,7 +126,7 @@ class BagRoundTrip(OwnMaster):
         folder = os.path.join(self.home.name, "offline")
         done = self.start(os.path.join(NODES, "cca-mrpt"), "map", bag, "--out", folder, "--pose", pose, "--force")
         output, _ = done.communicate(timeout=60)
-        self.assertEqual(done.returncode, 0, output)
+        self.assertIn(done.returncode, (0, 3), output)  # 3: a localisation that leaps contradicts the map
         with open(os.path.join(folder, "summary.json")) as file:
             return folder, json.load(file)["scans"]
 
