@@ -148,8 +148,10 @@ def score(options, kind, name):
         with tempfile.TemporaryDirectory() as folder:
             stem = os.path.join(folder, name)
             write(stem, *KINDS[kind](*read(options.prepared, name)))
-            subprocess.run([options.app, "map", stem + ".clf", "--pose", "slam", "--out", folder + "/map", "--quiet"],
-                           check=True, stderr=subprocess.DEVNULL)  # warnings: the table tells
+            made = subprocess.run([options.app, "map", stem + ".clf", "--pose", "slam", "--out", folder + "/map",
+                                   "--quiet"], stderr=subprocess.DEVNULL)  # warnings: the table tells
+            if made.returncode not in (0, 3):  # 3: scans contradict the map
+                raise SystemExit(f"map {stem}.clf: status {made.returncode}")
             told = subprocess.run([sys.executable, options.scorer, folder + "/map/poses.csv", stem + ".csv", "--json"],
                                   check=True, capture_output=True, text=True).stdout
             with open(folder + "/map/summary.json") as summary:
