@@ -7,6 +7,8 @@
 #include <limits>
 #include <random>
 
+#include "cca_mrpt/navigation/place/frontier.hpp"
+
 namespace cca {
 namespace {
 
@@ -185,6 +187,48 @@ TEST(ExplorationGrid, AWallAnywhereWithinItsCellsIsOccupiedAndHidesWhatIsBehind)
           EXPECT_EQ(faults.missing, 0) << where;
           EXPECT_EQ(faults.behind, 0) << where;
         }
+      }
+    }
+  }
+}
+
+/// Cells beside 4 m of a wall, which are free and beside a face that was not seen.
+int besideUnseenFaces(const ExplorationGrid& grid, const StraightWall& wall) {
+  int cells = 0;
+  for (int y = grid.lowest().y - 3; y <= grid.highest().y + 3; ++y) {
+    for (int x = grid.lowest().x - 3; x <= grid.highest().x + 3; ++x) {
+      const double along = grid.centreOf({x, y}).dot(wall.along);
+      cells += along > 0.0 && along < 4.0 && isBesideUnseenFace(grid, {x, y});
+    }
+  }
+  return cells;
+}
+
+// A wall of 5 cm, anywhere within its cells: 4 m of it are looked at from one side, then the other.
+TEST(ExplorationGrid, KnowsWhichFaceOfAThinWallWasSeen) {
+  constexpr double kThick = 0.05;
+  for (const double turn : {0.0, 0.03, 0.2, 0.5, M_PI / 4.0}) {
+    for (const double offset : {0.004, 0.014, 0.026, 0.04}) {
+      for (const double sigma : {0.0, 0.01}) {
+        const StraightWall front(turn, 1.0 + offset), back(turn + M_PI, -1.0 - offset - kThick);
+        std::mt19937 random(1);
+        ExplorationGrid grid(0.05);
+        const auto where = testing::Message()
+                           << "turned by " << turn << ", at " << offset << ", noise " << sigma;
+        for (int k = 0; k <= 20; ++k) grid.insert(lookAtWall(front, 0.2 * k, 1.0, sigma, random));
+        EXPECT_EQ(besideUnseenFaces(grid, front), 0) << where;
+        const Cell low = grid.lowest() + Cell{-6, -6}, high = grid.highest() + Cell{6, 6};
+        for (int y = low.y; y <= high.y; ++y) {
+          for (int x = low.x; x <= high.x; ++x) {
+            const double behind = front.behind(grid.centreOf({x, y}));
+            const bool is_unknown = grid.at({x, y}) == CellState::kUnknown;
+            if (is_unknown && behind > 0.02) grid.set({x, y}, CellState::kFree);
+          }
+        }
+        // As many as it has cells: at 45 degrees 56.
+        EXPECT_GE(besideUnseenFaces(grid, front), 50) << where;
+        for (int k = 0; k <= 20; ++k) grid.insert(lookAtWall(back, -0.2 * k, 1.0, sigma, random));
+        EXPECT_LE(besideUnseenFaces(grid, front), 4) << where;
       }
     }
   }

@@ -81,6 +81,41 @@ TEST(GlobalPlanner, FinishesAtOnceWhereAllIsInSight) {
   EXPECT_LT(drive(planner, room, {1.3, 1.2}).distance, 0.5);
 }
 
+/// Of 5 x 4 m, in squares of 5 cm, all floor known: what was not seen are faces of obstacles.
+KnownWorld showFloor(GlobalPlanner& planner, const std::vector<Cell>& obstacles) {
+  KnownWorld room{std::vector<std::string>(80, "#" + std::string(98, '.') + "#")};
+  room.rows.front() = room.rows.back() = std::string(100, '#');
+  planner.place().seed(room.walls(), CellState::kOccupied);
+  for (const Cell c : obstacles) {
+    room.rows[79 - static_cast<std::size_t>(c.y)][static_cast<std::size_t>(c.x)] = '#';
+  }
+  planner.place().seed(room.freeCells(), CellState::kFree);
+  return room;
+}
+
+TEST(GlobalPlanner, LooksAtTheFaceOfAWallThatWasNotSeen) {
+  std::vector<Cell> wall;
+  for (int y = 1; y < 55; ++y) wall.push_back({50, y});
+  GlobalPlanner planner;
+  const KnownWorld room = showFloor(planner, wall);
+  const Drive way = drive(planner, room, {1.2, 1.2});
+  EXPECT_TRUE(way.last.isFinished());
+  EXPECT_LT(way.distance, 6.0);
+  int unseen = 0;
+  for (const Cell c : wall) unseen += planner.place().isUnseen(c + Cell{1, 0});
+  EXPECT_LE(unseen, 10) << "half a metre";
+}
+
+TEST(GlobalPlanner, DoesNotDriveAroundLegsOfFurnitureForTheirBacks) {
+  std::vector<Cell> legs;
+  for (int y = 20; y < 70; y += 15) {
+    for (int x = 30; x < 90; x += 15) legs.push_back({x, y});
+  }
+  GlobalPlanner planner;
+  const KnownWorld room = showFloor(planner, legs);
+  EXPECT_LT(drive(planner, room, {0.7, 0.7}).distance, 0.5);
+}
+
 // The window is too narrow to pass. From before it one sees to x = 5.2 m, from the start to 4.7 m.
 TEST(GlobalPlanner, LooksAtLastAsFarAsItCanWhereItCannotGo) {
   const KnownWorld window{{"##################", "#....#...........#", "#................#",

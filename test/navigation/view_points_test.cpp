@@ -73,6 +73,30 @@ TEST(ViewFrom, ExpectsLittleMoreOfALongWedgeThanOfItsFirstMetres) {
   EXPECT_LT(near.expected, near.gain);
 }
 
+// A wall of one cell through a room of 3 x 2 m. Of the floor behind it all is known.
+TEST(ViewFrom, PromisesTheFaceOfAWallThatWasNotSeenUntilItIs) {
+  KnownWorld world{std::vector<std::string>(40, "#" + std::string(58, '.') + "#")};
+  world.rows.front() = world.rows.back() = std::string(60, '#');
+  KnownPlace place(0.27);
+  place.seed(world.walls(), CellState::kOccupied);
+  for (std::string& row : world.rows) row[30] = '#';
+  place.seed(world.freeCells(), CellState::kFree);
+  place.observe(world.scanFrom({0.76, 1.01, 0.3}, 4.0), {0.76, 1.01});
+  const auto promiseFrom = [&](Cell from) {
+    return viewFrom(place.grid(), from, 4.0, place.openings(5));
+  };
+  const Cell near{15, 20}, beyond{45, 20};
+  EXPECT_EQ(promiseFrom(near).gain, 0.0) << "the wall's own side was seen";
+  const ViewPoint view = promiseFrom(beyond);
+  EXPECT_NEAR(view.gain, 0.3, 0.1);  // a fifth of a square metre for a metre across the view
+  EXPECT_NEAR(view.expected, 0.15, 0.05);
+  EXPECT_TRUE(place.isUnseen(view.target));
+  EXPECT_EQ(view.target.x, 31);
+  place.observe(world.scanFrom({2.26, 1.01, 0.3}, 4.0), {2.26, 1.01});
+  EXPECT_EQ(promiseFrom(beyond).gain, 0.0);
+  EXPECT_FALSE(place.isUnseen(view.target));
+}
+
 TEST(ScoreOf, OrdersPlacesAsEachStrategySaysItDoes) {
   const Cell c{0, 0};
   const ViewPoint much_far{c, c, c, 20.0, 40.0, 4.0}, little_near{c, c, c, 2.0, 1.0, 0.9},

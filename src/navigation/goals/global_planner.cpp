@@ -48,9 +48,7 @@ bool GlobalPlanner::isScanned(const Eigen::Vector2d& p_map) const {
   return place_.scanned().contains(grid().cellOf(p_map));
 }
 
-bool GlobalPlanner::isGoalUnseen() const {
-  return goal_ && grid().at(goal_->target) == CellState::kUnknown;
-}
+bool GlobalPlanner::isGoalUnseen() const { return goal_ && place_.isUnseen(goal_->target); }
 
 bool GlobalPlanner::goalStands() const {
   return isGoalUnseen() && !place_.scanned().contains(goal_->cell);

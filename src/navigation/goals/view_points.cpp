@@ -19,6 +19,11 @@ constexpr double kFreeWay = 1.0;
 /// cell's middle, and a ray before the surface may cut the cell's corner.
 constexpr double kCut = ExplorationGrid::kBehindSurface;
 
+// m^2 for each metre of a wall's face that was not seen, across the view: so half a metre reaches
+// the smallest gain. What is expected of it is less: at 0.2 the robot drives a quarter farther in
+// apartments, halls and galleries.
+constexpr double kFace = 0.2, kExpectedOfFace = 0.1;
+
 constexpr int kCount = 360;
 /// Never along an axis: no ties at corners.
 const std::vector<Eigen::Vector2d> kRays = directionsAround(kCount, M_PI / kCount);
@@ -49,6 +54,12 @@ double followRay(const ExplorationGrid& grid, Cell from, const Eigen::Vector2d& 
     return true;
   });
   return end;
+}
+
+/// The side of a cell that a neighbour is on; kNeighbours' order.
+std::size_t sideOf(Cell c, Cell neighbour) {
+  if (neighbour.x != c.x) return neighbour.x > c.x ? 0 : 2;
+  return neighbour.y > c.y ? 1 : 3;
 }
 
 /// Marks the rays (of as many as `marks` all around) from the middle of a cell that may enter
@@ -96,6 +107,8 @@ ViewPoint viewFrom(const ExplorationGrid& grid, Cell from, double range, const C
   for (const Cell c : openings.cells()) markRays(from, c, range / grid.resolution(), meets_opening);
   ViewPoint view{from, from, from};
   const double free_way = kFreeWay / grid.resolution();
+  const double across = 2.0 * M_PI / kCount / grid.resolution();
+  std::vector<Cell> before_faces;
   double longest = 0.0;
   for (std::size_t k = 0; k < kRays.size(); ++k) {
     if (!meets_opening[k]) continue;
@@ -104,6 +117,8 @@ ViewPoint viewFrom(const ExplorationGrid& grid, Cell from, double range, const C
     bool counts = true;
     Cell last = from;   // that is known, and no obstacle
     Cell first = from;  // that is not
+    Cell before = from;
+    double met = -1.0;  // where the ray meets the face of an obstacle that was not seen
     const auto close = [&](double end) {
       const double begin = std::exchange(unknown_since, -1.0), passed = end - begin;
       if (begin < 0.0 || !counts) return;
@@ -117,6 +132,9 @@ ViewPoint viewFrom(const ExplorationGrid& grid, Cell from, double range, const C
       view.target = cellAt(middleOf(from) + 0.5 * (begin + end) * direction);
     };
     const auto enter = [&](Cell c, CellState state, double entered) {
+      const std::size_t side = sideOf(c, before);
+      met = entered > 0.0 && grid.isFaceUnseen(c, side) && openings.contains(last) ? entered : -1.0;
+      before = c;
       if (state != CellState::kUnknown) {
         close(entered);
         if (!isOpaque(state)) last = c;
@@ -126,8 +144,16 @@ ViewPoint viewFrom(const ExplorationGrid& grid, Cell from, double range, const C
         counts = openings.contains(last);
       }
     };
-    close(followRay(grid, from, direction, range / grid.resolution(), enter));
+    const double reach = range / grid.resolution();
+    const double end = followRay(grid, from, direction, reach, enter);
+    close(end);
+    if (met < 0.0 || end >= reach) continue;
+    view.gain += kFace * across * met;
+    view.expected += kExpectedOfFace * across * met;
+    before_faces.push_back(last);
   }
+  if (longest == 0.0 && !before_faces.empty())
+    view.target = view.edge = before_faces[before_faces.size() / 2];
   view.gain *= grid.resolution() * grid.resolution();
   view.expected *= grid.resolution() * grid.resolution();
   return view;

@@ -25,6 +25,26 @@ constexpr double kBeforeSurface = 0.3;
 constexpr double kWidestGuess = 1.5;         // m, of a wall between two returns
 constexpr std::size_t kMostBetween = 8;      // rays between two beams
 constexpr double kLongestRangeCells = 4000;  // 200 m at 5 cm
+// What was seen of a cell: its sides that returns came from, a bit each, and whether there were any
+// so near to it along one surface that they tell of what is between.
+constexpr unsigned kAllFaces = 0xF, kBetweenReturns = 0x10;
+constexpr double kClose = 0.3;  // m: at 8 m returns are 14 cm apart, on walls seen aslant 30
+// Cosine, 75 degrees: of a wall that is seen farther aslant there are too few returns for a line.
+constexpr double kSquareEnough = 0.25;
+// Cosine: a surface faces one side of its cell, or two at 45 degrees.
+constexpr double kFacing = 0.38;
+
+/// The sides of its cell that a surface faces, a bit each.
+/// @param away  square to the surface, away from the sensor, of any length.
+unsigned sidesFaced(const Eigen::Vector2d& away) {
+  const double least = kFacing * away.norm();
+  unsigned sides = 0;
+  for (unsigned side = 0; side < 4; ++side) {
+    const Cell step = kNeighbours[side];
+    if (-(away.x() * step.x + away.y() * step.y) >= least) sides |= 1u << side;
+  }
+  return sides;
+}
 
 bool isUsable(const Scan& scan, double resolution) {
   const Pose2& T = scan.T_map_sensor;
@@ -52,7 +72,10 @@ void ExplorationGrid::insert(const Scan& raw_scan) {
   // Returns first: a cell that holds one is not cleared by a beam that passes beside the surface.
   for (std::size_t i = 0; i < scan.size(); ++i) {
     if (!points[i].is_return) continue;
-    add(cellAt(points[i].inside), kReturn / kPass * weightOf(noise_.variance(scan.ranges[i])));
+    const Cell cell = cellAt(points[i].inside);
+    add(cell, kReturn / kPass * weightOf(noise_.variance(scan.ranges[i])));
+    if (points[i].squareness >= kSquareEnough)
+      noteFaces(cell, sidesFaced(points[i].inside - points[i].place));
   }
   markSurfaces(points);
   for (std::size_t i = 0; i < scan.size(); ++i) {
@@ -127,9 +150,11 @@ void ExplorationGrid::markSurfaces(const std::vector<SurfacePoint>& points) {
     const Eigen::Vector2d step = points[(i + 1) % points.size()].inside - points[i].inside;
     const double gap = step.norm();
     if (gap == 0.0) continue;
+    const bool is_seen = gap <= kClose / resolution_ && points[i].squareness >= kSquareEnough;
     walkBeam(points[i].inside, step / gap, gap, [&](Cell c, double) {
       counted_[c] = scans_;
       if (evidence_.at(c) < kWallPresumed && gap <= widest) write(c, kWallPresumed);
+      if (is_seen) noteFaces(c, kBetweenReturns);
       return true;
     });
   }
@@ -167,8 +192,23 @@ void ExplorationGrid::add(Cell cell, int weight) {
   write(cell, evidence, static_cast<Evidence>(std::clamp(base + weight, kFreest, kSurest)));
 }
 
+void ExplorationGrid::noteFaces(Cell cell, unsigned sides) {
+  std::uint8_t& faces = faces_[cell];
+  if ((faces | sides) == faces) return;
+  faces = static_cast<std::uint8_t>(faces | sides);
+  if (changed_.empty() || changed_.back() != cell) changed_.push_back(cell);
+}
+
+bool ExplorationGrid::isFaceUnseen(Cell cell, std::size_t side) const {
+  const unsigned faces = faces_.at(cell), opposite = (side + 2) % 4;
+  if (at(cell) == CellState::kPresumedWall) return !(faces & kBetweenReturns);
+  if (at(cell) != CellState::kOccupied) return false;
+  return !(faces >> side & 1u) && (faces >> opposite & 1u);
+}
+
 void ExplorationGrid::set(Cell cell, CellState state) {
   if (!isStorable(cell)) return;
+  noteFaces(cell, kAllFaces | kBetweenReturns);
   constexpr Evidence kValue[] = {kNever, kFreePresumed, kWallPresumed, kFreest, kSurest};
   write(cell, kValue[static_cast<int>(state)]);
 }

@@ -24,6 +24,14 @@ bool isFrontier(const ExplorationGrid& grid, Cell c) {
          std::any_of(kNeighbours.begin(), kNeighbours.begin() + 4, is_unknown);
 }
 
+bool isBesideUnseenFace(const ExplorationGrid& grid, Cell c) {
+  if (!isFree(grid.at(c))) return false;
+  for (std::size_t side = 0; side < 4; ++side) {
+    if (grid.isFaceUnseen(c + kNeighbours[side], (side + 2) % 4)) return true;
+  }
+  return false;
+}
+
 void FrontierCells::update(const ExplorationGrid& grid, const std::vector<Cell>& changed) {
   for (const Cell c : changed) {
     review(grid, c);
@@ -33,7 +41,7 @@ void FrontierCells::update(const ExplorationGrid& grid, const std::vector<Cell>&
 
 void FrontierCells::review(const ExplorationGrid& grid, Cell c) {
   if (!isStorable(c)) return;
-  if (isFrontier(grid, c)) {
+  if (is_one_(grid, c)) {
     all_.insert(c);
   } else {
     all_.erase(c);

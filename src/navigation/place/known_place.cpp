@@ -7,7 +7,8 @@
 namespace cca {
 namespace {
 
-constexpr double kLongestStep = 0.5;  // m, between scans; a farther one is a jump
+constexpr std::size_t kShortestFace = 10;  // cells: legs of furniture have no face worth its way
+constexpr double kLongestStep = 0.5;       // m, between scans; a farther one is a jump
 
 }  // namespace
 
@@ -88,6 +89,7 @@ CellMove KnownPlace::correct(const PastScans& past) {
 void KnownPlace::takeChanges() {
   space_.update(grid_, grid_.changed());
   frontier_cells_.update(grid_, grid_.changed());
+  face_cells_.update(grid_, grid_.changed());
 }
 
 void KnownPlace::findWays(const Eigen::Vector2d& from_map, std::optional<Cell> until) {
@@ -99,6 +101,10 @@ CellSet KnownPlace::openings(std::size_t smallest_frontier) const {
   for (const Frontier& frontier : frontiers()) {
     if (frontier.cells.size() < smallest_frontier) continue;
     for (const Cell c : frontier.cells) openings.insert(c);
+  }
+  for (const Frontier& face : face_cells_.frontiers(kFrontierExtent)) {
+    if (face.cells.size() < kShortestFace) continue;
+    for (const Cell c : face.cells) openings.insert(c);
   }
   return openings;
 }

@@ -38,7 +38,8 @@ bool isOneSurface(const Points& points, std::size_t i, double spacing, double to
   return isInLine(points[(i + n - 1) % n], a) || isInLine(points[(i + 2) % n], b);
 }
 
-/// Unit vector square to the surface at the return of beam i, away from the sensor.
+/// Unit vector square to the surface at the return of beam i, away from the sensor; zero where
+/// nothing tells.
 Eigen::Vector2d awayFromSensor(const Points& points, std::size_t i, const Eigen::Vector2d& beam) {
   const std::size_t n = points.size();
   std::size_t first = i, last = i;
@@ -54,7 +55,7 @@ Eigen::Vector2d awayFromSensor(const Points& points, std::size_t i, const Eigen:
     last = (last + 1) % n;
   const Eigen::Vector2d along = points[last].place - points[first].place;
   const double length = along.norm();
-  if (length == 0.0) return beam;
+  if (length == 0.0) return Eigen::Vector2d::Zero();
   const Eigen::Vector2d square = Eigen::Vector2d(-along.y(), along.x()) / length;
   return square.dot(beam) < 0.0 ? Eigen::Vector2d(-square) : square;
 }
@@ -80,7 +81,9 @@ std::vector<SurfacePoint> surfacePoints(const Scan& scan,
   }
   for (std::size_t i = 0; i < n; ++i) {
     if (!points[i].is_return) continue;
-    points[i].inside = points[i].place + depth * awayFromSensor(points, i, directions[i]);
+    const Eigen::Vector2d away = awayFromSensor(points, i, directions[i]);
+    points[i].squareness = away.dot(directions[i]);
+    points[i].inside = points[i].place + depth * (away.isZero() ? directions[i] : away);
   }
   return points;
 }

@@ -14,6 +14,9 @@ struct SurfacePoint {
   bool goes_on = false;    ///< the surface does, to the next beam's return
   Eigen::Vector2d place;   ///< of the return
   Eigen::Vector2d inside;  ///< at a given depth behind it, square to the surface
+  /// Cosine of the angle between the beam and the line square to the surface; 0 where the return
+  /// has no neighbour that tells of the surface's direction.
+  double squareness = 0.0;
 };
 
 /// The surfaces that a scan saw, beam by beam.

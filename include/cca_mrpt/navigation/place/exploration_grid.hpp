@@ -54,8 +54,15 @@ class ExplorationGrid {
 
   CellState at(Cell cell) const { return stateOf(evidence_.at(cell)); }
 
-  /// Cells whose state the last insert (or the sets since then) has changed; a cell may be listed
-  /// more than once.
+  /// Whether the face of an obstacle towards one of its neighbours was not seen: returns came from
+  /// the opposite side of its cell and none from here, or it is a presumed wall, and the returns to
+  /// its sides were farther apart than a wall's points may be. A cell that was set has been seen
+  /// from all sides.
+  /// @param side  where the neighbour is, one of the first four kNeighbours.
+  bool isFaceUnseen(Cell cell, std::size_t side) const;
+
+  /// Cells whose state, or whose faces that were seen, the last insert (or the sets since then)
+  /// has changed; a cell may be listed more than once.
   const std::vector<Cell>& changed() const { return changed_; }
 
   /// Number of cells that have ever been seen.
@@ -93,9 +100,11 @@ class ExplorationGrid {
                    double ends_at);
   void markSurfaces(const std::vector<SurfacePoint>& points);
   void presumeFree(const Scan& scan);
+  void noteFaces(Cell cell, unsigned sides);
 
   double resolution_;
   TiledGrid<Evidence> evidence_{kNever};
+  TiledGrid<std::uint8_t> faces_{0};     ///< that returns came from, see exploration_grid.cpp
   TiledGrid<std::uint32_t> counted_{0};  ///< number of the last scan that counted here
   std::uint32_t scans_ = 0;
   std::size_t revealed_ = 0;

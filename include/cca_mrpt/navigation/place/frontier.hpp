@@ -20,9 +20,17 @@ struct Frontier {
 /// without them it falls to pieces as small as a beam, and a room behind it would not be missed.
 bool isFrontier(const ExplorationGrid& grid, Cell c);
 
-/// The frontier cells of a grid, kept up to date cell by cell.
+/// Whether a cell is free, or presumed so, and beside the face of an obstacle that was not seen.
+bool isBesideUnseenFace(const ExplorationGrid& grid, Cell c);
+
+/// The frontier cells of a grid, or others that their neighbours make such, kept up to date cell by
+/// cell.
 class FrontierCells {
  public:
+  using Rule = bool (*)(const ExplorationGrid&, Cell);
+  /// @param is_one  may ask for a cell and its side neighbours.
+  explicit FrontierCells(Rule is_one = isFrontier) : is_one_(is_one) {}
+
   /// Cost: cells changed.
   void update(const ExplorationGrid& grid, const std::vector<Cell>& changed);
 
@@ -37,6 +45,7 @@ class FrontierCells {
  private:
   void review(const ExplorationGrid& grid, Cell c);
 
+  Rule is_one_;
   CellSet all_;
 };
 

@@ -97,12 +97,17 @@ class KnownPlace {
   /// See FrontierCells::frontiers(); those longer than 2 m are several.
   std::vector<Frontier> frontiers() const { return frontier_cells_.frontiers(kFrontierExtent); }
   /// The cells of all frontiers of at least so many cells: a small one may be a missing cell of a
-  /// wall, which would promise all that is behind it. Cost: O(frontier cells).
+  /// wall, which would promise all that is behind it. And those beside faces of walls that were not
+  /// seen, half a metre of them at least. Cost: O(frontier cells).
   CellSet openings(std::size_t smallest_frontier) const;
 
   const ExplorationGrid& grid() const { return grid_; }
   const FreeSpace& space() const { return space_; }
   const FrontierCells& frontierCells() const { return frontier_cells_; }
+  /// Whether a cell is still to be seen: it is unknown, or beside a face that is.
+  bool isUnseen(Cell c) const {
+    return grid_.at(c) == CellState::kUnknown || face_cells_.all().contains(c);
+  }
   const ScannedPlaces& scanned() const { return scanned_; }
   /// m, map frame: where the robot was at the last scan.
   const std::optional<Eigen::Vector2d>& lastPlace() const { return last_place_; }
@@ -119,7 +124,7 @@ class KnownPlace {
 
   ExplorationGrid grid_;
   FreeSpace space_;
-  FrontierCells frontier_cells_;
+  FrontierCells frontier_cells_, face_cells_{isBesideUnseenFace};
   ScannedPlaces scanned_;
   std::vector<Cell> noted_scanned_;
   FailedTries failed_;
