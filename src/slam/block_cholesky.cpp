@@ -48,15 +48,20 @@ void BlockCholesky::setZero() {
   }
 }
 
-void BlockCholesky::add(int i, int j, const Eigen::Matrix3d& block) {
+BlockCholesky::Slot BlockCholesky::slotOf(int i, int j) const {
   const int a = place_[static_cast<std::size_t>(i)], b = place_[static_cast<std::size_t>(j)];
-  Column& column = columns_[static_cast<std::size_t>(std::min(a, b))];
+  const auto number = static_cast<std::size_t>(std::min(a, b));
+  const Column& column = columns_[number];
   const auto at = std::lower_bound(column.rows.begin(), column.rows.end(), std::max(a, b));
-  Eigen::Matrix3d& sum = column.blocks[static_cast<std::size_t>(at - column.rows.begin())];
-  if (a > b) {
-    sum += block;
-  } else {
+  return {number, static_cast<std::size_t>(at - column.rows.begin()), a < b};
+}
+
+void BlockCholesky::add(const Slot& slot, const Eigen::Matrix3d& block) {
+  Eigen::Matrix3d& sum = columns_[slot.column].blocks[slot.at];
+  if (slot.is_transposed) {
     sum += block.transpose();
+  } else {
+    sum += block;
   }
 }
 

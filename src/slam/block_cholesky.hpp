@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstddef>
 #include <utility>
 #include <vector>
 
@@ -23,8 +24,14 @@ class BlockCholesky {
   Eigen::Matrix3d& diagonal(int i) {
     return diagonal_[static_cast<std::size_t>(place_[static_cast<std::size_t>(i)])];
   }
-  /// H(i, j) += block, and H(j, i) its transpose; (i, j) one of the pairs or its reverse.
-  void add(int i, int j, const Eigen::Matrix3d& block);
+  /// Where the block (i, j) is kept, or its transpose; (i, j) one of the pairs or its reverse.
+  struct Slot {
+    std::size_t column = 0, at = 0;
+    bool is_transposed = false;
+  };
+  Slot slotOf(int i, int j) const;
+  /// H(i, j) += block, and H(j, i) its transpose.
+  void add(const Slot& slot, const Eigen::Matrix3d& block);
 
   /// Factorises, whereafter H is lost. @return whether H was positive definite.
   bool factorise();

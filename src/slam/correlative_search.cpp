@@ -3,11 +3,20 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
 #include <limits>
 #include <tuple>
 #include <utility>
 
 namespace cca {
+namespace {
+
+/// Cells that are looked up between two looks at whether to give up: a few more than needed cost
+/// less than to ask after each.
+constexpr std::size_t kAtOnce = 8;
+
+}  // namespace
 
 PoseSearch::PoseSearch(std::vector<SurfacePoint> query, LikelihoodPyramid pyramid,
                        const SearchWindow& window, double least_score)
@@ -79,6 +88,12 @@ PoseSearch::TurnedQuery PoseSearch::turnedQuery(int k) const {
     turned.cells.emplace_back(static_cast<int>(std::floor(at.x())),
                               static_cast<int>(std::floor(at.y())),
                               pyramid_.layerOf(facings_[i] + turned.angle));
+    const Eigen::Vector3i& cell = turned.cells.back();
+    turned.offsets.push_back(pyramid_.offset(cell.x(), cell.y(), cell.z()));
+    turned.low_x = i > 0 ? std::min(turned.low_x, cell.x()) : cell.x();
+    turned.low_y = i > 0 ? std::min(turned.low_y, cell.y()) : cell.y();
+    turned.high_x = i > 0 ? std::max(turned.high_x, cell.x()) : cell.x();
+    turned.high_y = i > 0 ? std::max(turned.high_y, cell.y()) : cell.y();
   }
   return turned;
 }
@@ -130,20 +145,35 @@ Pose2 PoseSearch::poseOf(const Candidate& c) const {
 
 /// @param least  what cannot score more is given up, and its score is less.
 double PoseSearch::scoreOf(const Candidate& c, double least) {
-  const std::vector<Eigen::Vector3i>& cells = turned_[static_cast<std::size_t>(c.turn)].cells;
-  const double most = 255.0 * static_cast<double>(cells.size());
+  const double most =
+      255.0 * static_cast<double>(turned_[static_cast<std::size_t>(c.turn)].cells.size());
   // What may be missed of the most that there could be.
-  int missed = static_cast<int>((1.0 - least) * most) + 1;
-  int sum = 0, seen = 0;
-  for (const Eigen::Vector3i& at : cells) {
-    const int value = pyramid_.at(c.level, at.z(), at.x() + c.x, at.y() + c.y);
-    sum += value;
-    missed -= 255 - value;
-    ++seen;
-    if (missed < 0) break;
+  const int may_miss = static_cast<int>((1.0 - least) * most) + 1;
+  const int missed = missedBy(c, may_miss);
+  return missed > may_miss ? 0.0 : (most - missed) / most;
+}
+
+/// What a candidate misses of the most that there could be, given up beyond `most`.
+int PoseSearch::missedBy(const Candidate& c, int most) {
+  const TurnedQuery& turned = turned_[static_cast<std::size_t>(c.turn)];
+  const std::size_t count = turned.cells.size();
+  int missed = 0;
+  std::size_t k = 0;
+  if (pyramid_.covers(turned.low_x + c.x, turned.low_y + c.y, turned.high_x + c.x,
+                      turned.high_y + c.y)) {
+    const std::uint8_t* level = pyramid_.level(c.level) + pyramid_.offset(c.x, c.y, 0);
+    while (k < count && missed <= most) {
+      const std::size_t end = std::min(count, k + kAtOnce);
+      for (; k < end; ++k) missed += 255 - level[turned.offsets[k]];
+    }
+  } else {
+    for (; k < count && missed <= most; ++k) {
+      const Eigen::Vector3i& at = turned.cells[k];
+      missed += 255 - pyramid_.at(c.level, at.z(), at.x() + c.x, at.y() + c.y);
+    }
   }
-  looked_up_ += seen;
-  return missed < 0 ? 0.0 : sum / most;
+  looked_up_ += static_cast<int>(k);
+  return missed;
 }
 
 /// The least penalty of the shifts that a candidate stands for.

@@ -19,7 +19,7 @@ constexpr double kWorthCorrecting = 0.02, kWorthCorrectingTurn = 0.01;  // m, ra
 constexpr double kSameTime = 0.05;                                      // s, of a pose and a scan
 // Returns, of the 90 that a scan is compared by: wheels that slipped by a tenth of a radian come to
 // 13, a localisation that was wrong by a metre to 65 and more.
-constexpr int kClearlyBetter = 30;
+constexpr int kMoreReturns = 30;
 constexpr std::size_t kMostCompared = 150;  // scans
 
 /// So much of a motion, in [0, 1].
@@ -119,7 +119,7 @@ std::optional<ExternalCorrections::Odometries> ExternalCorrections::afterLeap(
   candidates.push_back(spread(now, 0, true));
   Odometries as_it_is;
   for (const Step& step : steps_) as_it_is.push_back(step.T_map_odom);
-  int most = agreement(as_it_is, scan, past) + kClearlyBetter;
+  int most = agreement(as_it_is, scan, past) + kMoreReturns;
   std::optional<Odometries> best;
   for (Odometries& candidate : candidates) {
     const int agreed = agreement(candidate, scan, past);

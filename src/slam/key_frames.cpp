@@ -82,7 +82,7 @@ std::vector<PlacedSurface> KeyFrames::placed(const std::vector<int>& numbers) co
 std::vector<int> framesInView(const KeyFrames& frames, int anchor, const Pose2& T_map_sensor,
                               int most) {
   std::vector<std::pair<double, int>> near;
-  for (const RelativeCovariance& tied : frames.graph.surroundings(anchor, kTiedSigma)) {
+  for (const RelativeSigma& tied : frames.graph.surroundings(anchor, kTiedSigma)) {
     const Pose2& pose = frames.graph.pose(tied.node);
     if ((pose.position() - T_map_sensor.position()).norm() > 2.0 * kCommonView) continue;
     const bool full = frames.surfaces[static_cast<std::size_t>(tied.node)].is_full_turn;
@@ -131,7 +131,9 @@ class PairEdge {
  public:
   PairEdge(int from, int to) : from_(from), to_(to) {}
 
-  void match(const KeyFrames& frames, const MatchScale& scale) {
+  /// @param is_coarse  it is done again, by a narrower reach.
+  void match(const KeyFrames& frames, MatchScale scale, bool is_coarse) {
+    if (is_coarse) scale.stride = coarseStride(frames.surfaces[static_cast<std::size_t>(to_)]);
     const Pose2 T_from_to = frames.graph.pose(from_).inverse() * frames.graph.pose(to_);
     if (scale.reach == reach_ && isAt(T_from_to)) return;
     T_from_to_ = T_from_to;
@@ -173,11 +175,10 @@ void adjust(KeyFrames& frames, int rounds, const DoAll& do_all) {
   }
   double reach = kFirstReach;
   for (int round = 0; round < rounds; ++round) {
-    MatchScale scale{reach, 0.25 * reach};
-    if (reach > kLastReach) scale.stride = 2;  // it is done again
+    const MatchScale scale{reach, 0.25 * reach};
     do_all((count + kAtOnce - 1) / kAtOnce, [&](int part) {
       for (int k = part * kAtOnce; k < std::min(count, (part + 1) * kAtOnce); ++k) {
-        pairs[static_cast<std::size_t>(k)].match(frames, scale);
+        pairs[static_cast<std::size_t>(k)].match(frames, scale, reach > kLastReach);
       }
     });
     std::vector<GraphEdge> edges = steps;

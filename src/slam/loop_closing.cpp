@@ -97,19 +97,18 @@ void judge(const KeyFrames& frames, const std::vector<int>& recent, const std::v
 
 }  // namespace
 
-std::vector<RelativeCovariance> loopCandidates(const KeyFrames& frames, int frame) {
+std::vector<RelativeSigma> loopCandidates(const KeyFrames& frames, int frame) {
   struct Likely {
     double apart;
-    RelativeCovariance at;
+    RelativeSigma at;
   };
   std::vector<Likely> likely;
   const Pose2& here = frames.graph.pose(frame);
-  for (const RelativeCovariance& at : frames.graph.surroundings(frame, kMostSigma)) {
-    const double sigma = std::sqrt(0.5 * at.covariance.topLeftCorner<2, 2>().trace());
-    if (sigma <= kTiedSigma) continue;
+  for (const RelativeSigma& at : frames.graph.surroundings(frame, kMostSigma)) {
+    if (at.position <= kTiedSigma) continue;
     const double apart = (frames.graph.pose(at.node).position() - here.position()).norm();
     // The nearest place that this one may be: what lies within the uncertainty is no distance.
-    const double least = std::max(0.0, apart - kSigmas * sigma);
+    const double least = std::max(0.0, apart - kSigmas * at.position);
     if (least > 0.5 * kCommonView) continue;
     likely.push_back({apart, at});
   }
@@ -117,7 +116,7 @@ std::vector<RelativeCovariance> loopCandidates(const KeyFrames& frames, int fram
     return a.apart != b.apart ? a.apart < b.apart : a.at.node < b.at.node;
   });
   // One of each visit: frames that follow one another are one.
-  std::vector<RelativeCovariance> chosen;
+  std::vector<RelativeSigma> chosen;
   constexpr int kSameVisit = 20;  // frames
   constexpr std::size_t kMostCandidates = 3;
   for (const Likely& next : likely) {
@@ -139,7 +138,7 @@ PlaceSearch::PlaceSearch(const LoopVerdict& known, const std::optional<Pose2>& T
       search_(std::move(search)) {}
 
 PlaceSearch PlaceSearch::atVisit(const KeyFrames& frames, int frame,
-                                 const RelativeCovariance& candidate) {
+                                 const RelativeSigma& candidate) {
   const int earlier = candidate.node;
   const std::vector<int> recent = recentFrames(frames, frame);
   std::vector<int> around =
@@ -156,9 +155,9 @@ PlaceSearch PlaceSearch::atVisit(const KeyFrames& frames, int frame,
   LoopVerdict known;
   known.frame = frame;
   known.candidate = earlier;
-  known.sigma = std::sqrt(0.5 * candidate.covariance.topLeftCorner<2, 2>().trace());
+  known.sigma = candidate.position;
   known.window = window.half_width = std::min(kSigmas * known.sigma + kTiedSigma, kWidestWindow);
-  window.half_turn = std::min(kSigmas * std::sqrt(candidate.covariance(2, 2)) + 0.05, M_PI);
+  window.half_turn = std::min(kSigmas * candidate.turn + 0.05, M_PI);
   const Pose2 T_frame_map = frames.graph.pose(frame).inverse();
   const Pose2 T_earlier_map = frames.graph.pose(earlier).inverse();
   return {known, window.centre, recent, around,

@@ -15,11 +15,23 @@
 namespace cca {
 namespace {
 
+/// Poses, and the direction of each: its cosine and sine are taken once for all its edges.
+struct DirectedPoses {
+  explicit DirectedPoses(const std::vector<Pose2>& of) : poses(of) {
+    headings.reserve(of.size());
+    for (const Pose2& pose : of) headings.push_back(pose.heading());
+  }
+  const std::vector<Pose2>& poses;
+  std::vector<Eigen::Vector2d> headings;
+};
+
 /// How an edge's error, in the axes of its first pose, changes with both poses.
 struct EdgeError {
-  EdgeError(const GraphEdge& edge, const std::vector<Pose2>& poses)
-      : a(poses[static_cast<std::size_t>(edge.from)]), c(std::cos(a.theta)), s(std::sin(a.theta)) {
-    const Pose2& b = poses[static_cast<std::size_t>(edge.to)];
+  EdgeError(const GraphEdge& edge, const DirectedPoses& at)
+      : c(at.headings[static_cast<std::size_t>(edge.from)].x()),
+        s(at.headings[static_cast<std::size_t>(edge.from)].y()) {
+    const Pose2& a = at.poses[static_cast<std::size_t>(edge.from)];
+    const Pose2& b = at.poses[static_cast<std::size_t>(edge.to)];
     const double dx = b.x - a.x, dy = b.y - a.y;
     seen = {c * dx + s * dy, -s * dx + c * dy};
     error << seen.x() - edge.T_from_to.x, seen.y() - edge.T_from_to.y,
@@ -36,7 +48,6 @@ struct EdgeError {
     J << c, s, 0.0, -s, c, 0.0, 0.0, 0.0, 1.0;
     return J;
   }
-  Pose2 a;
   double c, s;
   Eigen::Vector2d seen;  // m, the second pose from the first
   Eigen::Vector3d error;
@@ -75,6 +86,8 @@ class GraphSolver {
     std::iota(before.begin(), before.end(), 0);
     for (const GraphEdge& edge : edges) join(before, edge.from, edge.to);
     for (std::size_t k = 0; k < poses.size(); ++k) is_held_[k] = before[k] == static_cast<int>(k);
+    slots_.reserve(edges.size());
+    for (const GraphEdge& edge : edges) slots_.push_back(H_.slotOf(edge.from, edge.to));
     cost_ = costOf(poses_);
   }
 
@@ -134,8 +147,9 @@ class GraphSolver {
 
   double costOf(const std::vector<Pose2>& poses) const {
     double cost = 0.0;
+    const DirectedPoses directed(poses);
     for (const GraphEdge& edge : edges_) {
-      const double squared = EdgeError(edge, poses).squared;
+      const double squared = EdgeError(edge, directed).squared;
       cost +=
           edge.kind == EdgeKind::kLoop ? kernel_sq_ * std::log1p(squared / kernel_sq_) : squared;
     }
@@ -146,8 +160,10 @@ class GraphSolver {
   std::vector<Eigen::Vector3d> solved() {
     std::vector<Eigen::Vector3d> g(poses_.size(), Eigen::Vector3d::Zero());
     H_.setZero();
-    for (const GraphEdge& edge : edges_) {
-      const EdgeError at(edge, poses_);
+    const DirectedPoses directed(poses_);
+    for (std::size_t k = 0; k < edges_.size(); ++k) {
+      const GraphEdge& edge = edges_[k];
+      const EdgeError at(edge, directed);
       const double weight =
           edge.kind == EdgeKind::kLoop ? 1.0 / (1.0 + at.squared / kernel_sq_) : 1.0;
       const Eigen::Matrix3d information = weight * edge.information;
@@ -164,7 +180,7 @@ class GraphSolver {
         H_.diagonal(edge.to).noalias() += to_weighted * to;
         g[static_cast<std::size_t>(edge.to)].noalias() -= to_weighted * at.error;
       }
-      if (moves_from && moves_to) H_.add(edge.from, edge.to, from_weighted * to);
+      if (moves_from && moves_to) H_.add(slots_[k], from_weighted * to);
     }
     for (std::size_t k = 0; k < poses_.size(); ++k) {
       Eigen::Matrix3d& own = H_.diagonal(static_cast<int>(k));
@@ -184,6 +200,7 @@ class GraphSolver {
   std::vector<bool> is_held_;  // the first of each part
   std::vector<Pose2> poses_;
   BlockCholesky H_;
+  std::vector<BlockCholesky::Slot> slots_;  // of the edges
   double cost_ = 0.0;
   double damping_ = kFirstDamping;
   int failures_ = 0;
@@ -232,7 +249,7 @@ void PoseGraph::movePart(int part, const Pose2& T) {
   }
 }
 
-std::vector<RelativeCovariance> PoseGraph::surroundings(int node, double most_sigma) const {
+std::vector<RelativeSigma> PoseGraph::surroundings(int node, double most_sigma) const {
   struct Reached {
     double variance;
     int node;
@@ -240,38 +257,36 @@ std::vector<RelativeCovariance> PoseGraph::surroundings(int node, double most_si
       return variance != other.variance ? variance > other.variance : node > other.node;
     }
   };
-  struct Known {  // of a node so far
-    double variance;
-    Eigen::Matrix3d covariance;
+  struct Known {        // of a node so far: what matters of its covariance, in the axes of the map
+    double variance;    // m^2, of x and y together
+    double turn = 0.0;  // rad^2
+    Eigen::Vector2d with_turn = Eigen::Vector2d::Zero();  // m rad, of the position with the heading
     bool is_done = false;
   };
-  std::vector<Known> known(poses_.size(), {most_sigma * most_sigma, Eigen::Matrix3d::Zero()});
-  std::vector<RelativeCovariance> found;
+  std::vector<Known> known(poses_.size(), Known{most_sigma * most_sigma});
+  known[static_cast<std::size_t>(node)].variance = 0.0;
+  std::vector<RelativeSigma> found;
   std::priority_queue<Reached> open;
   open.push({0.0, node});
-  const Eigen::Matrix2d to_node = Eigen::Rotation2Dd(-pose(node).theta).toRotationMatrix();
   while (!open.empty()) {
     Known& here = known[static_cast<std::size_t>(open.top().node)];
     const int number = open.top().node;
     open.pop();
     if (here.is_done) continue;
     here.is_done = true;
-    const Eigen::Matrix3d& C = here.covariance;
-    found.push_back({number, C});
+    found.push_back({number, std::sqrt(0.5 * here.variance), std::sqrt(here.turn)});
     for (const auto& [next_number, spread] : ties_[static_cast<std::size_t>(number)]) {
       Known& next = known[static_cast<std::size_t>(next_number)];
       if (next.is_done) continue;
-      // In the axes of the node that all is seen from; the arm turns heading errors into positions.
-      const Eigen::Vector2d arm =
-          to_node * (pose(next_number).position() - pose(number).position());
-      const Eigen::Vector3d turned(-arm.y(), arm.x(), 0.0);
-      const double variance = C(0, 0) + C(1, 1) + 2.0 * turned.dot(C.col(2)) +
-                              C(2, 2) * turned.squaredNorm() + spread.x() + spread.y();
+      // The arm turns heading errors into positions.
+      const Eigen::Vector2d arm = pose(next_number).position() - pose(number).position();
+      const Eigen::Vector2d turned(-arm.y(), arm.x());
+      const double variance = here.variance + 2.0 * turned.dot(here.with_turn) +
+                              here.turn * turned.squaredNorm() + spread.x() + spread.y();
       if (variance > next.variance) continue;
       next.variance = variance;
-      next.covariance = C + turned * C.row(2) + C.col(2) * turned.transpose() +
-                        C(2, 2) * turned * turned.transpose();
-      next.covariance.diagonal() += spread;
+      next.turn = here.turn + spread.z();
+      next.with_turn = here.with_turn + here.turn * turned;
       open.push({variance, next_number});
     }
   }

@@ -74,7 +74,33 @@ void takeNormalsOfNeighbours(ScanSurface& surface) {
   }
 }
 
+/// Between the nearest and the farthest of three neighbouring beams a surface may lie anywhere.
+void takeFreeRangesOfThree(ScanSurface& surface) {
+  const int beams = surface.beams();
+  for (int k = 0; k < beams; ++k) {
+    double least = surface.free_range[static_cast<std::size_t>(k)], most = least;
+    for (int at : {k - 1, k + 1}) {
+      if (surface.is_full_turn) at = at < 0 ? beams - 1 : at == beams ? 0 : at;
+      if (at < 0 || at == beams) continue;
+      least = std::min(least, surface.free_range[static_cast<std::size_t>(at)]);
+      most = std::max(most, surface.free_range[static_cast<std::size_t>(at)]);
+    }
+    surface.least_free.push_back(static_cast<float>(least));
+    surface.most_free.push_back(static_cast<float>(most));
+  }
+}
+
 }  // namespace
+
+void ScanSurface::pack() {
+  packed = {};
+  for (const Point& point : points) {
+    packed.x.push_back(static_cast<float>(point.position.x()));
+    packed.y.push_back(static_cast<float>(point.position.y()));
+    packed.normal_x.push_back(static_cast<float>(point.normal.x()));
+    packed.normal_y.push_back(static_cast<float>(point.normal.y()));
+  }
+}
 
 ScanSurface scanSurface(const Scan& scan, const CcaParameters& parameters) {
   ScanSurface surface;
@@ -102,6 +128,8 @@ ScanSurface scanSurface(const Scan& scan, const CcaParameters& parameters) {
   }
   takeNormalsOfLines(extractLines(scan, parameters), parameters.straightness, surface);
   takeNormalsOfNeighbours(surface);
+  takeFreeRangesOfThree(surface);
+  surface.pack();
   return surface;
 }
 

@@ -18,10 +18,10 @@ constexpr int kSearchLevels = 3;
 constexpr int kLevelsAllRound =
     5;  // a coarsest cell nearly spans the window: one bound a direction
 constexpr double kSearchSigmas = 3.0;
-constexpr double kWidestSearch = 1.0, kWidestTurn = 1.0;
+constexpr double kWidestWindowHere = 1.0, kWidestTurn = 1.0;
 constexpr double kLeastSearch = 0.2, kLeastTurn = 0.2;
 constexpr double kFirstReach = 0.3;  // m, of a match
-constexpr double kArm = 3.0;         // m
+constexpr double kSearchArm = 3.0;   // m
 constexpr std::size_t kJudges = 3;   // frames that say how well a scan agrees with them
 constexpr double kAgree = 0.2;       // m, within which rays do
 /// From a key frame to the next.
@@ -102,17 +102,17 @@ Sigmas sigmasOf(const PoseBelief& prior) {
   return {std::sqrt(0.5 * covariance.topLeftCorner<2, 2>().trace()), std::sqrt(covariance(2, 2))};
 }
 
-/// How far off [m] the prior may put what is seen kArm away.
+/// How far off [m] the prior may put what is seen kSearchArm away.
 double spanOf(const PoseBelief& prior) {
   const Sigmas sigmas = sigmasOf(prior);
-  return kSearchSigmas * (sigmas.position + kArm * sigmas.turn);
+  return kSearchSigmas * (sigmas.position + kSearchArm * sigmas.turn);
 }
 
 SearchWindow windowOf(const PoseBelief& prior) {
   const Sigmas sigmas = sigmasOf(prior);
   SearchWindow window;
   window.centre = prior.mean;
-  window.half_width = std::clamp(kSearchSigmas * sigmas.position, kLeastSearch, kWidestSearch);
+  window.half_width = std::clamp(kSearchSigmas * sigmas.position, kLeastSearch, kWidestWindowHere);
   window.half_turn = std::clamp(kSearchSigmas * sigmas.turn, kLeastTurn, kWidestTurn);
   window.prior_information = prior.information.diagonal();
   return window;
@@ -215,7 +215,7 @@ std::optional<Slam::Located> Slam::trackElsewhere(const ScanSurface& surface,
   if (here.agreement >= kDoubtful || surface.points.empty()) return std::nullopt;
   SearchWindow anywhere;
   anywhere.centre = prior.mean;
-  anywhere.half_width = kWidestSearch;
+  anywhere.half_width = kWidestWindowHere;
   anywhere.half_turn = M_PI;
   PoseBelief vague = prior;
   vague.information *= kVague;

@@ -28,7 +28,7 @@ struct System {
     }
     for (const auto& [i, j] : pairs) {
       const Eigen::Matrix3d block = Eigen::Matrix3d::NullaryExpr([&] { return number(random); });
-      blocks.add(i, j, block);
+      blocks.add(blocks.slotOf(i, j), block);
       all.block<3, 3>(3 * i, 3 * j) = block;
       all.block<3, 3>(3 * j, 3 * i) = block.transpose();
     }

@@ -58,7 +58,9 @@ class PoseSearch {
   /// One turn of the query: its points in cells, at the window's lowest shift.
   struct TurnedQuery {
     double angle, penalty;
-    std::vector<Eigen::Vector3i> cells;  // (x, y, layer)
+    std::vector<Eigen::Vector3i> cells;                // (x, y, layer)
+    std::vector<int> offsets;                          // the same, see LikelihoodPyramid::offset()
+    int low_x = 0, low_y = 0, high_x = 0, high_y = 0;  // of these cells
   };
   /// What was found before, whose neighbourhood is passed over.
   struct Excluded {
@@ -74,6 +76,7 @@ class PoseSearch {
   void sortFrom(std::size_t first);
   Pose2 poseOf(const Candidate& candidate) const;
   double scoreOf(const Candidate& candidate, double least);
+  int missedBy(const Candidate& candidate, int most);
   double penaltyOf(const Candidate& candidate) const;
   bool isExcluded(const Candidate& candidate) const;
 

@@ -45,6 +45,18 @@ class LikelihoodPyramid {
                  [static_cast<std::size_t>(layer * height_ + y) * static_cast<std::size_t>(width_) +
                   static_cast<std::size_t>(x)];
   }
+  /// A cell of a layer as a distance from cell (0, 0) of the first one, in each level: that of the
+  /// cell x, y beside it is offset(x, y, 0) more.
+  int offset(int x, int y, int layer) const { return (layer * height_ + y) * width_ + x; }
+  /// Whether at() holds something for all cells from (low_x, low_y) to (high_x, high_y).
+  bool covers(int low_x, int low_y, int high_x, int high_y) const {
+    return low_x >= -kMargin && low_y >= -kMargin && high_x < width_ - kMargin &&
+           high_y < height_ - kMargin;
+  }
+  /// Cell (0, 0) of the first layer of a level; others by offset(), where it covers() them.
+  const std::uint8_t* level(int level) const {
+    return cells_[static_cast<std::size_t>(level)].data() + kMargin * width_ + kMargin;
+  }
   /// In units of cells.
   Eigen::Vector2d toCells(const Eigen::Vector2d& p_map) const { return (p_map - low_) / cell_; }
 

@@ -44,7 +44,7 @@ class LoopCloser {
  private:
   struct Sought {
     int frame;
-    std::optional<std::vector<RelativeCovariance>> candidates;  ///< left, the first one last
+    std::optional<std::vector<RelativeSigma>> candidates;  ///< left, the first one last
   };
   std::vector<GraphEdge> take(const PoseGraph& graph, const LoopVerdict& verdict);
   GraphEdge believed(const LoopVerdict& verdict);

@@ -29,15 +29,14 @@ inline constexpr double kRival = 0.9;
 
 /// Earlier frames that may have seen the place of `frame` although they are not tied to it: for
 /// each other visit, the one most likely nearest.
-std::vector<RelativeCovariance> loopCandidates(const KeyFrames& frames, int frame);
+std::vector<RelativeSigma> loopCandidates(const KeyFrames& frames, int frame);
 
 /// Looks for the place of a frame, and of those driven just before, at an earlier visit or anywhere
 /// in another part of the graph; bit by bit, while the graph grows, but no pose of it may move.
 class PlaceSearch {
  public:
   /// At an earlier visit, in the window that the covariance leaves.
-  static PlaceSearch atVisit(const KeyFrames& frames, int frame,
-                             const RelativeCovariance& candidate);
+  static PlaceSearch atVisit(const KeyFrames& frames, int frame, const RelativeSigma& candidate);
   /// Among all frames of another part of the graph: the robot has been carried away, or goes on
   /// with an earlier map. Returns have to face as the surfaces do. Cost: 20 ms for 1000 frames.
   /// @param part  PoseGraph::part() of these.

@@ -23,10 +23,11 @@ struct GraphEdge {
   EdgeKind kind = EdgeKind::kMatch;
 };
 
-/// Where a pose lies as seen from another one, along the surest way through the graph.
-struct RelativeCovariance {
+/// How well a pose is known as seen from another one, along the surest way through the graph.
+struct RelativeSigma {
   int node = 0;
-  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  ///< axes of the pose it is seen from
+  double position = 0.0;  ///< m, of one axis in the mean
+  double turn = 0.0;      ///< rad
 };
 
 /// The poses that agree best with what is known of them pair by pair [Konolige et al. 2010].
@@ -51,7 +52,7 @@ class PoseGraph {
   /// Nodes whose position is known to `most_sigma` [m] from `node`, nearest in that sense first
   /// (Dijkstra; an upper bound of the true covariance, which all ways together give).
   /// Cost: O(n log n) of the nodes found.
-  std::vector<RelativeCovariance> surroundings(int node, double most_sigma) const;
+  std::vector<RelativeSigma> surroundings(int node, double most_sigma) const;
 
   /// Least squares over all poses, at once; see Settlement.
   void settle(bool has_new_loops);

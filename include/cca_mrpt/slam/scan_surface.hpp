@@ -24,6 +24,13 @@ inline double bearingOf(const Eigen::Vector2d& p) {
   return p.y() < 0.0 ? -angle : angle;
 }
 
+/// Points and the directions of their surfaces, in single precision (two micrometres at 30 m), one
+/// array for each coordinate: for loops over all of them at once.
+struct PackedPoints {
+  std::vector<float> x, y;                ///< m
+  std::vector<float> normal_x, normal_y;  ///< unit; zero where no surface is known
+};
+
 /// What one scan saw, ready to be compared with others: its returns with the direction of the
 /// surface there, found again by their bearing. Everything is in the sensor's frame.
 struct ScanSurface {
@@ -33,8 +40,11 @@ struct ScanSurface {
     int beam = 0;
   };
   std::vector<Point> points;       ///< counter-clockwise
+  PackedPoints packed;             ///< the same; see pack()
   std::vector<int> point_of_beam;  ///< index into `points`; -1: no return
   std::vector<double> free_range;  ///< m, that each beam saw free; 0: it says nothing
+  std::vector<float> least_free;   ///< m, of each beam and its two neighbours
+  std::vector<float> most_free;    ///< m, of these
   double first_bearing = 0.0;      ///< rad, of beam 0
   double spacing = 0.0;            ///< rad, > 0; beams are counter-clockwise here
   double range_sigma = 0.0;        ///< m, of the returns (rangeNoise())
@@ -44,6 +54,8 @@ struct ScanSurface {
   /// The beam that looks at a point of the sensor's frame, to the nearest; -1 where
   /// none does.
   int beamTowards(const Eigen::Vector2d& p_sensor) const;
+  /// To be called when the points have changed.
+  void pack();
 };
 
 inline int ScanSurface::beamTowards(const Eigen::Vector2d& p_sensor) const {

@@ -44,6 +44,9 @@ struct MatchScale {
   int stride = 1;       ///< one in so many returns of the query is asked, and counts as so many
 };
 
+/// The stride of a match that will be followed by a finer one: some ninety returns are asked.
+int coarseStride(const ScanSurface& query);
+
 /// Each return of `query` finds, in each reference, the nearest return among the beams that look
 /// that way, which must face the same way: the distance is measured along that one's normal.
 /// Neighbouring returns err alike: a return is worth kIndependent of one of its own.

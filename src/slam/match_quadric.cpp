@@ -1,0 +1,213 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <Eigen/Geometry>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+
+#include "cca_mrpt/slam/surface_matching.hpp"
+#include "seen_points.hpp"
+
+namespace cca {
+namespace {
+
+/// Surfaces face the same way within 25 degrees.
+constexpr float kSameFacing = 0.9F;
+/// So many beams to either side are asked for a partner, at most.
+constexpr int kMostBeside = 8;
+
+/// What lies k beams beside a point is farther from it than k - .5 arcs, less what the sine of that
+/// angle is short of it: this share of its square remains up to a radian.
+constexpr float kOfArc = 0.7F;
+
+/// A return of the query in the frame of a reference.
+struct SeenReturn {
+  float x, y, normal_x, normal_y;
+  int beam;
+};
+
+/// Looks for partners among the returns of one reference.
+class PartnerSearch {
+ public:
+  PartnerSearch(const ScanSurface& reference, double reach)
+      : point_of_beam_(reference.point_of_beam.data()),
+        beams_(reference.beams()),
+        is_full_turn_(reference.is_full_turn),
+        points_(reference.packed),
+        reach_sq_(static_cast<float>(reach * reach)),
+        arc_sq_(kOfArc * static_cast<float>(reference.spacing * reference.spacing)) {}
+
+  /// The nearest return to `seen`, facing as it does; -1: none. Beams are asked from the one that
+  /// looks there outwards, until none can be nearer.
+  int partnerOf(const SeenReturn& seen) const {
+    Nearest nearest{-1, reach_sq_};
+    ask(seen, seen.beam, nearest);
+    const float arc_sq = arc_sq_ * (seen.x * seen.x + seen.y * seen.y);
+    for (int k = 1; k <= kMostBeside && k < beams_; ++k) {
+      const float before = static_cast<float>(k) - 0.5F;
+      if (before * before * arc_sq >= nearest.apart_sq) break;
+      ask(seen, seen.beam - k, nearest);
+      ask(seen, seen.beam + k, nearest);
+    }
+    return nearest.point;
+  }
+
+ private:
+  struct Nearest {
+    int point;
+    float apart_sq;
+  };
+  void ask(const SeenReturn& seen, int beam, Nearest& nearest) const {
+    if (beam < 0 || beam >= beams_) {
+      if (!is_full_turn_) return;
+      beam += beam < 0 ? beams_ : -beams_;
+    }
+    const int i = point_of_beam_[beam];
+    if (i < 0) return;
+    const auto at = static_cast<std::size_t>(i);
+    const float dx = points_.x[at] - seen.x, dy = points_.y[at] - seen.y;
+    const float apart_sq = dx * dx + dy * dy;
+    if (apart_sq >= nearest.apart_sq) return;
+    if (points_.normal_x[at] * seen.normal_x + points_.normal_y[at] * seen.normal_y < kSameFacing)
+      return;
+    nearest = {i, apart_sq};
+  }
+
+  const int* point_of_beam_;
+  int beams_;
+  bool is_full_turn_;
+  const PackedPoints& points_;
+  float reach_sq_, arc_sq_;
+};
+
+/// The returns that found a partner in one reference, in its frame: distance e along the partner's
+/// normal n, and how e changes as the query turns about its sensor.
+struct Pairs {
+  explicit Pairs(std::size_t count)
+      : of(count), e(count), normal_x(count), normal_y(count), turn(count) {}
+  void shorten(std::size_t count) {
+    of.resize(count);
+    for (std::vector<float>* column : {&e, &normal_x, &normal_y, &turn}) column->resize(count);
+  }
+  std::vector<std::int32_t> of;  ///< number of the return
+  std::vector<float> e, normal_x, normal_y, turn;
+};
+
+Pairs pairsWith(const ScanSurface& reference, const PackedPoints& query,
+                const Pose2& T_reference_query, double reach) {
+  const std::size_t count = query.x.size();
+  Pairs pairs(count);
+  const PackedMotion motion(T_reference_query);
+  const SeenPoints seen(query, motion, reference);
+  const PartnerSearch search(reference, reach);
+  const PackedPoints& points = reference.packed;
+  std::size_t found = 0;
+  for (std::size_t k = 0; k < count; ++k) {
+    const float nx = query.normal_x[k], ny = query.normal_y[k];
+    if (seen.beam[k] < 0 || (nx == 0.0F && ny == 0.0F)) continue;
+    const float x = seen.x[k], y = seen.y[k];
+    const int partner = search.partnerOf(
+        {x, y, motion.c * nx - motion.s * ny, motion.s * nx + motion.c * ny, seen.beam[k]});
+    if (partner < 0) continue;
+    const auto i = static_cast<std::size_t>(partner);
+    const float to_x = points.normal_x[i], to_y = points.normal_y[i];
+    pairs.of[found] = static_cast<std::int32_t>(k);
+    pairs.e[found] = to_x * (x - points.x[i]) + to_y * (y - points.y[i]);
+    pairs.normal_x[found] = to_x;
+    pairs.normal_y[found] = to_y;
+    pairs.turn[found] = to_y * (x - motion.x) - to_x * (y - motion.y);
+    ++found;
+  }
+  pairs.shorten(found);
+  return pairs;
+}
+
+/// Four distances at a time.
+using Four = Eigen::Array4f;
+Four fourOf(const std::vector<float>& column, std::size_t first) {
+  return Eigen::Map<const Four>(column.data() + first);
+}
+
+/// Adds the distances to one reference, each weighed by the kernel and by `shares`, to a quadric in
+/// the axes of the map; without the information that all returns share.
+void addPairs(Pairs& pairs, std::vector<float>& shares, double weight_of_sigma, double theta,
+              MatchQuadric& quadric) {
+  const std::size_t whole = (pairs.e.size() + 3) / 4 * 4;  // the last ones have no weight
+  for (std::vector<float>* column :
+       {&pairs.e, &pairs.normal_x, &pairs.normal_y, &pairs.turn, &shares})
+    column->resize(whole, 0.0F);
+  const float per_square = static_cast<float>(weight_of_sigma);
+  Four xx = Four::Zero(), xy = xx, xt = xx, yy = xx, yt = xx, tt = xx;
+  Four gx = xx, gy = xx, gt = xx, weights = xx, squares = xx;
+  for (std::size_t k = 0; k < whole; k += 4) {
+    const Four e = fourOf(pairs.e, k), nx = fourOf(pairs.normal_x, k);
+    const Four ny = fourOf(pairs.normal_y, k), turn = fourOf(pairs.turn, k);
+    const Four weight = fourOf(shares, k) / (1.0F + per_square * e * e);
+    const Four wx = weight * nx, wy = weight * ny, wt = weight * turn, we = weight * e;
+    xx += wx * nx;
+    xy += wx * ny;
+    xt += wx * turn;
+    yy += wy * ny;
+    yt += wy * turn;
+    tt += wt * turn;
+    gx += wx * e;
+    gy += wy * e;
+    gt += wt * e;
+    weights += weight;
+    squares += we * e;
+  }
+  Eigen::Matrix3d H;
+  H << xx.sum(), xy.sum(), xt.sum(), xy.sum(), yy.sum(), yt.sum(), xt.sum(), yt.sum(), tt.sum();
+  Eigen::Matrix3d to_map = Eigen::Matrix3d::Identity();
+  to_map.topLeftCorner<2, 2>() = Eigen::Rotation2Dd(theta).toRotationMatrix();
+  quadric.H += to_map * H * to_map.transpose();
+  quadric.g += to_map * Eigen::Vector3d(gx.sum(), gy.sum(), gt.sum());
+  quadric.sum_weights += weights.sum();
+  quadric.sum_sq += squares.sum();
+}
+
+PackedPoints everyOf(const PackedPoints& points, int stride) {
+  PackedPoints some;
+  for (std::size_t k = 0; k < points.x.size(); k += static_cast<std::size_t>(stride)) {
+    some.x.push_back(points.x[k]);
+    some.y.push_back(points.y[k]);
+    some.normal_x.push_back(points.normal_x[k]);
+    some.normal_y.push_back(points.normal_y[k]);
+  }
+  return some;
+}
+
+}  // namespace
+
+MatchQuadric matchQuadric(const ScanSurface& query, const Pose2& T_map_query,
+                          const std::vector<PlacedSurface>& references, const MatchScale& scale) {
+  PackedPoints some;
+  if (scale.stride > 1) some = everyOf(query.packed, scale.stride);
+  const PackedPoints& points = scale.stride > 1 ? some : query.packed;
+  std::vector<Pairs> pairs;
+  std::vector<int> partners(points.x.size(), 0);  // of each return
+  for (const PlacedSurface& placed : references) {
+    pairs.push_back(pairsWith(*placed.surface, points, placed.T_map_sensor.inverse() * T_map_query,
+                              scale.reach));
+    for (const std::int32_t k : pairs.back().of) ++partners[static_cast<std::size_t>(k)];
+  }
+  MatchQuadric quadric;
+  const double weight_of_sigma = 1.0 / (scale.sigma * scale.sigma);
+  std::vector<float> shares;
+  for (std::size_t r = 0; r < references.size(); ++r) {
+    // Each return counts once, however many references saw its place.
+    shares.clear();
+    for (const std::int32_t k : pairs[r].of)
+      shares.push_back(1.0F / static_cast<float>(partners[static_cast<std::size_t>(k)]));
+    addPairs(pairs[r], shares, weight_of_sigma, references[r].T_map_sensor.theta, quadric);
+  }
+  for (const int count : partners) quadric.paired += count > 0 ? scale.stride : 0;
+  const double information = kIndependent * weight_of_sigma * scale.stride;
+  quadric.H *= information;
+  quadric.g *= information;
+  quadric.sum_weights *= scale.stride;
+  quadric.sum_sq *= scale.stride;
+  return quadric;
+}
+
+}  // namespace cca
