@@ -25,7 +25,7 @@ else()
 endif()
 
 # The Eigen-only layers stand in an export of their own, so that using them needs no MRPT.
-set(eigen_layers cca_geometry cca_motion cca_sensing cca_localisation cca_mapping cca_slam cca_navigation cca_session)
+set(eigen_layers cca_geometry cca_motion cca_sensing cca_localisation cca_mapping cca_slam cca_known_map cca_navigation cca_session)
 if(TARGET cca_floor_plan)
   list(APPEND eigen_layers cca_floor_plan)
 endif()

@@ -44,6 +44,30 @@ void PoseSearch::seekRival(double distance, double turn, double least_score) {
   begin(least_score);
 }
 
+void PoseSearch::keepSeveral(std::size_t count, double distance, double turn) {
+  wanted_ = Several{count, distance, turn};
+}
+
+/// Takes a place among the best, for those near it that score less, and for the least of them where
+/// they are too many.
+void PoseSearch::keep(const Candidate& candidate) {
+  const SearchResult found{poseOf(candidate), candidate.bound};
+  const auto isNear = [&](const SearchResult& other) {
+    const Eigen::Vector3d off = difference(found.T_map_query, other.T_map_query);
+    return off.head<2>().norm() < wanted_->distance && std::abs(off.z()) < wanted_->turn;
+  };
+  const auto beside = std::find_if(several_.begin(), several_.end(), [&](const auto& other) {
+    return other.score >= found.score && isNear(other);
+  });
+  if (beside != several_.end()) return;
+  several_.erase(std::remove_if(several_.begin(), several_.end(), isNear), several_.end());
+  const auto at = std::find_if(several_.begin(), several_.end(),
+                               [&](const auto& other) { return other.score < found.score; });
+  several_.insert(at, found);
+  if (several_.size() > wanted_->count) several_.pop_back();
+  if (several_.size() == wanted_->count) best_bound_ = several_.back().score;
+}
+
 bool PoseSearch::advance(int cells) {
   looked_up_ = 0;
   while (looked_up_ < cells) {
@@ -58,6 +82,10 @@ bool PoseSearch::advance(int cells) {
     if (next.bound <= best_bound_) continue;
     if (next.level > 0) {
       expand(next);
+      continue;
+    }
+    if (wanted_) {
+      keep(next);
       continue;
     }
     best_bound_ = next.bound;

@@ -42,6 +42,26 @@ TEST_F(CorrelativeSearch, FindsAPoseFarFromTheCentreOfItsWindow) {
   EXPECT_GT(found->score, 0.8);
 }
 
+TEST_F(CorrelativeSearch, SeveralPlacesAreTheBestOneAndOthersWellApart) {
+  const LikelihoodPyramid pyramid(reference_, {0.0, 0.0}, 15.0, 4, 0.1);
+  SearchWindow window;
+  window.half_width = 2.0;
+  window.half_turn = M_PI;
+  PoseSearch search(query_, pyramid, window, 0.2);
+  search.keepSeveral(5, 0.5, 0.3);
+  search.run();
+  const std::vector<SearchResult>& several = search.several();
+  ASSERT_EQ(several.size(), 5U);
+  EXPECT_EQ(several.front().score, searchPose(query_, pyramid, window, 0.2)->score);
+  for (std::size_t i = 0; i < several.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      EXPECT_GE(several[j].score, several[i].score);
+      const Eigen::Vector3d off = difference(several[i].T_map_query, several[j].T_map_query);
+      EXPECT_TRUE(off.head<2>().norm() >= 0.5 || std::abs(off.z()) >= 0.3);
+    }
+  }
+}
+
 TEST_F(CorrelativeSearch, BranchAndBoundFindsWhatTryingAllPosesFinds) {
   SearchWindow window;
   window.half_width = 0.4;

@@ -49,6 +49,12 @@ class PoseSearch {
   /// of what was found: ends with the first.
   void seekRival(double distance, double turn, double least_score);
 
+  /// Lets the search find the best places, each at least so far [m, or rad] from the others, not
+  /// the best one alone. To be called before advance().
+  void keepSeveral(std::size_t count, double distance, double turn);
+  /// At the end; the best one first.
+  const std::vector<SearchResult>& several() const { return several_; }
+
  private:
   struct Candidate {
     double bound;
@@ -67,6 +73,10 @@ class PoseSearch {
     Pose2 T_map_query;
     double distance, turn;
   };
+  struct Several {
+    std::size_t count;
+    double distance, turn;
+  };
   int turns() const { return 2 * half_turns_ + 1; }
   void begin(double least_score);
   TurnedQuery turnedQuery(int turn) const;
@@ -79,6 +89,7 @@ class PoseSearch {
   int missedBy(const Candidate& candidate, int most);
   double penaltyOf(const Candidate& candidate) const;
   bool isExcluded(const Candidate& candidate) const;
+  void keep(const Candidate& candidate);
 
   std::vector<SurfacePoint> query_;
   std::vector<double> facings_;  // rad, of the query's points
@@ -89,6 +100,8 @@ class PoseSearch {
   int next_turn_ = 0;                 // to be opened
   std::vector<Candidate> open_;       // the most promising part last
   std::optional<Excluded> excluded_;  // where a rival is sought
+  std::optional<Several> wanted_;     // where several are to be found
+  std::vector<SearchResult> several_;
   double best_bound_ = 0.0;
   std::optional<SearchResult> found_;
   int looked_up_ = 0;  // cells, since advance() began

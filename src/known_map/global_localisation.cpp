@@ -1,0 +1,278 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "cca_mrpt/known_map/global_localisation.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <utility>
+
+namespace cca {
+namespace {
+
+constexpr double kViewDistance = 0.5;  // m
+constexpr double kViewTurn = 0.6;      // rad
+constexpr std::size_t kMostViews = 12;
+/// Cells of what views have seen: wheels err by less over six metres.
+constexpr double kSeenCell = 0.4;  // m
+
+// Of the search.
+constexpr double kPlanCell = 0.2, kPlanStep = 0.1;  // m, of the pyramid; of the points along lines
+constexpr int kPlanLevels = 6;
+constexpr double kQueryReach = 12.0, kQuerySpacing = 0.3;  // m
+constexpr double kLeastFit = 0.2;  // mean likelihood: four fifths of the returns are furniture
+constexpr std::size_t kMostCandidates = 300;
+constexpr double kCandidateDistance = 0.5, kCandidateTurn = 0.26;  // m, rad
+
+/// Beams that are kRaySpacing apart err together where they meet one thing: a wardrobe, a wall
+/// that is not where the plan has it. So much of one of its own is each worth.
+constexpr double kOwnWord = 0.35;
+constexpr double kCoarse = 0.6;  // m, reach of the match of a candidate
+constexpr double kCandidateSigma = 0.3, kCandidateTurnSigma = 0.1;  // m, rad
+constexpr double kHopeless = -3.0;                                  // nats, of one view
+constexpr double kBehindBest = 25.0;                                // nats
+constexpr std::size_t kMostHypotheses = 150;
+/// Nearer ones are the same place.
+constexpr double kSamePlace = 0.3, kSameTurn = 0.15;  // m, rad
+/// Of a pose that is believed.
+constexpr double kLeastAgreement = 0.8, kLeastExplained = 0.15;
+/// m, of the distances of returns from a plan that is drawn with care.
+constexpr double kPlanNoise = 0.025;
+
+LikelihoodPyramid pyramidOf(const PlanLines& plan) {
+  std::vector<SurfacePoint> points;
+  for (const PlanLines::Piece& piece : plan.pieces()) {
+    const int steps = 1 + static_cast<int>(piece.length / kPlanStep);
+    for (int k = 0; k <= steps; ++k) {
+      const Eigen::Vector2d p = piece.start + piece.direction * (piece.length * k / steps);
+      points.push_back({p, piece.normal()});
+      points.push_back({p, -piece.normal()});
+    }
+  }
+  const Eigen::Vector2d centre = plan.empty() ? Eigen::Vector2d(0, 0) : plan.bounds().center();
+  const double reach = plan.empty() ? 0.0 : plan.bounds().sizes().maxCoeff();
+  return {points, centre, reach, kPlanLevels, kPlanCell, LikelihoodPyramid::Facing::kAlike};
+}
+
+/// What a search looks for: returns on surfaces, sensor frame.
+std::vector<SurfacePoint> queryOf(const ScanSurface& surface) {
+  std::vector<SurfacePoint> query;
+  for (const ScanSurface::Point& p : surface.points) {
+    if (p.normal.isZero() || p.position.norm() > kQueryReach) continue;
+    query.push_back({p.position, p.normal});
+  }
+  return thinned(query, kQuerySpacing);
+}
+
+PoseBelief beliefOf(const Pose2& mean, double sigma, double turn_sigma) {
+  PoseBelief belief;
+  belief.mean = mean;
+  const double shift = 1.0 / (sigma * sigma);
+  belief.information.diagonal() << shift, shift, 1.0 / (turn_sigma * turn_sigma);
+  return belief;
+}
+
+/// After a way by wheels that nobody knows.
+PoseBelief beliefAfter(const Pose2& T_map_sensor, const Pose2& step) {
+  const double way = step.position().norm(), turn = std::abs(step.theta);
+  return beliefOf(T_map_sensor * step, 0.04 + 0.1 * way, 0.03 + 0.05 * way + 0.07 * turn);
+}
+
+bool isSamePlace(const Pose2& a, const Pose2& b) {
+  const Eigen::Vector3d off = difference(a, b);
+  return off.head<2>().norm() < kSamePlace && std::abs(off.z()) < kSameTurn;
+}
+
+std::int64_t seenCell(const Eigen::Vector2d& p) {
+  const auto x = static_cast<std::int64_t>(std::floor(p.x() / kSeenCell));
+  const auto y = static_cast<std::int64_t>(std::floor(p.y() / kSeenCell));
+  return x * (std::int64_t{1} << 32) + y;
+}
+
+}  // namespace
+
+double Hypothesis::total() const { return std::accumulate(evidence.begin(), evidence.end(), 0.0); }
+
+GlobalLocalisation::GlobalLocalisation(const PlanLines& plan)
+    : plan_(plan), pyramid_(pyramidOf(plan)) {}
+
+void GlobalLocalisation::begin(const std::optional<SearchWindow>& window) {
+  window_ = window;
+  views_.clear();
+  seen_.clear();
+  search_.reset();
+  searched_ = false;
+  candidates_.clear();
+  hypotheses_.clear();
+}
+
+std::optional<GlobalLocalisation::Found> GlobalLocalisation::add(const ScanSurface& surface,
+                                                                 const Pose2& T_wheels_sensor,
+                                                                 const SightModel& model,
+                                                                 const LocalisationEffort& effort) {
+  if (plan_.empty() || surface.points.empty()) return std::nullopt;
+  matches_ = 0;
+  if (isNewView(T_wheels_sensor)) {
+    addView(surface, T_wheels_sensor);
+    for (Hypothesis& h : hypotheses_) judgeAfter(views_.size() - 2, views_.size() - 1, model, h);
+    sortOut();
+  }
+  work(model, effort);
+  return isSettled() || searched_ ? decided(T_wheels_sensor) : std::nullopt;
+}
+
+bool GlobalLocalisation::isNewView(const Pose2& T_wheels_sensor) const {
+  if (views_.empty()) return true;
+  const Pose2 step = views_.back().T_wheels_sensor.inverse() * T_wheels_sensor;
+  return step.position().norm() >= kViewDistance || std::abs(step.theta) >= kViewTurn;
+}
+
+void GlobalLocalisation::addView(const ScanSurface& surface, const Pose2& T_wheels_sensor) {
+  if (views_.size() == kMostViews) dropFirstView();
+  View view{surface, {}, T_wheels_sensor};
+  std::vector<std::int64_t> cells;
+  for (const SightRay& ray : sightRays(surface)) {
+    const std::int64_t cell = seenCell(T_wheels_sensor * ray.end);
+    if (seen_.count(cell) > 0) continue;
+    cells.push_back(cell);
+    view.rays.push_back(ray);
+  }
+  seen_.insert(cells.begin(), cells.end());
+  views_.push_back(std::move(view));
+}
+
+/// What it has seen stays seen: else a robot that turns on the spot would count it again and again.
+void GlobalLocalisation::dropFirstView() {
+  views_.pop_front();
+  for (Hypothesis& h : hypotheses_) {
+    if (h.evidence.size() < 2) continue;
+    h.evidence[1] += h.evidence[0];
+    h.evidence.erase(h.evidence.begin());
+  }
+  if (searching_ > 0) {
+    --searching_;
+  } else {
+    search_.reset();
+    candidates_.clear();
+  }
+}
+
+void GlobalLocalisation::work(const SightModel& model, const LocalisationEffort& effort) {
+  int cells = effort.cells;
+  if (!search_ && candidates_.empty() && (!searched_ || searching_ + 1 < views_.size())) {
+    beginSearch();
+  }
+  if (search_) {
+    if (!search_->advance(cells)) return;
+    for (const SearchResult& found : search_->several()) candidates_.push_back(found.T_map_query);
+    std::reverse(candidates_.begin(), candidates_.end());
+    search_.reset();
+    searched_ = searched_ || candidates_.empty();
+  }
+  while (!candidates_.empty() && matches_ < effort.matches) {
+    const Pose2 next = candidates_.back();
+    candidates_.pop_back();
+    takeCandidate(next, model);
+    searched_ = searched_ || candidates_.empty();
+  }
+  sortOut();
+}
+
+std::optional<Pose2> GlobalLocalisation::bestIn(const SearchWindow& window,
+                                                const ScanSurface& surface) const {
+  const auto found = searchPose(queryOf(surface), pyramid_, window, kLeastFit);
+  if (!found) return std::nullopt;
+  return found->T_map_query;
+}
+
+void GlobalLocalisation::beginSearch() {
+  searching_ = views_.size() - 1;
+  SearchWindow window;
+  const Eigen::Vector2d centre = plan_.bounds().center();
+  window.centre = {centre.x(), centre.y(), 0.0};
+  window.half_width = 0.5 * plan_.bounds().sizes().maxCoeff();
+  window.half_turn = M_PI;
+  if (window_) {
+    window = *window_;
+    window.centre =
+        window.centre * (views_.front().T_wheels_sensor.inverse() * views_.back().T_wheels_sensor);
+  }
+  search_.emplace(queryOf(views_.back().surface), pyramid_, window, kLeastFit);
+  search_->keepSeveral(kMostCandidates, kCandidateDistance, kCandidateTurn);
+}
+
+/// Matches a hypothesis to a view, and adds what that says of it.
+void GlobalLocalisation::judge(const View& view, const Pose2& start, const PoseBelief& prior,
+                               double reach, const SightModel& model, Hypothesis& hypothesis) {
+  PlanMatching how;
+  how.first_reach = reach;
+  const PlanMatch match = matchPlan(view.surface, start, prior, plan_, how);
+  ++matches_;
+  hypothesis.T_map_sensor = match.T_map_sensor;
+  hypothesis.information = match.information;
+  const double tolerance = sightTolerance(view.surface.range_sigma);
+  const SightShares seen = seePlan(view.rays, match.T_map_sensor, plan_, tolerance);
+  const double sigma = std::hypot(kPlanNoise, view.surface.range_sigma);
+  hypothesis.evidence.push_back(kOwnWord * seen.count() * model.evidence(seen, sigma, tolerance));
+  hypothesis.seen += seen;
+}
+
+/// Takes it along from one view to a later one.
+void GlobalLocalisation::judgeAfter(std::size_t from, std::size_t to, const SightModel& model,
+                                    Hypothesis& hypothesis) {
+  for (std::size_t k = from; k < to; ++k) {
+    const Pose2 step = views_[k].T_wheels_sensor.inverse() * views_[k + 1].T_wheels_sensor;
+    const PoseBelief prior = beliefAfter(hypothesis.T_map_sensor, step);
+    judge(views_[k + 1], prior.mean, prior, kCoarse, model, hypothesis);
+  }
+}
+
+void GlobalLocalisation::takeCandidate(const Pose2& T_map_sensor, const SightModel& model) {
+  Hypothesis there;
+  judge(views_[searching_], T_map_sensor,
+        beliefOf(T_map_sensor, kCandidateSigma, kCandidateTurnSigma), kCoarse, model, there);
+  if (there.total() < kHopeless) return;
+  Hypothesis earlier = there;
+  earlier.evidence.clear();
+  for (std::size_t k = searching_; k > 0; --k) {
+    const Pose2 step = views_[k].T_wheels_sensor.inverse() * views_[k - 1].T_wheels_sensor;
+    const PoseBelief prior = beliefAfter(earlier.T_map_sensor, step);
+    judge(views_[k - 1], prior.mean, prior, kCoarse, model, earlier);
+  }
+  std::reverse(earlier.evidence.begin(), earlier.evidence.end());
+  there.seen = earlier.seen;
+  there.evidence.insert(there.evidence.begin(), earlier.evidence.begin(), earlier.evidence.end());
+  judgeAfter(searching_, views_.size() - 1, model, there);
+  hypotheses_.push_back(std::move(there));
+}
+
+/// The most likely first; those in one place are one; what is hopeless goes.
+void GlobalLocalisation::sortOut() {
+  std::stable_sort(hypotheses_.begin(), hypotheses_.end(),
+                   [](const auto& a, const auto& b) { return a.total() > b.total(); });
+  std::vector<Hypothesis> kept;
+  for (Hypothesis& h : hypotheses_) {
+    if (kept.size() == kMostHypotheses) break;
+    if (!kept.empty() && h.total() < kept.front().total() - kBehindBest) break;
+    const bool is_known = std::any_of(kept.begin(), kept.end(), [&](const Hypothesis& other) {
+      return isSamePlace(h.T_map_sensor, other.T_map_sensor);
+    });
+    if (!is_known) kept.push_back(std::move(h));
+  }
+  hypotheses_ = std::move(kept);
+}
+
+std::optional<GlobalLocalisation::Found> GlobalLocalisation::decided(
+    const Pose2& T_wheels_sensor) const {
+  if (hypotheses_.empty()) return std::nullopt;
+  const Hypothesis& best = hypotheses_.front();
+  const double rival = hypotheses_.size() > 1 ? std::max(0.0, hypotheses_[1].total()) : 0.0;
+  if (best.total() < rival + kClear) return std::nullopt;
+  if (best.seen.agreement() < kLeastAgreement ||
+      best.seen.explained < kLeastExplained * best.seen.count()) {
+    return std::nullopt;
+  }
+  const Pose2 since = views_.back().T_wheels_sensor.inverse() * T_wheels_sensor;
+  return Found{best.T_map_sensor * since, best.information};
+}
+
+}  // namespace cca

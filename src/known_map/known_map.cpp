@@ -1,0 +1,269 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "cca_mrpt/known_map/known_map.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+
+namespace cca {
+namespace {
+
+/// A scan from the same place tells of the same walls with the same errors of the plan: its news
+/// grow with the way, up to so much (m), a turn of so much (rad).
+constexpr double kNewsDistance = 0.25, kNewsTurn = 0.35;
+constexpr double kLeastNews = 0.02;  // its noise is new
+
+/// A scan errs as a whole by a part of what the wheels err by while it is swept: its ends are bent
+/// apart, of which the mean is nought; and by this at least (m, rad).
+constexpr double kOfSweepError = 0.15, kScanSigma = 0.003, kScanTurnSigma = 0.001;
+
+constexpr double kReachSigmas = 3.0, kArmOfReach = 3.0;  // m
+constexpr double kLeastMatchReach = 0.15;                // m
+
+constexpr double kDoubt = 0.1;        // nats a beam, below which a scan is in doubt
+constexpr double kFewestRays = 8;     // that may put it there
+constexpr double kBetterThere = 0.3;  // nats a beam, for a place found by a search
+constexpr int kLostScansInDoubt = 3, kLostStandingInDoubt = 15;
+constexpr double kLostWayInDoubt = 0.5;                      // m
+constexpr double kVagueSigma = 1.0, kVagueTurnSigma = 0.35;  // m, rad: who knows no more is lost
+
+constexpr double kSearchHalfWidth = 1.0, kSearchHalfTurn = 0.8;  // m, rad: of a robot that slips
+constexpr double kMostToldWidth = 3.0;                           // m
+
+constexpr double kFirstPlanSigma = 0.02, kLeastPlanSigma = 0.007, kMostPlanSigma = 0.1;  // m
+constexpr double kLearnPlan = 0.03, kLearnSights = 0.05;  // of a scan that is all news
+/// Rays through a piece, for it to be a door that stands open, and over those that it explains.
+constexpr double kRaysThroughDoor = 6.0, kThroughOverExplained = 3.0, kRecordLimit = 50.0;
+
+Eigen::Matrix3d inMapAxes(const Eigen::Matrix3d& covariance, double theta) {
+  Eigen::Matrix3d R = Eigen::Matrix3d::Identity();
+  R.topLeftCorner<2, 2>() << std::cos(theta), -std::sin(theta), std::sin(theta), std::cos(theta);
+  return R * covariance * R.transpose();
+}
+
+/// That of a point which lies `arm` beside the one that the covariance is of.
+Eigen::Matrix3d atArm(const Eigen::Matrix3d& covariance, const Eigen::Vector2d& arm) {
+  Eigen::Matrix3d J = Eigen::Matrix3d::Identity();
+  J(0, 2) = -arm.y();
+  J(1, 2) = arm.x();
+  return J * covariance * J.transpose();
+}
+
+struct Spread {
+  double position, turn;  // m, rad
+};
+
+Spread spreadOf(const Eigen::Matrix3d& covariance) {
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> axes(covariance.topLeftCorner<2, 2>());
+  return {std::sqrt(std::max(0.0, axes.eigenvalues().maxCoeff())), std::sqrt(covariance(2, 2))};
+}
+
+double newsOf(const Pose2& step) {
+  return std::clamp(step.position().norm() / kNewsDistance + std::abs(step.theta) / kNewsTurn,
+                    kLeastNews, 1.0);
+}
+
+}  // namespace
+
+KnownMap::KnownMap(const std::vector<PlanLine>& plan, const LocalisationEffort& effort)
+    : plan_(plan),
+      effort_(effort),
+      global_(plan_),
+      plan_sigma_(kFirstPlanSigma),
+      records_(plan_.pieces().size()),
+      is_open_(plan_.pieces().size(), false) {}
+
+void KnownMap::place(const Pose2& T_map_robot, const Eigen::Matrix3d& covariance) {
+  told_ = Told{T_map_robot, covariance};
+}
+
+Estimate KnownMap::update(const Measurement& measurement, const PastScans& /*past*/) {
+  const ScanSurface surface = scanSurface(measurement.scan);
+  std::optional<Pose2> odom_sensor, wheel_step;
+  if (measurement.T_odom_robot && isFinite(*measurement.T_odom_robot)) {
+    odom_sensor = *measurement.T_odom_robot * measurement.T_robot_sensor;
+  }
+  if (odom_sensor && last_odom_sensor_) wheel_step = last_odom_sensor_->inverse() * *odom_sensor;
+  last_odom_sensor_ = odom_sensor;
+  const MotionBelief motion = motion_.predict(wheel_step);
+  scan_covariance_ = kOfSweepError * inMapAxes(motion.covariance, T_map_sensor_.theta);
+  scan_covariance_.diagonal() +=
+      Eigen::Vector3d(kScanSigma, kScanSigma, kScanTurnSigma).cwiseAbs2();
+  if (told_) {
+    takePlace(surface, measurement.T_robot_sensor);
+  } else if (is_localised_) {
+    track(surface, wheel_step, motion);
+  } else {
+    search(surface, motion);
+  }
+  return estimate(measurement.T_robot_sensor);
+}
+
+KnownMap::Fit KnownMap::fitAt(const ScanSurface& surface, const Pose2& start,
+                              const PoseBelief& prior, double reach, double share) const {
+  PlanMatching how;
+  how.first_reach = reach;
+  how.plan_sigma = plan_sigma_;
+  how.share = share;
+  how.scan_covariance = scan_covariance_;
+  Fit fit;
+  fit.match = matchPlan(surface, start, prior, plan_, how);
+  fit.seen = seePlan(sightRays(surface), fit.match.T_map_sensor, plan_,
+                     sightTolerance(surface.range_sigma), is_open_,
+                     [](const SightRay&, Sight, PlanLines::Slot) {});
+  fit.evidence = sights_.evidence(fit.seen);
+  return fit;
+}
+
+/// Downhill from the wheels' word; where that does not fit, from what fits best around.
+KnownMap::Fit KnownMap::fitAbout(const ScanSurface& surface, const PoseBelief& prior,
+                                 double share) const {
+  const Spread spread = spreadOf(prior.information.inverse());
+  const double reach = std::clamp(kReachSigmas * (spread.position + kArmOfReach * spread.turn),
+                                  kLeastMatchReach, PlanLines::kMostReach);
+  const Fit here = fitAt(surface, prior.mean, prior, reach, share);
+  if (here.evidence >= kDoubt || here.seen.count() < kFewestRays) return here;
+  SearchWindow window;
+  window.centre = prior.mean;
+  window.half_width = kSearchHalfWidth;
+  window.half_turn = kSearchHalfTurn;
+  const auto elsewhere = global_.bestIn(window, surface);
+  if (!elsewhere) return here;
+  PoseBelief vague = prior;
+  vague.information *= 0.01;
+  const Fit there = fitAt(surface, *elsewhere, vague, PlanLines::kMostReach, 1.0);
+  return there.evidence > std::max(kDoubt, here.evidence) + kBetterThere ? there : here;
+}
+
+void KnownMap::track(const ScanSurface& surface, const std::optional<Pose2>& wheel_step,
+                     const MotionBelief& motion) {
+  const Pose2 before = T_map_sensor_;
+  PoseBelief prior;
+  prior.mean = before * motion.T_before_after;
+  const Eigen::Matrix3d predicted = atArm(covariance_, prior.mean.position() - before.position()) +
+                                    inMapAxes(motion.covariance, before.theta);
+  prior.information = predicted.inverse();
+  const double share = is_fresh_ ? 1.0 : newsOf(motion.T_before_after);
+  const Fit fit = fitAbout(surface, prior, share);
+  const bool is_doubtful = fit.evidence < kDoubt && fit.seen.count() >= kFewestRays;
+  const bool is_matched = fit.match.paired > 0.0 && !is_doubtful;
+  T_map_sensor_ = is_matched ? fit.match.T_map_sensor : prior.mean;
+  covariance_ = is_matched ? fit.match.posterior.inverse().eval() : predicted;
+  seen_ = fit.seen;
+  residual_ = fit.match.sigma;
+  if (is_matched) {
+    motion_.learn(wheel_step, motion, before.inverse() * T_map_sensor_,
+                  inMapAxes(covariance_, -before.theta));
+    learn(surface, fit, share);
+    is_fresh_ = false;
+  }
+  countDoubt(is_doubtful, motion.T_before_after);
+}
+
+void KnownMap::learn(const ScanSurface& surface, const Fit& fit, double share) {
+  sights_.learn(fit.seen, share * kLearnSights);
+  if (fit.match.piece_variance >= 0.0) {
+    const double variance = plan_sigma_ * plan_sigma_;
+    const double learned = variance + share * kLearnPlan * (fit.match.piece_variance - variance);
+    plan_sigma_ = std::clamp(std::sqrt(std::max(0.0, learned)), kLeastPlanSigma, kMostPlanSigma);
+  }
+  seePlan(sightRays(surface), T_map_sensor_, plan_, sightTolerance(surface.range_sigma), {},
+          [&](const SightRay&, Sight sight, PlanLines::Slot slot) {
+            if (slot < 0) return;
+            PieceRecord& record = records_[static_cast<std::size_t>(slot)];
+            double& count = sight == Sight::kThrough ? record.through : record.explained;
+            count += share;
+            if (count > kRecordLimit) {
+              record.through *= 0.5;
+              record.explained *= 0.5;
+            }
+            is_open_[static_cast<std::size_t>(slot)] =
+                record.through > kRaysThroughDoor &&
+                record.through > kThroughOverExplained * record.explained;
+          });
+}
+
+void KnownMap::countDoubt(bool is_doubtful, const Pose2& step) {
+  const Spread spread = spreadOf(covariance_);
+  if (!is_doubtful) {
+    doubtful_scans_ = 0;
+    doubtful_way_ = 0.0;
+  } else {
+    ++doubtful_scans_;
+    doubtful_way_ += step.position().norm() + kNewsDistance / kNewsTurn * std::abs(step.theta);
+  }
+  const bool is_lost = (doubtful_scans_ >= kLostScansInDoubt && doubtful_way_ >= kLostWayInDoubt) ||
+                       doubtful_scans_ >= kLostStandingInDoubt || spread.position > kVagueSigma ||
+                       spread.turn > kVagueTurnSigma;
+  if (is_lost) lose();
+}
+
+void KnownMap::lose() {
+  is_localised_ = false;
+  ++times_lost_;
+  T_wheels_sensor_ = {};
+  global_.begin();
+}
+
+void KnownMap::search(const ScanSurface& surface, const MotionBelief& motion) {
+  T_wheels_sensor_ = T_wheels_sensor_ * motion.T_before_after;
+  T_map_sensor_ = T_map_sensor_ * motion.T_before_after;
+  const auto found = global_.add(surface, T_wheels_sensor_, sights_, effort_);
+  if (!found) return;
+  PoseBelief vague;
+  vague.mean = found->T_map_sensor;
+  vague.information.diagonal() << 25.0, 25.0, 400.0;  // .2 m, 3 degrees since the last view
+  const Fit fit = fitAbout(surface, vague, 1.0);
+  if (fit.evidence < kDoubt) return;
+  T_map_sensor_ = fit.match.T_map_sensor;
+  covariance_ = fit.match.posterior.inverse();
+  seen_ = fit.seen;
+  residual_ = fit.match.sigma;
+  is_localised_ = true;
+  is_fresh_ = false;
+  doubtful_scans_ = 0;
+  doubtful_way_ = 0.0;
+}
+
+void KnownMap::takePlace(const ScanSurface& surface, const Pose2& T_robot_sensor) {
+  PoseBelief prior;
+  prior.mean = told_->T_map_robot * T_robot_sensor;
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
+  covariance.diagonal() = told_->covariance.diagonal().cwiseMax(1e-6);
+  prior.information = covariance.inverse();
+  told_.reset();
+  const Spread spread = spreadOf(covariance);
+  SearchWindow window;
+  window.centre = prior.mean;
+  window.half_width = std::min(kReachSigmas * spread.position, kMostToldWidth);
+  window.half_turn = std::min(kReachSigmas * spread.turn, M_PI);
+  Fit fit = fitAt(surface, prior.mean, prior, PlanLines::kMostReach, 1.0);
+  if (const auto elsewhere = global_.bestIn(window, surface)) {
+    const Fit there = fitAt(surface, *elsewhere, prior, PlanLines::kMostReach, 1.0);
+    if (there.evidence > fit.evidence) fit = there;
+  }
+  T_map_sensor_ = fit.match.paired > 0.0 ? fit.match.T_map_sensor : prior.mean;
+  covariance_ = fit.match.paired > 0.0 ? fit.match.posterior.inverse().eval() : covariance;
+  seen_ = fit.seen;
+  residual_ = fit.match.sigma;
+  is_localised_ = true;
+  is_fresh_ = false;
+  doubtful_scans_ = 0;
+  doubtful_way_ = 0.0;
+}
+
+Estimate KnownMap::estimate(const Pose2& T_robot_sensor) const {
+  Estimate estimate;
+  estimate.T_map_sensor = T_map_sensor_;
+  estimate.T_map_robot = T_map_sensor_ * T_robot_sensor.inverse();
+  estimate.is_known = is_localised_;
+  estimate.agreement = is_localised_ ? seen_.agreement() : 0.0;
+  if (is_localised_) {
+    estimate.covariance =
+        atArm(covariance_, estimate.T_map_robot.position() - T_map_sensor_.position());
+  }
+  return estimate;
+}
+
+}  // namespace cca

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "cca_mrpt/known_map/plan_sight.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "cca_mrpt/slam/likelihood_pyramid.hpp"
+
+namespace cca {
+namespace {
+
+constexpr double kFarthestRay = 15.0;  // m; further out a degree of heading is a quarter of a metre
+constexpr double kSilentSpacing = 0.07;  // rad, four degrees
+constexpr double kShortOfFree = 0.3;     // m, that a silent beam is taken to have seen less
+
+/// What the beams of a scan are at a pose that somebody guesses, in a building.
+constexpr double kExplainedByChance = 0.25, kHiddenByChance = 0.45, kThroughByChance = 0.30;
+/// What never came so far may come yet.
+constexpr double kLeastShare = 0.02;
+
+}  // namespace
+
+double SightShares::agreement() const {
+  const double told = explained + through;
+  return told > 0.0 ? explained / told : 1.0;
+}
+
+SightShares& SightShares::operator+=(const SightShares& other) {
+  explained += other.explained;
+  hidden += other.hidden;
+  through += other.through;
+  distance_sq += other.distance_sq;
+  return *this;
+}
+
+double sightTolerance(double range_sigma) { return std::clamp(4.0 * range_sigma, 0.1, 0.25); }
+
+std::vector<SightRay> sightRays(const ScanSurface& surface) {
+  std::vector<SurfacePoint> points;
+  for (const ScanSurface::Point& point : surface.points) {
+    if (point.position.norm() < kFarthestRay) points.push_back({point.position, point.normal});
+  }
+  std::vector<SightRay> rays;
+  for (const SurfacePoint& p : thinned(points, kRaySpacing)) {
+    rays.push_back({p.position, p.normal, true});
+  }
+  double last = -HUGE_VAL;
+  for (int beam = 0; beam < surface.beams(); ++beam) {
+    const auto k = static_cast<std::size_t>(beam);
+    const double bearing = surface.first_bearing + beam * surface.spacing;
+    const double free = std::min(surface.free_range[k], kFarthestRay) - kShortOfFree;
+    if (surface.point_of_beam[k] >= 0 || free <= 0.0 || bearing - last < kSilentSpacing) continue;
+    last = bearing;
+    rays.push_back({free * Eigen::Vector2d(std::cos(bearing), std::sin(bearing)),
+                    Eigen::Vector2d::Zero(), false});
+  }
+  return rays;
+}
+
+SightShares seePlan(const std::vector<SightRay>& rays, const Pose2& T_map_sensor,
+                    const PlanLines& plan, double tolerance) {
+  return seePlan(rays, T_map_sensor, plan, tolerance, {},
+                 [](const SightRay&, Sight, PlanLines::Slot) {});
+}
+
+double SightModel::evidence(const SightShares& seen) const {
+  const double count = seen.count();
+  if (count <= 0.0) return 0.0;
+  const double sum = seen.explained * std::log(usual_.explained / kExplainedByChance) +
+                     seen.hidden * std::log(usual_.hidden / kHiddenByChance) +
+                     seen.through * std::log(usual_.through / kThroughByChance);
+  return sum / count;
+}
+
+double SightModel::evidence(const SightShares& seen, double sigma, double tolerance) const {
+  const double count = seen.count();
+  if (count <= 0.0) return 0.0;
+  // Half a normal distribution over an even one, up to the tolerance.
+  const double exact = seen.explained * std::log(std::sqrt(2.0 / M_PI) * tolerance / sigma) -
+                       0.5 * seen.distance_sq / (sigma * sigma);
+  return evidence(seen) + exact / count;
+}
+
+void SightModel::learn(const SightShares& seen, double share) {
+  const double count = seen.count();
+  if (count <= 0.0) return;
+  const auto follow = [&](double& usual, double now) {
+    usual = std::max(kLeastShare, usual + share * (now / count - usual));
+  };
+  follow(usual_.explained, seen.explained);
+  follow(usual_.hidden, seen.hidden);
+  follow(usual_.through, seen.through);
+}
+
+}  // namespace cca

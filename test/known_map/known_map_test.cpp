@@ -1,0 +1,185 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "cca_mrpt/known_map/known_map.hpp"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cstdio>
+
+#include "walled_plan.hpp"
+
+namespace cca {
+namespace {
+
+using test::PlannedWorld;
+
+/// As ringWithNiches(), its walls known.
+PlannedWorld ring() {
+  PlannedWorld world;
+  world.addBox(0.0, 0.0, 20.0, 16.0);
+  world.addBox(2.0, 2.0, 18.0, 14.0);
+  world.addBox(4.0, 0.0, 4.6, 0.5);
+  world.addBox(11.0, 1.6, 11.8, 2.0);
+  world.addBox(19.4, 5.0, 20.0, 6.1);
+  world.addBox(18.0, 10.2, 18.3, 11.0);
+  world.addBox(13.5, 15.5, 14.6, 16.0);
+  world.addBox(6.0, 14.0, 6.5, 14.4);
+  world.addBox(0.0, 9.0, 0.4, 10.3);
+  world.addBox(1.7, 5.0, 2.0, 5.7);
+  return world;
+}
+
+struct Followed {
+  std::vector<Estimate> estimates;
+  std::vector<Pose2> truth;
+  double worst(std::size_t from = 0) const {
+    double worst = 0.0;
+    for (std::size_t k = from; k < truth.size(); ++k) {
+      worst = std::max(worst, (estimates[k].T_map_robot.position() - truth[k].position()).norm());
+    }
+    return worst;
+  }
+};
+
+Followed drive(KnownMap& localiser, test::WalledWorld& world, const std::vector<Pose2>& way) {
+  Followed run;
+  const std::vector<Pose2> wheels = test::wheelsOf(way, world);
+  const PastScans none;
+  for (std::size_t k = 0; k < way.size(); ++k) {
+    run.estimates.push_back(localiser.update(test::measurementAt(world, way[k], wheels[k]), none));
+    run.truth.push_back(way[k]);
+  }
+  return run;
+}
+
+const Eigen::Matrix3d kAbout = Eigen::Vector3d(0.04, 0.04, 0.01).asDiagonal();
+
+TEST(KnownMap, FollowsADriveAlthoughTheWheelsErrAndThePlanShowsNoFurniture) {
+  PlannedWorld place = ring();
+  place.world.addBox(7.0, 0.0, 8.0, 0.4);
+  place.world.addBox(18.0, 7.0, 18.5, 8.0);
+  place.world.addBox(9.0, 15.5, 10.5, 16.0);
+  const std::vector<Pose2> way = test::driveAroundRing(0.1);
+  KnownMap localiser(place.plan);
+  localiser.place({way[0].x + 0.2, way[0].y - 0.1, way[0].theta + 0.1}, kAbout);
+  const Followed run = drive(localiser, place.world, way);
+  EXPECT_TRUE(std::all_of(run.estimates.begin(), run.estimates.end(),
+                          [](const Estimate& e) { return e.is_known; }));
+  EXPECT_EQ(localiser.timesLost(), 0);
+  EXPECT_LT(run.worst(), 0.1);
+}
+
+TEST(KnownMap, ItsCovarianceIsThatOfItsErrorsInAPlanWhoseLinesAreOff) {
+  PlannedWorld place = ring();
+  for (auto& [a, b] : place.plan) {
+    const Eigen::Vector2d along = (b - a).normalized();
+    const Eigen::Vector2d off = 0.02 * place.world.noise() * Eigen::Vector2d(-along.y(), along.x());
+    a += off;
+    b += off;
+  }
+  const std::vector<Pose2> way = test::driveAroundRing(0.1);
+  KnownMap localiser(place.plan);
+  localiser.place(way[0], kAbout);
+  const Followed run = drive(localiser, place.world, way);
+  double nees = 0.0;
+  for (std::size_t k = 0; k < way.size(); ++k) {
+    const Eigen::Vector3d e = difference(run.estimates[k].T_map_robot, run.truth[k]);
+    nees += e.dot(run.estimates[k].covariance.inverse() * e) / static_cast<double>(way.size());
+  }
+  std::printf("NEES %.2f, plan off by %.4f m as learned\n", nees, localiser.planSigma());
+  EXPECT_GT(nees, 0.5);  // the mean of chi^2(3) is 3
+  EXPECT_LT(nees, 7.0);
+}
+
+TEST(KnownMap, AScanWithoutAPoseToldIsFoundAnywhereAndSaysSo) {
+  PlannedWorld room = test::roomWithNiche();
+  KnownMap localiser(room.plan);
+  const PastScans none;
+  const Pose2 truth{2.5, 2.0, 0.7};
+  Estimate estimate;
+  estimate.is_known = false;
+  for (int k = 0; k < 30 && !estimate.is_known; ++k) {
+    estimate = localiser.update(test::measurementAt(room.world, truth, {}), none);
+  }
+  ASSERT_TRUE(estimate.is_known);
+  EXPECT_LT((estimate.T_map_robot.position() - truth.position()).norm(), 0.03);
+}
+
+TEST(KnownMap, NoticesWithinAMetreThatItWasCarriedAndFindsItself) {
+  PlannedWorld place = ring();
+  std::vector<Pose2> way = test::driveAroundRing(0.1);
+  KnownMap localiser(place.plan);
+  localiser.place(way[0], kAbout);
+  const std::size_t carried = 60, carried_to = 260;
+  const std::vector<Pose2> wheels = test::wheelsOf(way, place.world);
+  const PastScans none;
+  for (std::size_t k = 0; k < carried; ++k) {
+    localiser.update(test::measurementAt(place.world, way[k], wheels[k]), none);
+  }
+  double noticed = -1.0, found = -1.0, driven = 0.0;
+  Estimate estimate;
+  for (std::size_t k = carried_to; k < way.size() && driven < 6.0; ++k) {
+    driven += (way[k].position() - way[k - 1].position()).norm();
+    // The wheels go on as if nothing had been.
+    const Pose2 told = wheels[carried] * wheels[carried_to].inverse() * wheels[k];
+    estimate = localiser.update(test::measurementAt(place.world, way[k], told), none);
+    if (noticed < 0.0 && !estimate.is_known) noticed = driven;
+    if (noticed >= 0.0 && found < 0.0 && estimate.is_known) {
+      found = driven;
+      EXPECT_LT((estimate.T_map_robot.position() - way[k].position()).norm(), 0.2);
+    }
+  }
+  EXPECT_GT(noticed, 0.0);
+  EXPECT_LE(noticed, 1.0);
+  EXPECT_GT(found, 0.0);
+  EXPECT_LE(found, 5.0);
+}
+
+TEST(KnownMap, IsLostWhereThePlanDoesNotGoOn) {
+  PlannedWorld room = test::roomWithNiche();
+  // Another place, which the robot is told to be that room.
+  test::WalledWorld other;
+  other.addBox(-6.0, -2.0, 12.0, 14.0);
+  KnownMap localiser(room.plan);
+  localiser.place({2.5, 2.0, 0.0}, kAbout);
+  const PastScans none;
+  Estimate estimate;
+  for (int k = 0; k < 30; ++k) {
+    const Pose2 pose{2.5 + 0.05 * k, 2.0, 0.0};
+    estimate = localiser.update(test::measurementAt(other, pose, pose), none);
+  }
+  EXPECT_FALSE(estimate.is_known);
+}
+
+TEST(KnownMap, EmptyPlansAndEmptyScansLocaliseNothing) {
+  PlannedWorld room = test::roomWithNiche();
+  KnownMap nowhere({});
+  const PastScans none;
+  EXPECT_FALSE(nowhere.update(test::measurementAt(room.world, {2.5, 2.0, 0.7}, {}), none).is_known);
+  KnownMap blind(room.plan);
+  Measurement dark;
+  dark.scan.ranges.assign(360, HUGE_VAL);
+  dark.scan.angle_increment = 2.0 * M_PI / 360.0;
+  EXPECT_FALSE(blind.update(dark, none).is_known);
+}
+
+TEST(KnownMap, TheSameScansGiveTheSamePosesToTheBit) {
+  std::vector<Pose2> poses[2];
+  for (auto& found : poses) {
+    PlannedWorld place = ring();
+    KnownMap localiser(place.plan);
+    std::vector<Pose2> way = test::driveAroundRing(0.1);
+    way.resize(100);
+    for (const Estimate& e : drive(localiser, place.world, way).estimates) {
+      found.push_back(e.T_map_robot);
+    }
+  }
+  for (std::size_t k = 0; k < poses[0].size(); ++k) {
+    EXPECT_EQ(poses[0][k].x, poses[1][k].x);
+    EXPECT_EQ(poses[0][k].theta, poses[1][k].theta);
+  }
+}
+
+}  // namespace
+}  // namespace cca
