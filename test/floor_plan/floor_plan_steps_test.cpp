@@ -150,16 +150,6 @@ TEST(GapsAtCorners, AreTheMouthOfACorridorIntoAnEightSidedHall) {
   }
 }
 
-TEST(GapsAtCorners, AreNoneAtARoundColumn) {
-  // Its lines are chords, of which two that are no neighbours meet before it.
-  Polygon column;
-  for (int k = 0; k < 10; ++k)
-    column.push_back({3.0 + 0.6 * std::cos(-k * M_PI / 5), 1.2 + 0.6 * std::sin(-k * M_PI / 5)});
-  const DrawnMap map = drawMap({{{0, 0}, {8, 0}, {8, 3}, {0, 3}}, column}, {0.01, 0.02, 0.3});
-  const Structure found = tellStructure(cropToKnown(map.grid, 2), map.lines);
-  EXPECT_TRUE(gapsAtCorners(found.solid, map.lines).empty());
-}
-
 /// The space of two rooms of 4 m x 4 m in cells, and a wall of one cell between them.
 Mask twoRoomsOfCells() {
   Mask space;
