@@ -4,6 +4,8 @@
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/vector.h>
 
+#include <algorithm>
+#include <cstdint>
 #include <memory>
 #include <utility>
 
@@ -35,6 +37,17 @@ void moveToMapFrame(MappedScans& result) {
   for (Pose2& pose : result.trajectory) pose = seenFrom(p_frame, pose);
   for (int k = 0; k < result.graph.size(); ++k)
     result.graph.place(k, seenFrom(p_frame, result.graph.pose(k)));
+  result.grid.origin -= p_frame;
+}
+
+/// (array of Occupancy, rows from the lowest y on; resolution; origin).
+nb::object gridTuple(const OccupancyRaster& grid) {
+  auto cells = std::make_unique<std::uint8_t[]>(grid.values.size() + 1);
+  std::transform(grid.values.begin(), grid.values.end(), cells.get(),
+                 [](Occupancy state) { return static_cast<std::uint8_t>(state); });
+  return nb::make_tuple(ownedArray(std::move(cells), static_cast<std::size_t>(grid.rows),
+                                   static_cast<std::size_t>(grid.columns)),
+                        grid.resolution, nb::make_tuple(grid.origin.x(), grid.origin.y()));
 }
 
 nb::object trajectoryArray(const std::vector<Pose2>& trajectory) {
@@ -112,6 +125,7 @@ nb::object filesAndArrays(MappedScans result) {
   held["times"] = nb::cast(result.times);
   held["is_placed"] = is_placed;
   held["warnings"] = result.warnings;
+  held["grid"] = gridTuple(result.grid);
   summary["finished"] = result.finished;
   summary["pose"] = result.pose;
   summary["scans"] = result.trajectory.size();

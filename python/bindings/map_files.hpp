@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "cca_mrpt/floor_plan/raster.hpp"
 #include "cca_mrpt/io/memory_file.hpp"
 #include "cca_mrpt/mapping/line_map.hpp"
 #include "cca_mrpt/slam/pose_graph.hpp"
@@ -27,6 +28,7 @@ struct MappedScans {
   double distance = 0.0;  ///< m
   PoseGraph graph;        ///< of SLAM; empty: there was none
   StoredMemory memory;
+  OccupancyRaster grid;  ///< of the scans, in the same frame
   std::size_t loops = 0, beams = 0;
   std::string pose;
   double agreement = 0.0;

@@ -12,5 +12,6 @@ NB_MODULE(_core, module) {
   cca::python::addLogs(module);
   cca::python::addSlam(module);
   cca::python::addMapFiles(module);
+  cca::python::addFloorPlan(module);
   cca::python::addSession(module);
 }

@@ -12,6 +12,7 @@ void addNavigation(nanobind::module_& module);
 void addLogs(nanobind::module_& module);
 void addSlam(nanobind::module_& module);
 void addMapFiles(nanobind::module_& module);
+void addFloorPlan(nanobind::module_& module);
 void addSession(nanobind::module_& module);
 
 }  // namespace cca::python

@@ -5,6 +5,7 @@
 #include <nanobind/stl/vector.h>
 
 #include <algorithm>
+#include <cmath>
 #include <exception>
 #include <memory>
 #include <optional>
@@ -16,6 +17,7 @@
 #include "cca_mrpt/io/stray_places.hpp"
 #include "cca_mrpt/localisation/given_poses.hpp"
 #include "cca_mrpt/localisation/wheel_odometry.hpp"
+#include "cca_mrpt/navigation/place/exploration_grid.hpp"
 #include "cca_mrpt/slam/slam_localiser.hpp"
 #include "line_arrays.hpp"
 #include "locked.hpp"
@@ -24,6 +26,7 @@
 #include "on_all_cores.hpp"
 #include "owned_array.hpp"
 #include "parameters.hpp"
+#include "scan_cut_off.hpp"
 #include "sound_log.hpp"
 
 namespace cca::python {
@@ -57,6 +60,50 @@ class PythonLog : public LogReader {
   bool ended_ = false;
 };
 
+/// Occupancy of the scans of a map, as the program's ScanGrid has it.
+class CellRecorder : public MapRecorder {
+ public:
+  void restart() override { cells_ = ExplorationGrid(); }
+  void record(const MappedScan& mapped, const LineMap& /*map*/) override {
+    if (mapped.scan.size() >= 2 && fits(mapped.scan)) cells_.insert(cutOff(mapped.scan));
+  }
+  OccupancyRaster raster() const;
+
+ private:
+  /// A broken pose must not exhaust the memory.
+  bool fits(const Scan& scan) const {
+    if (!cells_.covers(scan.T_map_sensor.position())) return false;
+    const Cell here = cells_.cellOf(scan.T_map_sensor.position());
+    const double x = std::max<double>(std::abs(here.x - cells_.lowest().x),
+                                      std::abs(here.x - cells_.highest().x));
+    const double y = std::max<double>(std::abs(here.y - cells_.lowest().y),
+                                      std::abs(here.y - cells_.highest().y));
+    return cells_.revealed() == 0 || (x + kReach) * (y + kReach) < kMostCells;
+  }
+  static constexpr double kReach = 1000.0, kMostCells = 1e8;  // cells
+  ExplorationGrid cells_;
+};
+
+OccupancyRaster CellRecorder::raster() const {
+  OccupancyRaster raster;
+  const Cell low = cells_.lowest(), high = cells_.highest();
+  raster.resolution = cells_.resolution();
+  if (high.x < low.x || high.y < low.y) return raster;
+  raster.columns = high.x - low.x + 1;
+  raster.rows = high.y - low.y + 1;
+  raster.origin = raster.resolution * Eigen::Vector2d(low.x, low.y);
+  for (int y = low.y; y <= high.y; ++y) {
+    for (int x = low.x; x <= high.x; ++x) {
+      const CellState state = cells_.at({x, y});
+      const bool is_wall = state == CellState::kOccupied || state == CellState::kPresumedWall;
+      raster.values.push_back(is_wall                     ? Occupancy::kOccupied
+                              : state == CellState::kFree ? Occupancy::kFree
+                                                          : Occupancy::kUnknown);
+    }
+  }
+  return raster;
+}
+
 std::unique_ptr<Localiser> localiserOf(PoseSource source) {
   if (source == PoseSource::kSlam) return std::make_unique<SlamLocaliser>();
   if (source == PoseSource::kOdometry) return std::make_unique<WheelOdometry>();
@@ -79,7 +126,7 @@ struct Mapping {
     MappingSession::Settings settings;
     settings.mapping = parameters;
     settings.maps_at_the_end = maps_at_the_end;
-    session = std::make_unique<MappingSession>(std::move(localiser), settings);
+    session = std::make_unique<MappingSession>(std::move(localiser), settings, cells.get());
   }
 
   Estimate add(LogRecord record) {
@@ -88,7 +135,8 @@ struct Mapping {
   }
 
   PoseSource pose;
-  SlamLocaliser* slam = nullptr;  ///< of the session
+  SlamLocaliser* slam = nullptr;                                           ///< of the session
+  std::unique_ptr<CellRecorder> cells = std::make_unique<CellRecorder>();  ///< the session's
   std::unique_ptr<MappingSession> session;
   Eigen::Vector2d origin = Eigen::Vector2d::Zero();  ///< m, map frame: where its frame lies
   std::size_t beams = 0;
@@ -110,6 +158,7 @@ MappedScans resultOf(const Mapping& mapping) {
     result.memory = {slam.memory(), mapping.origin};
     result.loops = slam.loops().size();
   }
+  result.grid = mapping.cells->raster();
   result.pose = nameOf(mapping.pose);
   result.beams = mapping.beams;
   result.agreement = session.agreement().overall();

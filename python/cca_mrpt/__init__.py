@@ -25,6 +25,8 @@ from ._core import (
     all_baselines,
     extract_lines,
 )
+from .floor_plans import FloorPlan, Furniture, Opening, Room, Wall, floor_plan
+from .grids import Grid
 from .logs import Log, read_log
 from .maps import Map, MapArc, Mapper, load, map
 from .plotting import plot
@@ -58,18 +60,25 @@ __all__ = [
     "Estimate",
     "ExplorationGrid",
     "Explorer",
+    "FloorPlan",
+    "Furniture",
+    "Grid",
     "LineMap",
     "Log",
     "LogRecord",
     "Map",
     "MapArc",
     "Mapper",
+    "Opening",
     "PolyLine",
+    "Room",
     "Simulation",
     "Slam",
     "SlamPose",
+    "Wall",
     "baselines",
     "extract_lines",
+    "floor_plan",
     "load",
     "map",
     "plot",

@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ._core import MAP_LINE, Estimate, LogRecord, MappingSession, PolyLine, map_records, read_chains, write_files_into
+from .grids import Grid, read_grid
 from .logs import Log, read_log
 from .plotting import plot
 
@@ -20,6 +21,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from typing_extensions import Unpack
 
+    from .floor_plans import FloorPlan
     from .parameters import MapParameters
 
 POSES = ("auto", "log", "odometry", "slam")
@@ -48,6 +50,7 @@ class Map:
         times: (N,) s; numbers where the log tells no times.
         is_placed: (N,) bool: whether the place of that scan is known; others are in no map.
         summary: numbers of the run, as in summary.json.
+        grid: which places are free (a `Grid`); None: the folder that it was loaded from has no map.yaml.
         warnings: what could not be read, or was guessed; empty where all was well.
     """
 
@@ -59,6 +62,7 @@ class Map:
         self.times: NDArray[np.float64] = np.asarray(held["times"], dtype=float)
         self.is_placed: NDArray[np.bool_] = np.asarray(held["is_placed"], dtype=bool)
         self.summary: Dict[str, Any] = dict(held["summary"])
+        self.grid: Optional[Grid] = Grid(*held["grid"]) if held.get("grid") else None
         self.warnings = warnings = "; ".join(filter(None, [warnings, held.get("warnings", "")]))
         if not self.is_placed.all():
             self.summary["unplaced_scans"] = np.flatnonzero(~self.is_placed).tolist()
@@ -96,6 +100,16 @@ class Map:
     def plot(self, ax: Optional[Axes] = None) -> Axes:
         """Draw lines and trajectory to scale by matplotlib: the axes."""
         return plot(self, self.trajectory if len(self.trajectory) else None, ax)
+
+    def floor_plan(self) -> FloorPlan:
+        """Rooms, openings, walls and furniture; see `cca_mrpt.floor_plan`."""
+        from .floor_plans import floor_plan  # it makes maps, too
+
+        return floor_plan(self)
+
+    def lines_csv(self) -> str:
+        """The text of lines.csv."""
+        return self._files["lines.csv"].decode()
 
     def _repr_svg_(self) -> str:
         return self._files["lines.svg"].decode()
@@ -233,6 +247,7 @@ def load(folder: Union[str, "os.PathLike[str]"]) -> Map:
     poses = _table(text.get("poses.csv", ""), where / "poses.csv")
     held["trajectory"] = np.array([[row["x"], row["y"], row["theta"]] for row in poses]).reshape(-1, 3)
     held["times"] = [row["stamp"] for row in poses]
+    held["grid"] = read_grid(where)
     unplaced = set(held["summary"].get("unplaced_scans", ()))
     held["is_placed"] = [k not in unplaced for k in range(len(poses))]
     return Map(held, files)

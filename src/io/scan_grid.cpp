@@ -3,7 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+
+#include "scan_cut_off.hpp"
 
 namespace cca {
 namespace {
@@ -24,21 +25,7 @@ float freenessOf(CellState state) {
   }
 }
 
-/// The scan up to `longest` m: what returns from beyond is free up to there.
-Scan cutOff(const Scan& scan, double longest) {
-  Scan cut = scan;
-  const bool is_silent_free = scan.free_range_without_return > 0.0;
-  cut.free_range_without_return =
-      is_silent_free ? std::min(longest, scan.free_range_without_return) : longest;
-  for (double& range : cut.ranges) {
-    if (isNoReturn(range) && !is_silent_free) {
-      range = std::numeric_limits<double>::quiet_NaN();
-    } else if (range > longest) {
-      range = std::numeric_limits<double>::infinity();
-    }
-  }
-  return cut;
-}
+static_assert(ScanGrid::kLongestBeam == kLongestGridBeam);
 
 }  // namespace
 
@@ -61,7 +48,7 @@ bool ScanGrid::fits(const Scan& scan) const {
 
 void ScanGrid::insert(const Scan& scan) {
   if (scan.size() < 2 || !fits(scan)) return;
-  cells_.insert(cutOff(scan, kLongestBeam));
+  cells_.insert(cutOff(scan));
   for (const Cell cell : cells_.changed()) show(cell);
 }
 

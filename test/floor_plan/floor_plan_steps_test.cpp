@@ -150,20 +150,6 @@ TEST(GapsAtCorners, AreTheMouthOfACorridorIntoAnEightSidedHall) {
   }
 }
 
-TEST(GapsAtCorners, AreNoneWhereLinesMeetInOpenSpace) {
-  // A column with cut corners, beside a wall: its long sides meet before it.
-  const Polygon column{{3.3, 1.0}, {3.0, 1.3}, {3.0, 2.1}, {3.3, 2.4},
-                       {4.1, 2.4}, {4.4, 2.1}, {4.4, 1.3}, {4.1, 1.0}};
-  DrawnMap map = drawMap({{{0, 0}, {8, 0}, {8, 6}, {0, 6}}, column}, {0.01, 0.02, 0.0}, 0.5);
-  Structure found = tellStructure(cropToKnown(map.grid, 2), map.lines);
-  for (std::size_t k = 0; k < found.solid.values.size(); ++k) {  // walls no thicker than they are
-    const Eigen::Vector2d p =
-        found.solid.centreOf(found.solid.cell(k)) - Eigen::Vector2d(0.01, 0.02);
-    found.solid.values[k] = p.minCoeff() < 0.0 || p.x() > 8.0 || p.y() > 6.0 || isInside(column, p);
-  }
-  EXPECT_TRUE(gapsAtCorners(found.solid, map.lines).empty());
-}
-
 /// The space of two rooms of 4 m x 4 m in cells, and a wall of one cell between them.
 Mask twoRoomsOfCells() {
   Mask space;

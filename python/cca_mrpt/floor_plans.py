@@ -1,0 +1,136 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Rooms, doors and walls of a map: what the program `cca-mrpt plan` makes."""
+from __future__ import annotations
+
+import json
+import os
+from typing import Any, Dict, List, NamedTuple, Optional, Tuple, Union
+
+import numpy as np
+
+from ._core import floor_plan_geojson
+from .maps import Map, load
+
+Point = Tuple[float, float]  # m, map frame
+
+
+class Room(NamedTuple):
+    """Floor between the faces of walls, and the openings to other rooms."""
+
+    id: int
+    outline: List[Point]  # counter-clockwise, the first point once
+    holes: List[List[Point]]  # clockwise
+    area: float  # m^2, without the holes
+    perimeter: float  # m
+    unseen_area: float  # m^2 of the area that no beam has crossed: under furniture
+    open_border: float  # m of the border that is neither wall nor opening: where the map ends
+    label: Point  # well inside
+
+
+class Opening(NamedTuple):
+    """Where one room opens into another."""
+
+    id: int
+    kind: str  # "door" up to 1.4 m, "passage" up to 2.5 m, "wide"
+    jambs: Tuple[Point, Point]
+    width: float  # m
+    rooms: Tuple[int, int]
+
+
+class Wall(NamedTuple):
+    """A straight wall: its centre line; of one that was seen from one side only, that face."""
+
+    id: int
+    start: Point
+    end: Point
+    thickness: Optional[float]  # m; None: one face only
+    line_ids: Tuple[List[int], List[int]]  # of the map's lines, on its left and on its right
+    is_presumed: bool  # behind furniture
+
+
+class Furniture(NamedTuple):
+    """An obstacle that is no part of the building."""
+
+    id: int
+    outline: List[Point]
+    is_leaning: bool  # on a wall
+    room: Optional[int]
+
+
+def _ring(points: List[List[float]]) -> List[Point]:
+    return [(x, y) for x, y in points[:-1]]
+
+
+class FloorPlan:
+    """The floor plan of a map. `geopandas.GeoDataFrame.from_features(plan)` takes it as it is.
+
+    Attributes:
+        rooms, openings, walls, furniture: lists; ids count from 1 within each.
+    """
+
+    def __init__(self, geojson: str) -> None:
+        self._geojson = geojson
+        self.rooms: List[Room] = []
+        self.openings: List[Opening] = []
+        self.walls: List[Wall] = []
+        self.furniture: List[Furniture] = []
+        for feature in json.loads(geojson)["features"]:
+            self._add(feature["properties"], feature["geometry"]["coordinates"])
+
+    def _add(self, of: Dict[str, Any], at: List[Any]) -> None:
+        if of["kind"] == "room":
+            self.rooms.append(Room(of["id"], _ring(at[0]), [_ring(hole) for hole in at[1:]], of["area_m2"], of["perimeter_m"],
+                                   of["unseen_area_m2"], of["open_border_m"], (of["label_point"][0], of["label_point"][1])))
+        elif of["kind"] in ("door", "opening"):
+            self.openings.append(Opening(of["id"], of.get("type", "door"), ((at[0][0], at[0][1]), (at[1][0], at[1][1])),
+                                         of["width_m"], (of["rooms"][0], of["rooms"][1])))
+        elif of["kind"] == "wall":
+            self.walls.append(Wall(of["id"], (at[0][0], at[0][1]), (at[1][0], at[1][1]), of["thickness_m"],
+                                   (of["left_line_ids"], of["right_line_ids"]), of["presumed"]))
+        else:
+            self.furniture.append(Furniture(of["id"], _ring(at[0]), of["leaning"], of["room"]))
+
+    def room_at(self, x: float, y: float) -> Optional[Room]:
+        """The room that a point of the map frame lies in; None: in none."""
+        for room in self.rooms:
+            if _is_inside(room.outline, x, y) and not any(_is_inside(hole, x, y) for hole in room.holes):
+                return room
+        return None
+
+    def to_geojson(self) -> str:
+        """The text of plan.geojson: that which the program writes."""
+        return self._geojson
+
+    @property
+    def __geo_interface__(self) -> Dict[str, Any]:
+        collection: Dict[str, Any] = json.loads(self._geojson)
+        return collection
+
+    def __repr__(self) -> str:
+        area = sum(room.area for room in self.rooms)
+        return f"FloorPlan({len(self.rooms)} rooms, {area:.1f} m^2, {len(self.openings)} openings, {len(self.walls)} walls)"
+
+
+def _is_inside(ring: List[Point], x: float, y: float) -> bool:
+    inside = False
+    for (x1, y1), (x2, y2) in zip(ring, ring[1:] + ring[:1]):
+        if (y1 > y) != (y2 > y) and x < x1 + (y - y1) * (x2 - x1) / (y2 - y1):
+            inside = not inside
+    return inside
+
+
+def floor_plan(source: Union[Map, str, "os.PathLike[str]"]) -> FloorPlan:
+    """Rooms, openings, walls and furniture of a finished map: of a folder of the program's, its plan.geojson.
+
+    Args:
+        source: a `Map`, or the folder of one, with its grid: map.yaml and map.pgm.
+
+    Raises:
+        FileNotFoundError: that folder holds no map.
+        ValueError: a file is damaged; or the map has no grid, without which there are no rooms.
+    """
+    made = source if isinstance(source, Map) else load(source)
+    if made.grid is None:
+        raise ValueError(f"{'map' if made is source else source}: has no grid (map.yaml, map.pgm), which tells where rooms are")
+    cells, resolution, origin = made.grid
+    return FloorPlan(floor_plan_geojson(made.lines_csv(), np.ascontiguousarray(cells), resolution, origin))

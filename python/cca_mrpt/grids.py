@@ -1,0 +1,46 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The grid of a map's folder: map.yaml and map.pgm, as map_server has them."""
+from __future__ import annotations
+
+import re
+from pathlib import Path
+from typing import NamedTuple, Optional, Tuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+
+class Grid(NamedTuple):
+    """Which places are free, and which are not."""
+
+    cells: NDArray[np.uint8]  # 0 unknown, 1 free, 2 occupied; rows from the lowest y on
+    resolution: float  # m, side of a cell
+    origin: Tuple[float, float]  # m, map frame: lower left corner
+
+
+def _read_pgm(path: Path) -> NDArray[np.uint8]:
+    """Unknown, free and occupied cells of a map.pgm, rows from the lowest y on."""
+    found = re.match(rb"P5\s+(?:#[^\n]*\s+)*(\d+)\s+(\d+)\s+255\s", (data := path.read_bytes())[:1000])
+    if not found:
+        raise ValueError(f"{path}: is damaged, or no image of a map")
+    columns, rows = int(found[1]), int(found[2])
+    if len(data) - found.end() < columns * rows:
+        raise ValueError(f"{path}: is damaged: of {columns} x {rows} cells {len(data) - found.end()} are there")
+    grey = np.frombuffer(data, np.uint8, columns * rows, found.end()).reshape(rows, columns)[::-1]
+    occupied = (255 - grey.astype(float)) / 255
+    return np.where(occupied > 0.65, 2, np.where(occupied < 0.196, 1, 0)).astype(np.uint8)
+
+
+def read_grid(folder: Path) -> Optional[Grid]:
+    """The grid of a map's folder; None: it has none. Raises ValueError naming the file that is damaged."""
+    yaml = folder / "map.yaml"
+    if not yaml.exists():
+        return None
+    text = yaml.read_text()
+    number = r"\s*([-+0-9.eE]+)\s*"
+    resolution = re.search(rf"^resolution:{number}$", text, re.MULTILINE)
+    origin = re.search(rf"^origin:\s*\[{number},{number}[,\]]", text, re.MULTILINE)
+    image = re.search(r"^image:\s*(\S+)\s*$", text, re.MULTILINE)
+    if not (resolution and origin and image):
+        raise ValueError(f"{yaml}: is damaged, or no map of map_server")
+    return Grid(_read_pgm(folder / image[1]), float(resolution[1]), (float(origin[1]), float(origin[2])))
