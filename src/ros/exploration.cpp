@@ -24,7 +24,9 @@ Exploration::Exploration(ros::NodeHandle& node, ros::NodeHandle& private_node, S
       program_(program),
       publisher_(node, settings_.map_frame, program.robot.radius),
       mode_(settings_.autostart ? Mode::kRunning : Mode::kStopped),
-      saver_(private_node, settings_.out, [this] { return products(); }) {
+      saver_(private_node, settings_.out, [this] { return products(); }),
+      plan_(node, private_node, settings_.map_frame, saver_.mutex(),
+            [this] { return products(); }) {
   services_ = {private_node.advertiseService("start", &Exploration::onStart, this),
                private_node.advertiseService("stop", &Exploration::onStop, this),
                private_node.advertiseService("pause", &Exploration::onPause, this),

@@ -16,6 +16,7 @@
 #include "cca_mrpt/slam/slam_localiser.hpp"
 #include "exploration_publisher.hpp"
 #include "map_saver.hpp"
+#include "plan_server.hpp"
 
 namespace cca {
 
@@ -139,7 +140,9 @@ class Exploration {
   ErrandEnd errand_end_;  ///< empty: it was sent nowhere
   nlohmann::ordered_json notes_ = nlohmann::ordered_json::object();
   std::vector<ros::ServiceServer> services_;
-  MapSaver saver_;  // last: it may still be saving, by products(), when all this ends
+  // Last: they may still be at work, by products(), when all this ends.
+  MapSaver saver_;
+  PlanServer plan_;
 };
 
 }  // namespace cca

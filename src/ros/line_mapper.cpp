@@ -16,6 +16,7 @@
 #include "node_diagnostics.hpp"
 #include "node_localisation.hpp"
 #include "node_main.hpp"
+#include "plan_server.hpp"
 #include "private_parameters.hpp"
 #include "scan_feed.hpp"
 #include "slam_publisher.hpp"
@@ -78,7 +79,9 @@ class LineMapper {
             node, private_node, [this]() -> const auto& { return scans_.dropped(); }),
         scan_lines_(node.advertise<cca_mrpt::LineMap>("scan_lines", 10)),
         reset_(private_node.advertiseService("reset", &LineMapper::onReset, this)),
-        saver_(private_node, parameters_.out, [this] { return products(); }) {
+        saver_(private_node, parameters_.out, [this] { return products(); }),
+        plan_(node, private_node, parameters_.frames.map, saver_.mutex(),
+              [this] { return products(); }) {
     begin();
     if (slam_) {
       slam_publisher_.emplace(node, parameters_.frames);
@@ -216,7 +219,9 @@ class LineMapper {
   NodeDiagnostics diagnostics_;
   ros::Publisher scan_lines_;
   ros::ServiceServer reset_;
-  MapSaver saver_;  // last: it may still be saving, by products(), when all this ends
+  // Last: they may still be at work, by products(), when all this ends.
+  MapSaver saver_;
+  PlanServer plan_;
 };
 
 const NodeDescription kNode{

@@ -11,7 +11,7 @@ import numpy
 import rospy
 import rostest
 from diagnostic_msgs.msg import DiagnosticArray
-from geometry_msgs.msg import PoseStamped
+from geometry_msgs.msg import Point, PoseStamped
 from nav_msgs.msg import OccupancyGrid, Odometry, Path
 from sensor_msgs.msg import LaserScan
 from std_msgs.msg import String
@@ -20,6 +20,7 @@ from tf2_msgs.msg import TFMessage
 from visualization_msgs.msg import Marker, MarkerArray
 
 from cca_mrpt.msg import LineMap
+from cca_mrpt.srv import RoomAt
 from ros_watch import Watch, places, yaw
 from segments import cast, distance_to, in_view, read_segments
 
@@ -38,11 +39,14 @@ class ExploreSimulated(unittest.TestCase):
         cls.markers = Watch("line_markers", MarkerArray)
         cls.goal = Watch("goal", PoseStamped)
         cls.diagnostics = Watch("/diagnostics", DiagnosticArray)
-        for name in ("start", "stop", "pause", "save", "home"):
+        for name in ("start", "stop", "pause", "save", "home", "room_at"):
             rospy.wait_for_service("explore/" + name, 20)
 
     def call(self, name):
         return rospy.ServiceProxy("explore/" + name, Trigger)()
+
+    def room_at(self, x, y):
+        return rospy.ServiceProxy("explore/room_at", RoomAt)(Point(x, y, 0.0))
 
     def pause(self, on):
         return rospy.ServiceProxy("explore/pause", SetBool)(on)
@@ -60,6 +64,9 @@ class ExploreSimulated(unittest.TestCase):
         self.assertEqual(self.speed().linear.x, 0.0)
         self.assertFalse(self.pause(True).success, "nothing is running that could be paused")
         self.assertFalse(self.call("save").success, "there is no map yet")
+        answer = self.room_at(1.2, 1.2)
+        self.assertFalse(answer.success)
+        self.assertIn("no map yet", answer.message)
 
     def test_02_rates_hold(self):
         # By the stamps: how late a loaded machine brings the messages is not the node's affair.
@@ -204,6 +211,24 @@ class ExploreSimulated(unittest.TestCase):
         self.assertEqual(len(rows), len(self.lines.messages[-1].lines))
         for name in ("map.png", "map.pgm", "map.yaml", "lines.geojson", "summary.json"):
             self.assertGreater(os.path.getsize(os.path.join(out, name)), 0, name)
+
+    def test_13_the_plan_is_shown_and_asked_for_rooms(self):
+        shown = Watch("plan", MarkerArray).wait(lambda m: len(m.markers) > 1, 30)
+        self.assertIsNotNone(shown, "no plan where somebody looks")
+        by_name = {}
+        for marker in shown.markers:
+            by_name.setdefault(marker.ns, []).append(marker)
+        self.assertEqual(shown.markers[0].action, Marker.DELETEALL)
+        self.assertEqual({m.header.frame_id for m in shown.markers}, {"map"})
+        outline = numpy.array([(p.x, p.y) for p in by_name["rooms"][0].points])
+        self.assertLess(distance_to(self.walls, 0.5 * (outline[::2] + outline[1::2])).max(), 0.25, "rooms end at walls")
+        here = self.room_at(1.2, 1.2)
+        self.assertTrue(here.success, here.message)
+        self.assertIn(here.id, [marker.id for marker in by_name["room_labels"]])
+        self.assertGreater(here.area, 5.0)
+        self.assertEqual(self.room_at(here.label.x, here.label.y).id, here.id)
+        nowhere = self.room_at(100.0, 0.0)
+        self.assertEqual((nowhere.success, nowhere.id, nowhere.message), (False, 0, "in no room"))
 
     def test_14_start_after_the_end_is_refused(self):
         self.assertFalse(self.call("start").success)
