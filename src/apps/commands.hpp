@@ -19,6 +19,7 @@ void addAblateCommand(CLI::App& program);
 void addExploreCommand(CLI::App& program);
 void addExtractCommand(CLI::App& program);
 void addInfoCommand(CLI::App& program);
+void addLocalizeCommand(CLI::App& program);
 void addMapCommand(CLI::App& program);
 void addMergeCommand(CLI::App& program);
 void addPlanCommand(CLI::App& program);

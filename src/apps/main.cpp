@@ -51,6 +51,7 @@ int main(int argc, char** argv) {
   cca::apps::addExploreCommand(program);
   cca::apps::addExtractCommand(program);
   cca::apps::addInfoCommand(program);
+  cca::apps::addLocalizeCommand(program);
   cca::apps::addMapCommand(program);
   cca::apps::addMergeCommand(program);
   cca::apps::addPlanCommand(program);

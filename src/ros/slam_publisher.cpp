@@ -1,32 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "slam_publisher.hpp"
 
-#include <geometry_msgs/PoseWithCovarianceStamped.h>
-
 #include "cca_mrpt/ros/line_messages.hpp"
-#include "cca_mrpt/ros/pose_message.hpp"
-#include "cca_mrpt/ros/transforms.hpp"
 
 namespace cca {
-namespace {
 
-/// map -> odom changes slowly: it holds for so much longer than the scan that it was found with, so
-/// that others can place what comes before the next scan. The same is amcl's default.
-const ros::Duration kHolds(0.1);
-
-}  // namespace
-
-SlamPublisher::SlamPublisher(ros::NodeHandle& node, FrameNames frames)
-    : frames_(std::move(frames)),
-      transforms_(node.advertise<tf2_msgs::TFMessage>("/tf", 100)),
-      poses_(node.advertise<geometry_msgs::PoseWithCovarianceStamped>("pose", 10)),
-      loop_markers_(node.advertise<visualization_msgs::MarkerArray>("loop_markers", 1, true)),
-      others_(node.subscribe("/tf", 200, &SlamPublisher::warnOfOthers, this)) {}
+SlamPublisher::SlamPublisher(ros::NodeHandle& node, const FrameNames& frames)
+    : map_frame_(frames.map),
+      pose_(node, frames, "pose"),
+      loop_markers_(node.advertise<visualization_msgs::MarkerArray>("loop_markers", 1, true)) {}
 
 void SlamPublisher::publish(const Estimate& estimate, const Pose2& T_odom_robot,
                             const SlamLocaliser& localiser, const ros::Time& stamp) {
-  publishTransform(estimate.T_map_robot * T_odom_robot.inverse(), stamp);
-  publishPose(estimate, stamp);
+  pose_.publish(estimate, T_odom_robot, stamp);
   const Slam& slam = localiser.slam();
   if (estimate.was_corrected || slam.loops().size() != loops_shown_) publishLoops(slam, stamp);
 }
@@ -41,35 +27,9 @@ void SlamPublisher::note(const Estimate& estimate, const SlamLocaliser& localise
   diagnostics.note("slam: corrections of the past", localiser.corrections());
 }
 
-void SlamPublisher::publishTransform(const Pose2& T_map_odom, const ros::Time& stamp) {
-  tf2_msgs::TFMessage transforms;
-  transforms.transforms.resize(1);
-  auto& transform = transforms.transforms.front();
-  transform.header.frame_id = frames_.map;
-  transform.header.stamp = stamp + kHolds;
-  transform.child_frame_id = frames_.odom;
-  transform.transform = transformMessage(T_map_odom);
-  transforms_.publish(transforms);
-}
-
-void SlamPublisher::publishPose(const Estimate& estimate, const ros::Time& stamp) {
-  geometry_msgs::PoseWithCovarianceStamped pose;
-  pose.header.frame_id = frames_.map;
-  pose.header.stamp = stamp;
-  pose.pose.pose = poseMessage(estimate.T_map_robot);
-  constexpr int kRows[] = {0, 1, 5};  // x, y, yaw of a pose in space
-  for (int i = 0; i < 3; ++i) {
-    for (int j = 0; j < 3; ++j) {
-      pose.pose.covariance[static_cast<std::size_t>(6 * kRows[i] + kRows[j])] =
-          estimate.covariance(i, j);
-    }
-  }
-  poses_.publish(pose);
-}
-
 void SlamPublisher::publishLoops(const Slam& slam, const ros::Time& stamp) {
   std_msgs::Header header;
-  header.frame_id = frames_.map;
+  header.frame_id = map_frame_;
   header.stamp = stamp;
   const PoseGraph& graph = slam.keyFrames().graph;
   std::vector<Eigen::Vector2d> ends;
@@ -79,15 +39,6 @@ void SlamPublisher::publishLoops(const Slam& slam, const ros::Time& stamp) {
   }
   loop_markers_.publish(loopMarkers(ends, header));
   loops_shown_ = slam.loops().size();
-}
-
-void SlamPublisher::warnOfOthers(const ros::MessageEvent<const tf2_msgs::TFMessage>& event) const {
-  if (event.getPublisherName() == ros::this_node::getName()) return;
-  for (const auto& transform : event.getMessage()->transforms) {
-    if (frameName(transform.child_frame_id) != frameName(frames_.odom)) continue;
-    ROS_WARN_THROTTLE(5.0, "%s tells where '%s' is, too: the robot will be seen in two places",
-                      event.getPublisherName().c_str(), frames_.odom.c_str());
-  }
 }
 
 }  // namespace cca

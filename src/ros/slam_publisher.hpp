@@ -2,11 +2,11 @@
 #pragma once
 
 #include <ros/ros.h>
-#include <tf2_msgs/TFMessage.h>
 
 #include "cca_mrpt/slam/slam_localiser.hpp"
 #include "frame_names.hpp"
 #include "node_diagnostics.hpp"
+#include "pose_publisher.hpp"
 
 namespace cca {
 
@@ -14,7 +14,7 @@ namespace cca {
 /// `loop_markers`.
 class SlamPublisher {
  public:
-  SlamPublisher(ros::NodeHandle& node, FrameNames frames);
+  SlamPublisher(ros::NodeHandle& node, const FrameNames& frames);
 
   /// After each scan. @param T_odom_robot  at its time.
   void publish(const Estimate& estimate, const Pose2& T_odom_robot, const SlamLocaliser& localiser,
@@ -23,15 +23,12 @@ class SlamPublisher {
             NodeDiagnostics& diagnostics) const;
 
  private:
-  void publishTransform(const Pose2& T_map_odom, const ros::Time& stamp);
-  void publishPose(const Estimate& estimate, const ros::Time& stamp);
   void publishLoops(const Slam& slam, const ros::Time& stamp);
-  void warnOfOthers(const ros::MessageEvent<const tf2_msgs::TFMessage>& event) const;
 
-  FrameNames frames_;
+  std::string map_frame_;
+  PosePublisher pose_;
   std::size_t loops_shown_ = 0;
-  ros::Publisher transforms_, poses_, loop_markers_;
-  ros::Subscriber others_;
+  ros::Publisher loop_markers_;
 };
 
 }  // namespace cca

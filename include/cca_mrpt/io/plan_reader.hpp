@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "cca_mrpt/known_map/plan_lines.hpp"
+
+namespace cca {
+
+/// The lines of a finished map, or of a plan that somebody has drawn.
+struct PlanFile {
+  std::string kind;             ///< for people: "DXF", "map_server grid", ...
+  std::vector<PlanLine> lines;  ///< m, map frame
+  /// What the file holds besides, which is no line: for people, "12 TEXT, 3 HATCH"; empty: nothing.
+  std::string not_understood;
+};
+
+/// Reads a plan, by the ending of its name:
+/// - a folder of `map` or `explore`, or .csv: lines.csv;
+/// - .slam: map.slam, of which the lines are made anew;
+/// - .geojson, .json: LineString, MultiLineString, Polygon, MultiPolygon, in metres; ours also in
+///   longitude and latitude, where it tells its origin. Rooms, doors, openings, the trajectory, and
+///   what is told twice, are left out, walls of a thickness have two faces;
+/// - .dxf (ASCII): LINE, LWPOLYLINE, POLYLINE, ARC, CIRCLE of the ENTITIES, in the drawing's units
+///   ($INSUNITS; metres where it tells none). Layers that are off or frozen, and those of doors,
+///   openings, areas, notes and of our trajectory, are left out;
+/// - .svg: line, polyline, polygon, rect and path (M, L, H, V, Z), by the transforms of its groups;
+///   y points down the page, and a user unit is a metre;
+/// - .yaml: a map_server grid: the faces of its occupied cells towards free ones.
+///
+/// @param scale  m, of a unit of the drawing; 0: as the file tells, see above.
+/// @throws std::runtime_error naming the file and the rule that it breaks; also where it holds no
+///         line.
+PlanFile readPlan(const std::string& path, double scale = 0.0);
+
+}  // namespace cca
