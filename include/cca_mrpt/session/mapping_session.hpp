@@ -90,6 +90,7 @@ class MappingSession {
   const std::vector<bool>& isLocalised() const { return is_localised_; }
 
  private:
+  LineMap emptyMap() const;
   void takeCorrection();
   void rebuild();
   void insert(Scan scan, const Pose2& T_map_robot, std::size_t sensor);
