@@ -15,7 +15,7 @@ constexpr double kPartingRays = 2.0;  // that keep a gap open
 /// The mean point of a bin that holds hits, of its weight.
 PointSums meanPoint(const SupportBin& bin) {
   const PointSums& s = bin.returns;
-  const double share = weightOf(bin) / s.w, per_hit = share / s.w;
+  const double share = 1.0 / (s.w + kHitsOfHalfWeight), per_hit = share / s.w;
   return {share * s.w,         share * s.x,         share * s.y,
           per_hit * s.x * s.x, per_hit * s.x * s.y, per_hit * s.y * s.y};
 }

@@ -33,8 +33,8 @@ struct SupportBin {
 
 /// What the mean point of a bin that holds hits weighs in a fit: below 1, so that one place does
 /// not outvote the others, and more with the hits, so that one glance does not bend a wall.
+inline constexpr double kHitsOfHalfWeight = 2.0;
 inline double weightOf(const SupportBin& bin) {
-  constexpr double kHitsOfHalfWeight = 2.0;
   return bin.hits() / (bin.hits() + kHitsOfHalfWeight);
 }
 
