@@ -3,15 +3,18 @@
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 #include <string>
 
 #include "cca_mrpt/evaluation/log_score.hpp"
+#include "cca_mrpt/evaluation/sigma_score.hpp"
 #include "cca_mrpt/evaluation/world_score.hpp"
 #include "cca_mrpt/evidence/labelled_scan.hpp"
 #include "cca_mrpt/io/atomic_file.hpp"
+#include "cca_mrpt/io/line_formats.hpp"
 #include "cca_mrpt/io/log_reader.hpp"
 #include "commands.hpp"
 #include "log_warnings.hpp"
@@ -48,13 +51,19 @@ LogScore evaluateLog(const std::string& log, const std::vector<Segment2>& map) {
   return scoreAgainstLog(scans, map);
 }
 
-LogScore evaluateWorld(const std::string& world, const std::vector<Segment2>& map) {
+LogScore evaluateWorld(const std::string& world, const std::string& path,
+                       const std::vector<Segment2>& map) {
   const std::string truth = evidence::truthPath(world);
   if (!std::filesystem::exists(truth)) {
     throw std::runtime_error(world + ": its true segments are not known; " + truth +
                              " (x1,y1,x2,y2) must stand beside it");
   }
-  return scoreAgainstWorld(evidence::loadSegments(truth), map);
+  const std::vector<Segment2> walls = evidence::loadSegments(truth);
+  LogScore score = scoreAgainstWorld(walls, map);
+  std::ifstream file(path);
+  const std::string text{std::istreambuf_iterator<char>(file), {}};
+  score.groups.push_back(scoreSigmas(walls, readLinesCsv(text, path)));
+  return score;
 }
 
 }  // namespace
@@ -75,8 +84,8 @@ void addEvaluateCommand(CLI::App& program) {
   command->callback([options] {
     refuseExtracted(options->map);
     const auto map = evidence::loadSegments(options->map);
-    const LogScore score =
-        options->log.empty() ? evaluateWorld(options->world, map) : evaluateLog(options->log, map);
+    const LogScore score = options->log.empty() ? evaluateWorld(options->world, options->map, map)
+                                                : evaluateLog(options->log, map);
     const std::string text = toJson(score).dump(1) + "\n";
     if (options->out.empty()) {
       std::fputs(text.c_str(), stdout);

@@ -7,6 +7,7 @@
 
 #include "cca_mrpt/geometry/cross.hpp"
 #include "cca_mrpt/mapping/laser_evidence.hpp"
+#include "cca_mrpt/mapping/line_covariance.hpp"
 #include "cca_mrpt/mapping/line_extraction.hpp"
 #include "cca_mrpt/mapping/wall_upkeep.hpp"
 
@@ -18,6 +19,7 @@ constexpr double kMostVisits = 200.0;
 constexpr double kFarthestPose = 1e7;    // m; beyond, a double no longer tells bins apart
 constexpr double kLongestSight = 500.0;  // m; no 2-D laser sees further
 constexpr double kCornerReach = 0.1;     // m, two bins of support
+constexpr double kSameRow = 0.5;         // m, between the middles of a dotted wall then and now
 
 /// The line in the map frame, its sensor on the left, the pose error in its covariance.
 NewLine inMap(const LineSegment& line, const Pose2& T_map_sensor, const MapNoise& noise) {
@@ -52,11 +54,28 @@ bool LineMap::insert(const Scan& scan, const std::vector<LineSegment>& lines) {
   std::vector<NewLine> new_lines = newLines(lines, T);
   clusterIntoMap(new_lines, AlphaCut(parameters_), noise_, walls_);
   learn(new_lines);
+  if (poses_ == Poses::kOwn) network_.add(T, new_lines);
   const std::vector<Eigen::Vector2d> beams = beamDirections(scan);
-  depositReturns(scan, beams, new_lines, noise_, walls_);
+  std::vector<Eigen::Vector2d> loose;
+  const bool is_wanted = loose_.wants(scan);
+  depositReturns(scan, beams, new_lines, noise_, walls_, is_wanted ? &loose : nullptr);
+  if (is_wanted) loose_.add(scan, loose);
   if (!parameters_.without(Part::kRays)) passRays(scan, beams, noise_, walls_);
   seeToTouched(walls_, noise_, parameters_, next_id_);
   return true;
+}
+
+void LineMap::lookBack() {
+  if (poses_ == Poses::kOwn) network_.settle(noise_, walls_);
+  const std::vector<MapLine> before = std::exchange(dotted_, {});
+  for (MapLine line : loose_.dottedWalls(pieces(), noise_)) {
+    const Eigen::Vector2d middle = 0.5 * (line.segment.start + line.segment.end);
+    const auto same = std::find_if(before.begin(), before.end(), [&](const MapLine& old) {
+      return (0.5 * (old.segment.start + old.segment.end) - middle).norm() < kSameRow;
+    });
+    line.id = same == before.end() ? next_id_++ : same->id;
+    dotted_.push_back(line);
+  }
 }
 
 std::vector<NewLine> LineMap::newLines(const std::vector<LineSegment>& lines,
@@ -101,7 +120,10 @@ void LineMap::learn(const std::vector<NewLine>& lines) {
 std::vector<MapLine> LineMap::pieces() const {
   std::vector<MapLine> all;
   for (const Wall& wall : walls_.all()) {
-    all.insert(all.end(), wall.pieces.begin(), wall.pieces.end());
+    for (const MapLine& piece : wall.pieces) {
+      all.push_back(piece);
+      all.back().segment.covariance = covarianceOf(wall, piece.segment, noise_);
+    }
   }
   std::sort(all.begin(), all.end(), [](const MapLine& a, const MapLine& b) { return a.id < b.id; });
   return all;
@@ -110,6 +132,7 @@ std::vector<MapLine> LineMap::pieces() const {
 std::vector<MapLine> LineMap::lines() const {
   std::vector<MapLine> all = pieces();
   joinCorners(all, kCornerReach);
+  all.insert(all.end(), dotted_.begin(), dotted_.end());
   return all;
 }
 

@@ -12,8 +12,7 @@ constexpr double kFinestOffset = 0.003;  // m; nothing is known better than that
 constexpr double kFinestAngle = 0.001;   // rad
 constexpr double kLongestMemory = 500.0;
 
-double stepped(double sigma, double innovation, double own_variance, double& samples) {
-  samples = std::min(samples + 1.0, kLongestMemory);
+double stepped(double sigma, double innovation, double own_variance, double samples) {
   const double step = 2.0 / (20.0 + samples);
   const double expected = kMedianOfMagnitude * std::sqrt(sigma * sigma + own_variance);
   return sigma * (std::abs(innovation) > expected ? 1.0 + step : 1.0 / (1.0 + step));
@@ -22,11 +21,15 @@ double stepped(double sigma, double innovation, double own_variance, double& sam
 }  // namespace
 
 void MapNoise::learnOffset(double offset, double own_variance) {
+  offsets_ = std::min(offsets_ + 1.0, kLongestMemory);
   offset_ = std::clamp(stepped(offset_, offset, own_variance, offsets_), kFinestOffset, 0.3);
+  own_offset_ = std::clamp(stepped(own_offset_, offset, own_variance, offsets_), 1e-4, 0.3);
 }
 
 void MapNoise::learnAngle(double angle, double own_variance) {
+  angles_ = std::min(angles_ + 1.0, kLongestMemory);
   angle_ = std::clamp(stepped(angle_, angle, own_variance, angles_), kFinestAngle, 0.1);
+  own_angle_ = std::clamp(stepped(own_angle_, angle, own_variance, angles_), 1e-5, 0.1);
 }
 
 void MapNoise::learnRange(double variance) {

@@ -136,7 +136,7 @@ Memberships mapMemberships(const Wall& wall, const Wall& other, const MapNoise& 
     // bins could tell. Parallels h apart let the residuals grow by h^2 w_a w_b / (w_a + w_b).
     const double apart_sq = variance * (apart.angle + apart.offset) * (a.w + b.w) / (a.w * b.w);
     mu.overlap = bell(apart_sq, square(one_front ? std::max(kOneFrontLeast, kOneFront * sigma)
-                                                 : std::max(kTwoFrontsLeast, kTwoFronts * sigma)));
+                                                 : mostBetweenFaces(noise)));
     mu.orientation = mu.offset = mu.fit = 1.0;
     return mu;
   }
@@ -151,6 +151,10 @@ Memberships mapMemberships(const Wall& wall, const Wall& other, const MapNoise& 
   mu.fit = bell(off, square(kFitGate * sigma));
   mu.overlap = one_front ? 1.0 : 0.0;
   return mu;
+}
+
+double mostBetweenFaces(const MapNoise& noise) {
+  return std::max(kTwoFrontsLeast, kTwoFronts * noise.lateralSigma());
 }
 
 double overlapOfPlace(double off, const MapNoise& noise) {

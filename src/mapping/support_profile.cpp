@@ -12,10 +12,8 @@ constexpr double kFewestRays = 2.0;   // that can refute a place
 constexpr double kRaysPerHit = 0.5;   // from which on a place is free
 constexpr double kPartingRays = 2.0;  // that keep a gap open
 
-/// The mean point of a bin that holds hits, with a weight below 1, so that one place does not
-/// outvote the others, that grows with the hits, so that one glance does not bend a wall.
+/// The mean point of a bin that holds hits, of its weight.
 PointSums meanPoint(const SupportBin& bin) {
-  constexpr double kHitsOfHalfWeight = 2.0;
   const PointSums& s = bin.returns;
   const double share = 1.0 / (s.w + kHitsOfHalfWeight), per_hit = share / s.w;
   return {share * s.w,         share * s.x,         share * s.y,

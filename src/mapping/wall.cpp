@@ -47,7 +47,7 @@ LateralFit fitOfPiece(const Wall& wall, PointSums sums, double t_first, double t
   return sums.fit();
 }
 
-LineSegment segmentOf(const Wall& wall, const Stretch& stretch, const MapNoise& noise) {
+LineSegment segmentOf(const Wall& wall, const Stretch& stretch) {
   LineSegment s;
   if (stretch.tally.returns.w <= 0.0) return s;
   const PointMoments moments = stretch.tally.returns.moments();
@@ -59,11 +59,6 @@ LineSegment segmentOf(const Wall& wall, const Stretch& stretch, const MapNoise& 
   Eigen::Matrix2d axes;
   axes << wall.direction, wall.normal();
   s.moments = {moments.weight, wall.toMap(moments.mean), axes * moments.scatter * axes.transpose()};
-  // Returns of one scan share its pose error: only new scans make the line better.
-  const double visits = std::max(1.0, wall.visits), spread = moments.scatter(0, 0);
-  s.covariance(0, 0) = noise.offsetVariance() / visits + noise.rangeVariance() / moments.weight;
-  s.covariance(1, 1) = noise.angleVariance() / visits +
-                       (spread > 0.0 ? std::min(1.0, noise.rangeVariance() / spread) : 1.0);
   return s;
 }
 
@@ -161,7 +156,7 @@ void recut(Wall& wall, const MapNoise& noise, std::uint64_t& next_id) {
   std::vector<MapLine> pieces;
   for (const Stretch& stretch : wall.profile.stretches()) {
     MapLine line;
-    line.segment = segmentOf(wall, stretch, noise);
+    line.segment = segmentOf(wall, stretch);
     line.support = line.segment.moments.weight;
     if (line.segment.length() < kShortestLine || line.support < kFewestHits) continue;
     if (isLoose(line.segment, noise)) continue;

@@ -14,7 +14,12 @@ MappingSession::MappingSession(std::unique_ptr<Localiser> localiser, const Setti
       settings_(settings),
       recorder_(recorder),
       execute_(std::move(executor)),
-      line_map_(settings.mapping) {}
+      line_map_(emptyMap()) {}
+
+LineMap MappingSession::emptyMap() const {
+  return LineMap(settings_.mapping,
+                 localiser_->correctsPast() ? LineMap::Poses::kOwn : LineMap::Poses::kGiven);
+}
 
 void MappingSession::beginDrive() {
   compensations_.clear();
@@ -178,7 +183,10 @@ void MappingSession::finish(const DoAll& do_all) {
 }
 
 void MappingSession::mapAsItIs() {
-  if (!localiser_->correctsPast()) return;
+  if (!localiser_->correctsPast()) {
+    execute_([this] { line_map_.lookBack(); });
+    return;
+  }
   takeCorrection();
   rebuild();
 }
@@ -194,7 +202,7 @@ void MappingSession::takeCorrection() {
 
 void MappingSession::rebuild() {
   execute_([this, kept = state_.past.kept(), earlier = localiser_->remembered()] {
-    line_map_ = LineMap(settings_.mapping);
+    line_map_ = emptyMap();
     agreement_ = ScanAgreement();
     if (recorder_) recorder_->restart();
     for (const PastScans::Kept& one : kept) {
@@ -202,6 +210,7 @@ void MappingSession::rebuild() {
       const std::size_t number = is_earlier ? one.step : one.step - earlier;
       insertNow({number, one.sensor, is_earlier, one.T_map_robot, one.scan});
     }
+    line_map_.lookBack();
   });
 }
 

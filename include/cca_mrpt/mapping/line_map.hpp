@@ -5,11 +5,13 @@
 #include <vector>
 
 #include "cca_mrpt/geometry/line_segment.hpp"
+#include "cca_mrpt/mapping/loose_returns.hpp"
 #include "cca_mrpt/mapping/map_arcs.hpp"
 #include "cca_mrpt/mapping/map_clusters.hpp"
 #include "cca_mrpt/mapping/map_corners.hpp"
 #include "cca_mrpt/mapping/map_noise.hpp"
 #include "cca_mrpt/mapping/parameters.hpp"
+#include "cca_mrpt/mapping/wall_network.hpp"
 #include "cca_mrpt/mapping/walls.hpp"
 #include "cca_mrpt/sensing/scan.hpp"
 
@@ -18,7 +20,13 @@ namespace cca {
 /// The incremental line map (the paper's steps 6-7).
 class LineMap {
  public:
-  explicit LineMap(const CcaParameters& parameters = {}) : parameters_(parameters) {}
+  /// Where the poses of the scans come from, for what is known of the lines.
+  enum class Poses {
+    kGiven,  ///< from elsewhere: each errs for itself, by what the lines show
+    kOwn,    ///< from the scans themselves: they err together, see WallNetwork
+  };
+  explicit LineMap(const CcaParameters& parameters = {}, Poses poses = Poses::kGiven)
+      : parameters_(parameters), poses_(poses) {}
 
   /// Takes a scan at its T_map_sensor. Cost does not depend on the size of the map.
   /// @return  false where the pose is not finite or further than 10 000 km from the map's origin:
@@ -27,10 +35,15 @@ class LineMap {
   /// The same with lines (sensor frame, in any order) that were extracted elsewhere.
   bool insert(const Scan& scan, const std::vector<LineSegment>& lines);
 
-  /// The lines as they stand, by rising id; ends that meet share their corner.
+  /// A last look at the whole map: dotted walls among what is left over, and what all lines owe to
+  /// the poses, where these are the map's own. lines() holds both from now on.
+  /// Cost: see LooseReturns::dottedWalls() and WallNetwork::settle().
+  void lookBack();
+
+  /// The lines as they stand, by rising id; ends that meet share their corner. Dotted walls last.
   /// Cost: O(n log n) for n lines, of which none is fitted anew.
   std::vector<MapLine> lines() const;
-  /// The same lines, chained along their corners.
+  /// The same lines but the dotted ones, chained along their corners.
   std::vector<PolyLine> polyLines() const;
   /// Round pillars and curved walls among the same lines; see arcsOfWalls().
   std::vector<MapArc> arcs() const { return arcsOfWalls(walls_.all(), noise_, parameters_); }
@@ -47,6 +60,10 @@ class LineMap {
   CcaParameters parameters_;
   Walls walls_;
   MapNoise noise_;
+  Poses poses_;
+  WallNetwork network_;  ///< of own poses
+  LooseReturns loose_;
+  std::vector<MapLine> dotted_;
   std::uint64_t next_id_ = 1;
 };
 

@@ -21,12 +21,16 @@ class MapNoise {
 
   double offsetVariance() const { return offset_ * offset_; }
   double angleVariance() const { return angle_ * angle_; }
+  /// The same without the least that they are taken to be where lines are compared.
+  double ownOffsetVariance() const { return own_offset_ * own_offset_; }
+  double ownAngleVariance() const { return own_angle_ * own_angle_; }
   double rangeVariance() const { return range_variance_; }
   /// Standard deviation [m] of one return across the wall it belongs to.
   double lateralSigma() const;
 
  private:
   double offset_ = 0.03, angle_ = 0.01;  // a usual localisation, until the data speak
+  double own_offset_ = 0.03, own_angle_ = 0.01;
   double range_variance_ = 0.0;
   double offsets_ = 0.0, angles_ = 0.0, ranges_ = 0.0;
 };

@@ -44,6 +44,10 @@ Memberships mapMemberships(const NewLine& line, const Wall& wall, const MapNoise
 /// Cost: O(1), and O(bins) where the two lie side by side.
 Memberships mapMemberships(const Wall& a, const Wall& b, const MapNoise& noise);
 
+/// m, up to which two faces that look opposite ways are taken for one thin wall: its line may be
+/// that of either, or any between them.
+double mostBetweenFaces(const MapNoise& noise);
+
 /// mu_5 of a place that one wall holds beside hits of another, `off` [m] from the other's line.
 double overlapOfPlace(double off, const MapNoise& noise);
 

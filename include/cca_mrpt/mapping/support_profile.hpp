@@ -31,6 +31,13 @@ struct SupportBin {
   void bound();
 };
 
+/// What the mean point of a bin that holds hits weighs in a fit: below 1, so that one place does
+/// not outvote the others, and more with the hits, so that one glance does not bend a wall.
+inline constexpr double kHitsOfHalfWeight = 2.0;
+inline double weightOf(const SupportBin& bin) {
+  return bin.hits() / (bin.hits() + kHitsOfHalfWeight);
+}
+
 /// Half-open range of bins.
 struct BinRange {
   int first = 0, last = 0;

@@ -14,11 +14,21 @@
 
 namespace cca {
 
+/// What a line of the map is.
+enum class LineKind : std::uint8_t {
+  kWall,    ///< returns all along
+  kDotted,  ///< posts, or a pane that few beams return from: rays pass between
+};
+
 /// One segment of the map, in the map frame.
 struct MapLine {
   std::uint64_t id = 0;  ///< stable while the line exists
-  LineSegment segment;   ///< from start to end the side it was seen from lies on the left
+  /// From start to end the side it was seen from lies on the left; its covariance is that at its
+  /// middle, see covarianceOf().
+  LineSegment segment;
   double support = 0.0;  ///< number of laser returns that it stands on
+  LineKind kind = LineKind::kWall;
+  double share = 1.0;  ///< of its length that returns
 };
 
 /// A straight wall: a frame near it, and what the laser said along it. The map's lines are the
@@ -31,6 +41,10 @@ struct Wall {
   LateralFit fit;
   double visits = 0.0;          ///< new lines that it took in, bounded
   std::vector<MapLine> pieces;  ///< its occupied stretches
+  /// Of the offset [m] at known_at [m along] and the direction [rad], what all scans of it share
+  /// (see WallNetwork).
+  Eigen::Matrix2d pose_covariance = Eigen::Matrix2d::Zero();
+  double known_at = 0.0;
 
   std::vector<WallIndex::Cell> cells;  ///< where the index names this wall
   BinRange indexed;                    ///< the bins that those cells reach

@@ -139,6 +139,7 @@ class MappingSession {
   Estimate repeat();
   Estimate localise(const Measurement& measurement, std::size_t sensor);
   Estimate localiseSecondary(const Measurement& measurement, std::size_t sensor);
+  LineMap emptyMap() const;
   void takeCorrection();
   void rebuild();
   void insert(Scan scan, const Pose2& T_map_robot, std::size_t sensor);
