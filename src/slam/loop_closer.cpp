@@ -71,9 +71,13 @@ void LoopCloser::beginAnywhere(const KeyFrames& frames, int frame, int part) {
 std::vector<GraphEdge> LoopCloser::advance(const KeyFrames& frames, int cells) {
   if (!search_->advance(cells)) return {};
   const auto verdict = search_->verdict(frames);
+  const auto rival = search_->rival(frames);
   search_.reset();
   if (!verdict) return {};
-  const std::vector<GraphEdge> edges = take(frames.graph, *verdict);
+  verdicts_.push_back(*verdict);
+  const bool joins = frames.graph.part(verdict->frame) != frames.graph.part(verdict->candidate);
+  const std::vector<GraphEdge> edges =
+      joins ? takeBetweenParts(frames, *verdict, rival) : take(frames.graph, *verdict);
   // The frame's other visits are of no concern any more.
   if (!edges.empty() && !sought_.empty() && sought_.front().frame == verdict->frame) {
     sought_.pop_front();
@@ -82,7 +86,6 @@ std::vector<GraphEdge> LoopCloser::advance(const KeyFrames& frames, int cells) {
 }
 
 std::vector<GraphEdge> LoopCloser::take(const PoseGraph& graph, const LoopVerdict& verdict) {
-  verdicts_.push_back(verdict);
   if (!isCredible(verdict)) return {};
   const auto second = std::find_if(waiting_.begin(), waiting_.end(), [&](const auto& other) {
     return other.frame != verdict.frame && agree(graph, verdict, other);
@@ -93,6 +96,19 @@ std::vector<GraphEdge> LoopCloser::take(const PoseGraph& graph, const LoopVerdic
   }
   const std::vector<GraphEdge> edges{believed(*second), believed(verdict)};
   waiting_.clear();
+  return edges;
+}
+
+std::vector<GraphEdge> LoopCloser::takeBetweenParts(const KeyFrames& frames,
+                                                    const LoopVerdict& verdict,
+                                                    const std::optional<LoopVerdict>& rival) {
+  placement_.add(frames, verdict);
+  if (rival) placement_.add(frames, *rival);
+  std::vector<GraphEdge> edges;
+  for (const LoopVerdict& loop : placement_.decide(frames, frames.graph.part(verdict.frame),
+                                                   frames.graph.part(verdict.candidate))) {
+    edges.push_back(believed(loop));
+  }
   return edges;
 }
 

@@ -207,23 +207,32 @@ void PlaceSearch::run() {
 
 std::optional<LoopVerdict> PlaceSearch::verdict(const KeyFrames& frames) const {
   if (!best_) return std::nullopt;
+  if (!T_candidate_frame_) return verdictAnywhere(frames, *best_);
   LoopVerdict verdict = known_;
   verdict.score = best_->score;
   verdict.has_rival = search_.found().has_value();
-  if (T_candidate_frame_) {
-    judge(frames, recent_, among_, best_->T_map_query, verdict);
-    verdict.moved = (verdict.T_candidate_frame.position() - T_candidate_frame_->position()).norm();
-    return verdict;
-  }
+  judge(frames, recent_, among_, best_->T_map_query, verdict);
+  verdict.moved = (verdict.T_candidate_frame.position() - T_candidate_frame_->position()).norm();
+  return verdict;
+}
+
+std::optional<LoopVerdict> PlaceSearch::rival(const KeyFrames& frames) const {
+  if (!best_ || !search_.found() || T_candidate_frame_) return std::nullopt;
+  return verdictAnywhere(frames, *search_.found());
+}
+
+LoopVerdict PlaceSearch::verdictAnywhere(const KeyFrames& frames, const SearchResult& there) const {
+  LoopVerdict verdict = known_;
+  verdict.score = there.score;
+  verdict.has_rival = search_.found().has_value();
   // The frame there whose view has most in common.
-  const Pose2& there = best_->T_map_query;
   const auto apart = [&](int k) {
-    return (frames.graph.pose(k).position() - there.position()).norm();
+    return (frames.graph.pose(k).position() - there.T_map_query.position()).norm();
   };
   verdict.candidate = *std::min_element(among_.begin(), among_.end(),
                                         [&](int a, int b) { return apart(a) < apart(b); });
-  judge(frames, recent_, framesInView(frames, verdict.candidate, there, kEarlier),
-        frames.graph.pose(verdict.candidate).inverse() * there, verdict);
+  judge(frames, recent_, framesInView(frames, verdict.candidate, there.T_map_query, kEarlier),
+        frames.graph.pose(verdict.candidate).inverse() * there.T_map_query, verdict);
   return verdict;
 }
 

@@ -46,10 +46,15 @@ constexpr double kLeastInCommon = 0.1;
 /// number without any motion, some seconds.
 constexpr int kLostScans = 3, kLostStanding = 50;
 constexpr double kLostWay = 1.0;  // m; turns on the spot among people contradict, too
+/// m, turns counted: some 80 degrees. Scans that contradict the map and agree by so much with one
+/// another are of one place, and neither of people nor of the floor.
+constexpr double kLostWayOfOnePlace = 2.0, kOfOnePlace = 0.9;
+/// 1/m^2, 1/rad^2; what the wheels say of the step between two of them: to 5 cm and 6 degrees.
+const Eigen::Vector3d kDoubtfulStep(400.0, 400.0, 100.0);
 /// m; a jump is believed after so much way, or this share of what it claims, whatever is more: a
 /// robot that nods on braking sees the floor for a third of a metre. A turn on the spot shows
 /// nothing new.
-constexpr double kLeastWay = 0.5, kWayOfClaim = 0.25;
+constexpr double kLeastWayThere = 0.5, kWayOfClaim = 0.35;
 
 /// m^2, rad^2; variance of the wheels' edge over a jump, the size of the search for it.
 constexpr double kUnknownJump = 1.0;
@@ -235,7 +240,7 @@ bool Slam::isClearlyBetter(const Located& there, const Located& here) const {
 
 bool Slam::isBelieved(const Elsewhere& elsewhere) {
   const int scans = static_cast<int>(elsewhere.T_frame_sensor.size());
-  const double enough = std::max(kLeastWay, kWayOfClaim * elsewhere.claim);
+  const double enough = std::max(kLeastWayThere, kWayOfClaim * elsewhere.claim);
   return scans >= kLostStanding || (scans > 1 && elsewhere.way >= enough);
 }
 
@@ -286,7 +291,7 @@ SlamPose Slam::step(const Scan& scan, const Pose2& T_robot_sensor,
     const MotionBelief backwards = motion_.predict(back);
     const PoseBelief behind = beliefAfter(backwards);
     const Located there = located(surface, behind, behind.mean, kFirstReach);
-    if (there.agreement > found.agreement + kClearlyBetter) {
+    if (isClearlyBetter(there, found)) {
       wheel_step = back;
       motion = backwards;
       prior = behind;
@@ -308,7 +313,7 @@ SlamPose Slam::step(const Scan& scan, const Pose2& T_robot_sensor,
   const MatchResult& match = found.match;
   const Pose2 before = T_map_sensor_;
   const bool is_doubtful =
-      elsewhere_ || (found.agreement < usual_ - kUnlike &&
+      elsewhere_ || (found.agreement < leastAgreement() &&
                      found.in_common > kLeastInCommon * static_cast<double>(surface.points.size()));
   const bool is_matched = match.paired > 0.0 && !is_doubtful;
   T_map_sensor_ = is_matched ? match.T_map_query : prior.mean;
@@ -362,13 +367,41 @@ void Slam::countDoubt(bool is_doubtful, const Pose2& step, const ScanSurface& su
     doubt_ = {};
     return;
   }
+  if (doubt_.surfaces.empty()) {
+    doubt_.usual = usual_;
+  } else {
+    // The wheels alone turn too far off within a radian.
+    const PoseBelief by_wheels{step, kDoubtfulStep.asDiagonal()};
+    const Pose2 matched =
+        matchSurface(surface, step, by_wheels, {{&doubt_.surfaces.back(), Pose2{}}}, kFirstReach)
+            .T_map_query;
+    doubt_.T_first_last = doubt_.T_first_last * matched;
+    const auto agreesWith = [&](const ScanSurface& before, const Pose2& T_before_now) {
+      return mutualSights(before, surface, T_before_now).agreement() > kOfOnePlace;
+    };
+    doubt_.is_of_one_place = doubt_.is_of_one_place &&
+                             agreesWith(doubt_.surfaces.back(), matched) &&
+                             agreesWith(doubt_.surfaces.front(), doubt_.T_first_last);
+  }
   doubt_.surfaces.push_back(surface);
   doubt_.way += step.position().norm();
+  doubt_.way_with_turns += lengthOf(step);
+}
+
+/// Of a scan that is not in doubt. Scans of one place that contradict the map say that the robot is
+/// not where the map has it: no scan ends that doubt that agrees by half with the map.
+double Slam::leastAgreement() const {
+  const bool is_placed_wrongly =
+      static_cast<int>(doubt_.surfaces.size()) >= kLostScans && doubt_.is_of_one_place;
+  return is_placed_wrongly ? doubt_.usual - kNearlyUsual : usual_ - kUnlike;
 }
 
 bool Slam::isLostByDoubt() const {
   const int scans = static_cast<int>(doubt_.surfaces.size());
-  return scans >= kLostStanding || (scans >= kLostScans && doubt_.way >= kLostWay);
+  if (scans >= kLostStanding) return true;
+  return scans >= kLostScans &&
+         (doubt_.way >= kLostWay ||
+          (doubt_.is_of_one_place && doubt_.way_with_turns >= kLostWayOfOnePlace));
 }
 
 int Slam::newFrame(const Scan& scan, const Pose2& T_robot_sensor, ScanSurface surface) {

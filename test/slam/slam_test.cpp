@@ -353,6 +353,21 @@ TEST(Slam, ARobotCarriedInsideItsOwnMapIsLostAndFindsItselfThere) {
   }
 }
 
+TEST(Slam, ACarriedRobotIsLostWhileItTurnsOnTheSpot) {
+  const Drive whole(2.0 * M_PI, 0.1, test::hallWithBlocks(), 12.0);
+  const std::size_t lifted = 575, set_down = 637;  // the wheels silent
+  Slam slam(whole.way.front());
+  for (std::size_t k = 0; k <= lifted; ++k) slam.step(whole.scans[k], {}, whole.wheels[k]);
+  ASSERT_FALSE(slam.isLost());
+  test::WalledWorld world = whole.world;
+  for (int turn = 0; turn < 20; ++turn) {
+    const Pose2 turned{0.0, 0.0, 0.15 * turn};
+    slam.step(world.scan(whole.way[set_down] * turned, 181, 2.0 * M_PI, 0.01, 12.0), {},
+              whole.wheels[lifted] * turned);
+  }
+  EXPECT_TRUE(slam.isLost()) << "all scans are of one place, and it is not here";
+}
+
 TEST(Slam, WheelsThatCountAlikeForwardsAndBackwardsAreSeenThrough) {
   Drive drive(M_PI, 0.4, test::hallWithBlocks());
   std::vector<std::size_t> order;  // towards a wall, back, and on

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "cca_mrpt/slam/loop_closing.hpp"
+#include "cca_mrpt/slam/part_placement.hpp"
 
 namespace cca {
 
@@ -13,8 +14,9 @@ namespace cca {
 /// is nearly as good.
 bool isCredible(const LoopVerdict& verdict);
 
-/// Which of the loops that are found are believed: a credible one waits until a second one, of
-/// another frame, says the same.
+/// Which of the loops that are found are believed: within a part of the graph, a credible one waits
+/// until a second one, of another frame, says the same; what joins two parts is decided by
+/// PartPlacement.
 class LoopCloser {
  public:
   /// The place of a frame will be looked for at earlier visits within its part of the graph, three
@@ -47,11 +49,14 @@ class LoopCloser {
     std::optional<std::vector<RelativeSigma>> candidates;  ///< left, the first one last
   };
   std::vector<GraphEdge> take(const PoseGraph& graph, const LoopVerdict& verdict);
+  std::vector<GraphEdge> takeBetweenParts(const KeyFrames& frames, const LoopVerdict& verdict,
+                                          const std::optional<LoopVerdict>& rival);
   GraphEdge believed(const LoopVerdict& verdict);
 
   std::deque<Sought> sought_;
   std::optional<PlaceSearch> search_;
   std::vector<LoopVerdict> verdicts_, waiting_, loops_;
+  PartPlacement placement_;
 };
 
 /// The graph with the edges of loops. Where they lead to another part, the frame's own part is

@@ -48,8 +48,11 @@ class PlaceSearch {
   void run();
   /// At the end: where it is; nothing where nothing is alike.
   std::optional<LoopVerdict> verdict(const KeyFrames& frames) const;
+  /// At the end of a search anywhere: the place that scores nearly as well, if there is one.
+  std::optional<LoopVerdict> rival(const KeyFrames& frames) const;
 
  private:
+  LoopVerdict verdictAnywhere(const KeyFrames& frames, const SearchResult& there) const;
   PlaceSearch(const LoopVerdict& known, const std::optional<Pose2>& T_candidate_frame,
               std::vector<int> recent, std::vector<int> among, PoseSearch search);
 

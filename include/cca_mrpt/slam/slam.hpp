@@ -122,7 +122,11 @@ class Slam {
   /// Scans that contradict what was seen before, in a row.
   struct Doubt {
     std::vector<ScanSurface> surfaces;
-    double way = 0.0;  ///< m
+    double way = 0.0;             ///< m
+    double way_with_turns = 0.0;  ///< m, a turn by which a key frame is due as the way by which one
+    Pose2 T_first_last;           ///< of these scans
+    bool is_of_one_place = true;  ///< they agree with one another: no people, no floor
+    double usual = 0.0;           ///< agreement of the scans before them
   };
   bool isNewPlace(const Pose2& T_map_sensor, const ScanSurface& surface) const;
   int newFrame(const Scan& scan, const Pose2& T_robot_sensor, ScanSurface surface);
@@ -135,6 +139,7 @@ class Slam {
   SlamPose poseNow(const Pose2& T_robot_sensor, double agreement) const;
   void countDoubt(bool is_doubtful, const Pose2& step, const ScanSurface& surface);
   bool isLostByDoubt() const;
+  double leastAgreement() const;
   bool agreesWithFrame(const ScanSurface& surface, int frame, const Pose2& T_frame_sensor) const;
   std::optional<int> soughtPart(int frame) const;
   int largestPart() const;
