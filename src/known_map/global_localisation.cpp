@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "cca_mrpt/known_map/global_localisation.hpp"
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -31,6 +32,9 @@ constexpr double kCandidateSigma = 0.3, kCandidateTurnSigma = 0.1;  // m, rad
 constexpr double kHopeless = -3.0;                                  // nats, of one view
 constexpr double kBehindBest = 25.0;                                // nats
 constexpr std::size_t kMostHypotheses = 150;
+/// m; places beside the best one, out to twice what the search keeps one place of.
+constexpr double kNeighbourStep = 0.2;
+constexpr int kNeighbourSteps = 5;
 /// Nearer ones are the same place.
 constexpr double kSamePlace = 0.3, kSameTurn = 0.15;  // m, rad
 /// Of a pose that is believed.
@@ -117,7 +121,7 @@ std::optional<GlobalLocalisation::Found> GlobalLocalisation::add(const ScanSurfa
     sortOut();
   }
   work(model, effort);
-  return isSettled() || searched_ ? decided(T_wheels_sensor) : std::nullopt;
+  return isSettled() || searched_ ? decided(T_wheels_sensor, model) : std::nullopt;
 }
 
 bool GlobalLocalisation::isNewView(const Pose2& T_wheels_sensor) const {
@@ -171,7 +175,8 @@ void GlobalLocalisation::work(const SightModel& model, const LocalisationEffort&
   while (!candidates_.empty() && matches_ < effort.matches) {
     const Pose2 next = candidates_.back();
     candidates_.pop_back();
-    takeCandidate(next, model);
+    auto hypothesis = judgedByAll(searching_, next, model);
+    if (hypothesis) hypotheses_.push_back(std::move(*hypothesis));
     searched_ = searched_ || candidates_.empty();
   }
   sortOut();
@@ -226,14 +231,17 @@ void GlobalLocalisation::judgeAfter(std::size_t from, std::size_t to, const Sigh
   }
 }
 
-void GlobalLocalisation::takeCandidate(const Pose2& T_map_sensor, const SightModel& model) {
+/// A place where the sensor may have been at one view, asked of all views; nothing where it is
+/// hopeless.
+std::optional<Hypothesis> GlobalLocalisation::judgedByAll(std::size_t at, const Pose2& T_map_sensor,
+                                                          const SightModel& model) {
   Hypothesis there;
-  judge(views_[searching_], T_map_sensor,
-        beliefOf(T_map_sensor, kCandidateSigma, kCandidateTurnSigma), kCoarse, model, there);
-  if (there.total() < kHopeless) return;
+  judge(views_[at], T_map_sensor, beliefOf(T_map_sensor, kCandidateSigma, kCandidateTurnSigma),
+        kCoarse, model, there);
+  if (there.total() < kHopeless) return std::nullopt;
   Hypothesis earlier = there;
   earlier.evidence.clear();
-  for (std::size_t k = searching_; k > 0; --k) {
+  for (std::size_t k = at; k > 0; --k) {
     const Pose2 step = views_[k].T_wheels_sensor.inverse() * views_[k - 1].T_wheels_sensor;
     const PoseBelief prior = beliefAfter(earlier.T_map_sensor, step);
     judge(views_[k - 1], prior.mean, prior, kCoarse, model, earlier);
@@ -241,8 +249,25 @@ void GlobalLocalisation::takeCandidate(const Pose2& T_map_sensor, const SightMod
   std::reverse(earlier.evidence.begin(), earlier.evidence.end());
   there.seen = earlier.seen;
   there.evidence.insert(there.evidence.begin(), earlier.evidence.begin(), earlier.evidence.end());
-  judgeAfter(searching_, views_.size() - 1, model, there);
-  hypotheses_.push_back(std::move(there));
+  judgeAfter(at, views_.size() - 1, model, there);
+  return there;
+}
+
+/// Along a corridor the place beside the right one fits nearly as well, and the search keeps one of
+/// both: those to either side of the best one, along its weakest direction, are asked as well.
+void GlobalLocalisation::askNeighbours(const SightModel& model) {
+  const Hypothesis best = hypotheses_.front();
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> axes(best.information.topLeftCorner<2, 2>());
+  const Eigen::Vector2d weakest = axes.eigenvectors().col(0);
+  for (int k = -kNeighbourSteps; k <= kNeighbourSteps; ++k) {
+    if (k == 0) continue;
+    Pose2 beside = best.T_map_sensor;
+    beside.x += k * kNeighbourStep * weakest.x();
+    beside.y += k * kNeighbourStep * weakest.y();
+    auto neighbour = judgedByAll(views_.size() - 1, beside, model);
+    if (neighbour) hypotheses_.push_back(std::move(*neighbour));
+  }
+  sortOut();
 }
 
 /// The most likely first; those in one place are one; what is hopeless goes.
@@ -261,16 +286,20 @@ void GlobalLocalisation::sortOut() {
   hypotheses_ = std::move(kept);
 }
 
-std::optional<GlobalLocalisation::Found> GlobalLocalisation::decided(
-    const Pose2& T_wheels_sensor) const {
-  if (hypotheses_.empty()) return std::nullopt;
+bool GlobalLocalisation::standsAlone() const {
+  if (hypotheses_.empty()) return false;
   const Hypothesis& best = hypotheses_.front();
   const double rival = hypotheses_.size() > 1 ? std::max(0.0, hypotheses_[1].total()) : 0.0;
-  if (best.total() < rival + kClear) return std::nullopt;
-  if (best.seen.agreement() < kLeastAgreement ||
-      best.seen.explained < kLeastExplained * best.seen.count()) {
-    return std::nullopt;
-  }
+  return best.total() >= rival + kClear && best.seen.agreement() >= kLeastAgreement &&
+         best.seen.explained >= kLeastExplained * best.seen.count();
+}
+
+std::optional<GlobalLocalisation::Found> GlobalLocalisation::decided(const Pose2& T_wheels_sensor,
+                                                                     const SightModel& model) {
+  if (!standsAlone()) return std::nullopt;
+  askNeighbours(model);
+  if (!standsAlone()) return std::nullopt;
+  const Hypothesis& best = hypotheses_.front();
   const Pose2 since = views_.back().T_wheels_sensor.inverse() * T_wheels_sensor;
   return Found{best.T_map_sensor * since, best.information};
 }

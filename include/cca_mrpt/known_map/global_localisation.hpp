@@ -82,9 +82,12 @@ class GlobalLocalisation {
              const SightModel& model, Hypothesis& hypothesis);
   void judgeAfter(std::size_t from, std::size_t to, const SightModel& model,
                   Hypothesis& hypothesis);
-  void takeCandidate(const Pose2& T_map_sensor, const SightModel& model);
+  std::optional<Hypothesis> judgedByAll(std::size_t at, const Pose2& T_map_sensor,
+                                        const SightModel& model);
+  void askNeighbours(const SightModel& model);
+  bool standsAlone() const;
   void sortOut();
-  std::optional<Found> decided(const Pose2& T_wheels_sensor) const;
+  std::optional<Found> decided(const Pose2& T_wheels_sensor, const SightModel& model);
 
   const PlanLines& plan_;
   LikelihoodPyramid pyramid_;
