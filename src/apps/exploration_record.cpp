@@ -25,6 +25,18 @@ double quantile(std::vector<double> values, double share) {
   return values[static_cast<std::size_t>(at)];
 }
 
+nlohmann::json unreachedJson(const Plan& plan, const Eigen::Vector2d& origin) {
+  nlohmann::json parts = nlohmann::json::array();
+  for (const UnreachedPart& part : plan.unreached) {
+    const Eigen::Vector2d p_map = origin + part.place_map;
+    parts.push_back({{"area_m2", rounded(part.area, 1e2)},
+                     {"x_m", rounded(p_map.x(), 1e2)},
+                     {"y_m", rounded(p_map.y(), 1e2)},
+                     {"may_be_passable", part.may_be_passable}});
+  }
+  return parts;
+}
+
 }  // namespace
 
 ExplorationRecord::ExplorationRecord(const Simulation& simulation, const Eigen::Vector2d& origin,
@@ -112,7 +124,9 @@ nlohmann::ordered_json ExplorationRecord::summary(const Simulation& simulation,
   summary["wall_s"] = rounded(end.wall_s, 1e3);
   const auto seen = coverage_.sofar();
   summary["coverage"] = seen ? nlohmann::json(rounded(*seen, 1e6)) : nullptr;  // nobody waited
-  summary["unreached_m2"] = rounded(end.unreached, 1e2);
+  summary["coverage_of"] = "what a laser sees from where the robot gets to, by its radius";
+  summary["unreached_m2"] = rounded(end.plan.unreachedArea(), 1e2);
+  summary["unreached"] = unreachedJson(end.plan, origin_);
   summary["agreement"] = rounded(mapping.agreement().overall(), 1e5);
   summary["goals"] = goals_;
   summary["collisions"] = simulation.collisions();

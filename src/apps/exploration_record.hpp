@@ -10,6 +10,7 @@
 #include "cca_mrpt/io/rawlog_writer.hpp"
 #include "cca_mrpt/io/replay.hpp"
 #include "cca_mrpt/io/scan_grid.hpp"
+#include "cca_mrpt/navigation/goals/global_planner.hpp"
 #include "cca_mrpt/session/exploration_session.hpp"
 #include "cca_mrpt/simulation/coverage.hpp"
 #include "cca_mrpt/simulation/simulation.hpp"
@@ -25,10 +26,8 @@ class ExplorationRecord : public MapRecorder {
     bool finished = false;
     std::string reason;
     double wall_s = 0.0;
-    /// m^2 in view at the end where the robot could stand, and no way was found to.
-    double unreached = 0.0;
+    Plan plan;                 ///< the last one
     bool leaves_much = false;  ///< see Explorer::leavesMuch()
-    bool gave_up = false;      ///< see Plan
   };
 
   /// Names of the files of its own, beside those of a map.

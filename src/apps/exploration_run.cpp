@@ -120,7 +120,7 @@ bool ExplorationRun::hasEnded(const Action& action) {
   }
   if (action.status != ExplorationStatus::kFinished) return false;
   const Plan& plan = session_.explorer().planner().plan();
-  end_ = {true, action.reason, 0.0, plan.unreached, session_.explorer().leavesMuch(), plan.gave_up};
+  end_ = {true, action.reason, 0.0, plan, session_.explorer().leavesMuch()};
   return true;
 }
 
@@ -181,9 +181,10 @@ std::string ExplorationRun::shortcomings() const {
     std::snprintf(part, sizeof part, "%d contacts with what stands", simulation_.collisions());
     tell(part);
   }
-  if (end_.gave_up) tell(end_.reason);
+  if (end_.plan.gave_up) tell(end_.reason);
   if (end_.leaves_much) {
-    std::snprintf(part, sizeof part, "%.1f m^2 in view that no way was found to", end_.unreached);
+    std::snprintf(part, sizeof part, "%.1f m^2 in view that the robot may fit through to",
+                  end_.plan.passableArea());
     tell(part);
   }
   tell(contradiction(session_.mapping().agreement()));

@@ -78,7 +78,7 @@ const char* nameOf(ExplorationStatus status) {
 Explorer::Explorer(const RobotParameters& robot, const ExplorerParameters& parameters)
     : parameters_(parameters),
       robot_(robot),
-      planner_(parameters, robot.leastClearance()),
+      planner_(parameters, robot.leastClearance(), robot.radius),
       tangent_bug_(robot),
       progress_(robot) {}
 
@@ -346,7 +346,7 @@ bool Explorer::leavesMuch() const {
   const double side = grid().resolution();
   const double seen = static_cast<double>(grid().revealed()) * side * side;
   return planner_.plan().isFinished() &&
-         planner_.plan().unreached > std::max(kMuchUnreached, kMuchOfAll * seen);
+         planner_.plan().passableArea() > std::max(kMuchUnreached, kMuchOfAll * seen);
 }
 
 }  // namespace cca

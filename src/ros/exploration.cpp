@@ -180,8 +180,8 @@ void Exploration::finish(const ros::Time& stamp) {
   const Explorer& explorer = session_->explorer();
   if (explorer.planner().plan().gave_up) ROS_WARN("%s", explorer.planner().plan().reason.c_str());
   if (explorer.leavesMuch()) {
-    ROS_WARN("%.1f m^2 in view were not reached: no way was found to them",
-             explorer.planner().plan().unreached);
+    ROS_WARN("%.1f m^2 in view were not reached, though the robot may fit through to them",
+             explorer.planner().plan().passableArea());
   }
   if (settings_.save_at_end) saver_.saveSoon();
 }
@@ -193,7 +193,7 @@ MapProducts Exploration::products() const {
   products.summary["finished"] = finished_ && !failed_;
   products.summary["agreement"] = agreement().overall();
   products.summary["reason"] = state_;
-  products.summary["unreached_m2"] = session_->explorer().planner().plan().unreached;
+  products.summary["unreached_m2"] = session_->explorer().planner().plan().unreachedArea();
   products.summary.update(notes_);
   return products;
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
 #include <cstdio>
+#include <numeric>
 #include <queue>
 #include <stdexcept>
 
@@ -38,12 +39,49 @@ std::vector<int> brushFire(const World& world) {
   return steps;
 }
 
+/// The largest of the connected regions of the cells that are `least` steps from all obstacles.
+std::vector<std::size_t> largestRegion(const World& world, const std::vector<int>& steps,
+                                       double least) {
+  const int width = world.width(), height = world.height();
+  std::vector<bool> is_taken(steps.size(), false);
+  std::vector<std::size_t> largest, region;
+  for (std::size_t first = 0; first < steps.size(); ++first) {
+    if (is_taken[first] || steps[first] < least) continue;
+    region.assign(1, first);
+    is_taken[first] = true;
+    for (std::size_t next = 0; next < region.size(); ++next) {
+      const int ix = static_cast<int>(region[next]) % width;
+      const int iy = static_cast<int>(region[next]) / width;
+      for (int y = std::max(iy - 1, 0); y <= std::min(iy + 1, height - 1); ++y) {
+        for (int x = std::max(ix - 1, 0); x <= std::min(ix + 1, width - 1); ++x) {
+          const std::size_t there = static_cast<std::size_t>(y) * width + x;
+          if (is_taken[there] || steps[there] < least) continue;
+          is_taken[there] = true;
+          region.push_back(there);
+        }
+      }
+    }
+    if (region.size() > largest.size()) largest = region;
+  }
+  return largest;
+}
+
 }  // namespace
 
 Pose2 defaultStart(const World& world, double radius) {
   if (world.start) return *world.start;
   const std::vector<int> steps = brushFire(world);
-  const auto widest = std::max_element(steps.begin(), steps.end()) - steps.begin();
+  // An obstacle so many steps away begins half a cell nearer.
+  std::vector<std::size_t> region =
+      largestRegion(world, steps, std::max(1.0, radius / world.resolution() + 0.5));
+  if (region.empty()) {
+    region.resize(steps.size());
+    std::iota(region.begin(), region.end(), std::size_t{0});
+  }
+  std::sort(region.begin(), region.end());
+  const auto widest = static_cast<int>(
+      *std::max_element(region.begin(), region.end(),
+                        [&](std::size_t a, std::size_t b) { return steps[a] < steps[b]; }));
   const Eigen::Vector2d p =
       world.origin() +
       world.resolution() * Eigen::Vector2d(static_cast<double>(widest % world.width()) + 0.5,

@@ -445,20 +445,42 @@ TEST(Explorer, GivesUpGoalsThatARobotWhichCannotMoveDoesNotReach) {
   EXPECT_EQ(action.status, ExplorationStatus::kFinished);
 }
 
-// Glass across one of two doors: the laser sees through, the robot gets no farther.
-// Behind windows too narrow to pass.
+/// Of half the width: each row of squares becomes two, of which the second is wall where the first
+/// has a window in the sixth column.
+KnownWorld slits(const KnownWorld& windows) {
+  KnownWorld slits{{}, windows.scale / 2};
+  for (const std::string& row : windows.rows) {
+    std::string wide;
+    for (const char square : row) wide += std::string(2, square);
+    slits.rows.push_back(wide);
+    slits.rows.push_back(wide.replace(10, 2, "##"));
+  }
+  return slits;
+}
+
+// Behind windows as wide as the robot: the planner keeps more. No robot of its size passes slits.
 TEST(Explorer, TellsWhereMuchInViewWasNotReached) {
   const KnownWorld windows{{"##################", "#....#...........#", "#................#",
                             "#....#...........#", "#................#", "#....#...........#",
                             "#................#", "#....#...........#", "##################"},
                            10};
-  for (const KnownWorld* world : {&windows, &kRooms}) {
+  const KnownWorld narrow = slits(windows);
+  for (const KnownWorld* world : {&windows, &narrow, &kRooms}) {
     Driver driver({}, *world);
     EXPECT_FALSE(driver.explorer.leavesMuch()) << "before it has finished";
     while (driver.time < 600.0 && driver.step().status != ExplorationStatus::kFinished) {
     }
     EXPECT_LT(driver.time, 600.0);
     EXPECT_EQ(driver.explorer.leavesMuch(), world == &windows);
+    const Plan& plan = driver.explorer.planner().plan();
+    if (world == &kRooms) {
+      EXPECT_LT(plan.unreachedArea(), 0.5);
+      continue;
+    }
+    ASSERT_FALSE(plan.unreached.empty());
+    EXPECT_GT(plan.unreached.front().area, 5.0);
+    EXPECT_GT(plan.unreached.front().place_map.x(), 3.0) << "in the room behind";
+    EXPECT_EQ(plan.unreached.front().may_be_passable, world == &windows);
   }
 }
 

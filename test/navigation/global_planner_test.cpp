@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cstdio>
+
 #include "cca_mrpt/navigation/place/grid_paths.hpp"
 #include "known_world.hpp"
 
@@ -61,7 +63,7 @@ TEST_P(EveryStrategy, SeesTwoRoomsToTheLastSquareAndFinishes) {
   const Drive d = drive(planner, kTwoRooms, {1.0, 1.0});
   EXPECT_TRUE(d.last.isFinished());
   EXPECT_EQ(d.last.reason, "no reachable frontier of useful size is left");
-  EXPECT_LT(d.last.unreached, 0.1);
+  EXPECT_LT(d.last.unreachedArea(), 0.1);
   int unseen = 0;
   for (int y = 0; y < kTwoRooms.height(); ++y) {
     for (int x = 0; x < kTwoRooms.width(); ++x) {
@@ -74,6 +76,22 @@ TEST_P(EveryStrategy, SeesTwoRoomsToTheLastSquareAndFinishes) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Strategies, EveryStrategy, ::testing::ValuesIn(kStrategyNames));
+
+TEST(GlobalPlanner, ReasonsSayWhatAGoalPromisesWhereAndHowFarItIs) {
+  GlobalPlanner planner;
+  const Eigen::Vector2d robot(1.2, 1.2);
+  const Plan plan = update(planner, kTwoRooms.scanFrom({robot.x(), robot.y(), 0.0}, 4.0), robot);
+  ASSERT_EQ(plan.phase, PlanPhase::kDriving);
+  double area = 0.0, x = 0.0, y = 0.0, way = 0.0;
+  EXPECT_EQ(std::sscanf(plan.reason.c_str(), "%lf m^2 behind (%lf, %lf), %lf m away; ", &area, &x,
+                        &y, &way),
+            4)
+      << plan.reason;
+  EXPECT_GT(area, 0.05);
+  EXPECT_NEAR(x, plan.look_at.x(), 0.051);
+  EXPECT_NEAR(y, plan.look_at.y(), 0.051);
+  EXPECT_NEAR(way, (plan.path.back() - robot).norm(), 2.0);
+}
 
 TEST(GlobalPlanner, FinishesAtOnceWhereAllIsInSight) {
   const KnownWorld room{{"######", "#....#", "#....#", "#....#", "######"}, 10};
@@ -125,7 +143,7 @@ TEST(GlobalPlanner, LooksAtLastAsFarAsItCanWhereItCannotGo) {
   EXPECT_TRUE(drive(planner, window, {1.4, 1.125}).last.isFinished());
   EXPECT_EQ(planner.place().grid().at(planner.place().grid().cellOf({5.15, 1.126})),
             CellState::kFree);
-  EXPECT_GT(planner.plan().unreached, 0.5);
+  EXPECT_GT(planner.plan().unreachedArea(), 0.5);
 }
 
 // It would take some calls to ask all places again.
@@ -166,7 +184,7 @@ TEST(GlobalPlanner, WhereItIsHeldGivesUpAfterSixGoals) {
   const Scan scan = window.scanFrom({robot.x(), robot.y(), 0.0}, 8.0);
   int given_up = 0;
   for (int k = 0; k < 100 && !update(planner, scan, robot).isFinished(); ++k) {
-    given_up += planner.plan().reason == "to see what is left";
+    given_up += planner.plan().phase == PlanPhase::kDriving;
     planner.setGoalAside();
   }
   EXPECT_TRUE(planner.plan().isFinished());

@@ -187,6 +187,25 @@ TEST(World, ClearanceIsTheDistanceToTheNearestObstacleCell) {
   EXPECT_EQ(world.clearance({2.5, NAN}, 0.3), 0.0);
 }
 
+// 40 x 20 squares of half a metre. The widest place of all is shut in, or behind a slit of 40 cm.
+TEST(DefaultStart, LiesInTheLargestRegionThatTheRobotCanDriveIn) {
+  constexpr int kWidth = 400, kHeight = 200;
+  for (const int slit : {0, 8}) {
+    std::vector<unsigned char> cells(std::size_t{kWidth} * kHeight, 0);
+    const auto occupy = [&](int ix, int iy) {
+      cells[static_cast<std::size_t>(iy) * kWidth + static_cast<std::size_t>(ix)] = 1;
+    };
+    for (int iy = 0; iy < kHeight; ++iy) {
+      if (iy < 100 || iy >= 100 + slit) occupy(120, iy);
+      for (int ix = 160; ix < kWidth; ix += 40) {
+        if (iy % 40 < 20) occupy(ix, iy);  // pillars: what is large is narrower
+      }
+    }
+    const World world("rooms", kWidth, kHeight, cells, 0.05, {0.0, 0.0});
+    EXPECT_GT(defaultStart(world, 0.25).x, 120 * 0.05) << "slit of " << slit << " cells";
+  }
+}
+
 TEST(DefaultStart, IsTheWidestPlaceAndRefusesWorldsTooNarrow) {
   const World world("free", 101, 61, std::vector<unsigned char>(101 * 61, 0), 0.05, {1.0, 2.0});
   const Pose2 start = defaultStart(world, 0.25);

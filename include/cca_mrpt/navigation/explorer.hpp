@@ -139,8 +139,9 @@ class Explorer {
   const ShownMotion& shownMotion() const { return tangent_bug_.motion().shown(); }
   const ExplorationGrid& grid() const { return planner_.place().grid(); }
   const GlobalPlanner& planner() const { return planner_; }
-  /// Whether it has finished although much is in view that no way leads to: places where the robot
-  /// could stand of a square metre at least, and of a twentieth of all that was seen.
+  /// Whether it has finished although a way that the robot's own radius may admit leads to much
+  /// that is in view: a square metre at least, and a twentieth of all that was seen. What no robot
+  /// of its size gets to is not missing.
   bool leavesMuch() const;
 
  private:

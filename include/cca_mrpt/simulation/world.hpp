@@ -72,8 +72,9 @@ class World {
 /// @throws std::runtime_error naming file, key and what is allowed.
 World loadWorld(const std::string& yaml_path);
 
-/// Where a robot starts when nobody says: the world's own start, else the cell farthest from all
-/// obstacles (the lowest, then leftmost of equals), facing along x.
+/// Where a robot starts when nobody says: the world's own start, else, of the largest region that
+/// the robot can drive in, the cell farthest from all obstacles (the lowest, then leftmost of
+/// equals), facing along x.
 /// @throws std::runtime_error where no place has a clearance of `radius`.
 Pose2 defaultStart(const World& world, double radius);
 

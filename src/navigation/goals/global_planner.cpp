@@ -2,6 +2,7 @@
 #include "cca_mrpt/navigation/goals/global_planner.hpp"
 
 #include <algorithm>
+#include <sstream>
 #include <utility>
 
 namespace cca {
@@ -15,8 +16,22 @@ constexpr double kLongestInVain = 100.0;         // m, and once around what is k
 
 }  // namespace
 
-GlobalPlanner::GlobalPlanner(const GlobalPlannerParameters& parameters, double clearance)
+double Plan::unreachedArea() const {
+  double area = 0.0;
+  for (const UnreachedPart& part : unreached) area += part.area;
+  return area;
+}
+
+double Plan::passableArea() const {
+  double area = 0.0;
+  for (const UnreachedPart& part : unreached) area += part.may_be_passable ? part.area : 0.0;
+  return area;
+}
+
+GlobalPlanner::GlobalPlanner(const GlobalPlannerParameters& parameters, double clearance,
+                             double radius)
     : parameters_(parameters),
+      radius_(radius),
       place_(clearance),
       view_search_(parameters.smallest_gain, parameters.smallest_frontier, parameters.worth),
       unpaid_way_(parameters.worth) {}
@@ -111,7 +126,7 @@ void GlobalPlanner::decide(const Eigen::Vector2d& robot_map) {
     do {
       place_.findWays(robot_map);
       if (const auto chosen = bestFrontier())
-        return driveTo(*chosen, robot_map, "to see what is behind a frontier");
+        return driveTo(*chosen, robot_map, promiseOf(*chosen) + ", at a frontier");
       if (search(robot_map)) return;
     } while (!place_.isHeld() && place_.open());  // where it is held it gets nowhere from here
   }
@@ -120,9 +135,16 @@ void GlobalPlanner::decide(const Eigen::Vector2d& robot_map) {
     lookAround();
     return;
   }
+  finish(robot_map);
+}
+
+// What was not reached is found out once for what was seen.
+void GlobalPlanner::finish(const Eigen::Vector2d& robot_map) {
   plan_.phase = PlanPhase::kFinished;
   place_.findWays(robot_map);
-  plan_.unreached = place_.unreached();
+  if (std::exchange(unreached_then_, grid().revealed()) != grid().revealed())
+    unreached_ = unreachedParts(place_, robot_map, radius_);
+  plan_.unreached = unreached_;
   const auto given_up = whyGivenUp();
   plan_.gave_up = given_up.has_value();
   plan_.reason = given_up.value_or(view_search_.whatIsLeft());
@@ -152,7 +174,7 @@ std::optional<std::string> GlobalPlanner::whyGivenUp() const {
 
 /// A goal that there is no way to is set aside; the next step decides anew.
 void GlobalPlanner::driveTo(const ViewPoint& chosen, const Eigen::Vector2d& robot_map,
-                            const char* reason) {
+                            const std::string& reason) {
   if (!goal_ || goal_->target != chosen.target) ++goals_;
   goal_ = chosen;
   plan_.look_at = grid().centreOf(chosen.target);
@@ -183,13 +205,34 @@ std::optional<ViewPoint> GlobalPlanner::bestFrontier() const {
   return best;
 }
 
+/// For people. Its place is that in the map frame.
+std::string GlobalPlanner::promiseOf(const ViewPoint& view) const {
+  const Eigen::Vector2d p_map = grid().centreOf(view.target);
+  std::ostringstream text;
+  text.setf(std::ios::fixed);
+  text.precision(2);
+  text << view.expected << " m^2";
+  text.precision(1);
+  text << " behind (" << p_map.x() << ", " << p_map.y() << "), " << view.distance << " m away";
+  return text.str();
+}
+
 // Where no place promises much, all that is left is seen in a tour.
-ViewPoint GlobalPlanner::nextStop(const ViewPoint& best) {
-  if (parameters_.strategy != Strategy::kViewTour) return best;
-  if (scoreOf(parameters_.strategy, best) >= kPromising)
-    return view_search_.inPassing(place_, openOnes(), best).value_or(best);
+GlobalPlanner::Choice GlobalPlanner::nextStop(const ViewPoint& best) {
+  const auto other = view_search_.nextBest(place_, parameters_.strategy, openOnes(), best);
+  const std::string next =
+      other ? "next best " + promiseOf(*other) : "nothing else is worth its way";
+  if (parameters_.strategy != Strategy::kViewTour) return {best, next};
+  if (scoreOf(parameters_.strategy, best) >= kPromising) {
+    const auto passed = view_search_.inPassing(place_, openOnes(), best);
+    return passed ? Choice{*passed, "in passing, on the way to " + promiseOf(best)}
+                  : Choice{best, next};
+  }
   const auto present = isGoalUnseen() ? std::optional<Cell>(goal_->target) : std::nullopt;
-  return firstOfTour(place_, view_search_.stops(place_, openOnes()), present).value_or(best);
+  const auto stops = view_search_.stops(place_, openOnes());
+  const auto first = firstOfTour(place_, stops, present);
+  if (!first) return {best, next};
+  return {*first, "first of a tour of " + std::to_string(stops.size()) + " stops"};
 }
 
 // The best of all places.
@@ -197,11 +240,14 @@ bool GlobalPlanner::search(const Eigen::Vector2d& robot_map) {
   if (place_.isHeld()) return false;
   const auto chosen = view_search_.next(place_, parameters_.strategy, openOnes());
   if (chosen) {
-    driveTo(nextStop(*chosen), robot_map, "to see what is left");
+    const Choice choice = nextStop(*chosen);
+    driveTo(choice.view, robot_map, promiseOf(choice.view) + "; " + choice.found);
   } else if (!view_search_.isUnderWay()) {
     return false;
   } else if (isGoalUnseen() && place_.ways().isReached(goal_->cell)) {
-    driveTo(ViewPoint(*goal_), robot_map, "to see what is left");
+    ViewPoint same = *goal_;
+    same.distance = place_.ways().distanceTo(same.cell);
+    driveTo(same, robot_map, promiseOf(same) + "; what else is left is being found out");
   } else {
     goal_.reset();
     plan_.reason = "to find out what is left to see";

@@ -15,6 +15,7 @@ constexpr std::size_t kWorthAskingAgain = 200;  // cells newly seen: half a squa
 constexpr double kMostExpected = 10.0;          // m^2, that any place may show
 constexpr std::size_t kMostStops = 12;          // of a tour: some 1 ms
 constexpr double kMostDetour = 1.0;             // m, for what is seen in passing
+constexpr double kElsewhere = 2.0;              // m, a frontier's length: what is another goal
 constexpr double kAtHand = 0.2;                 // m, that a look costs at least, a block's length
 constexpr double kNone = -std::numeric_limits<double>::infinity();
 
@@ -66,6 +67,17 @@ bool ViewSearch::canBeSeen(const KnownPlace& place, Cell target) const {
     return place.ways().isReached(view.cell) &&
            isInView(place.grid(), view.cell, target, place.laserRange());
   });
+}
+
+std::optional<ViewPoint> ViewSearch::nextBest(const KnownPlace& place, Strategy strategy,
+                                              const Filter& filter, const ViewPoint& chosen) const {
+  const ViewPoint* best = nullptr;
+  for (const ViewPoint& view : found_) {
+    const double apart = distanceBetween(view.target, chosen.target) * place.grid().resolution();
+    if (apart < kElsewhere || !isWorthItsWay(view, filter)) continue;
+    if (!best || scoreOf(strategy, view) > scoreOf(strategy, *best)) best = &view;
+  }
+  return best ? std::optional<ViewPoint>(*best) : std::nullopt;
 }
 
 std::string ViewSearch::whatIsLeft() const {

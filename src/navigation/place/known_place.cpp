@@ -109,16 +109,4 @@ CellSet KnownPlace::openings(std::size_t smallest_frontier) const {
   return openings;
 }
 
-double KnownPlace::unreached() const {
-  int cells = 0;
-  const Cell low = FreeSpace::blockOf(grid_.lowest()), high = FreeSpace::blockOf(grid_.highest());
-  for (int y = low.y; y <= high.y; ++y) {
-    for (int x = low.x; x <= high.x; ++x) {
-      FreeSpace::eachCell({x, y}, space_.traversableCells({x, y}),
-                          [&](Cell c) { cells += !ways_.isReached(c); });
-    }
-  }
-  return cells * grid_.resolution() * grid_.resolution();
-}
-
 }  // namespace cca

@@ -11,6 +11,7 @@
 #include "cca_mrpt/navigation/goals/view_search.hpp"
 #include "cca_mrpt/navigation/goals/view_tour.hpp"
 #include "cca_mrpt/navigation/place/known_place.hpp"
+#include "cca_mrpt/navigation/place/unreached_parts.hpp"
 
 namespace cca {
 
@@ -40,12 +41,15 @@ struct Plan {
   std::vector<Eigen::Vector2d> path;
   Eigen::Vector2d look_at = Eigen::Vector2d::Zero();  ///< m, map frame: what the goal is to show
   std::string reason;
-  /// m^2, where finished: places in view at which the robot could stand, had it found a way there.
-  double unreached = 0.0;
+  /// Where finished: what is in view where the robot could stand, had it found a way there.
+  std::vector<UnreachedPart> unreached;
   /// Where finished: not for lack of goals, but because the robot did not get on.
   bool gave_up = false;
 
   bool isFinished() const { return phase == PlanPhase::kFinished; }
+  /// m^2, of all that is unreached, or of that which the robot's radius may admit a way to.
+  double unreachedArea() const;
+  double passableArea() const;
 };
 
 /// The paper's global planner (Step 0): keeps what is known of the place, and sets one goal after
@@ -58,7 +62,9 @@ struct Plan {
 class GlobalPlanner {
  public:
   /// @param clearance  m, kept from known obstacles.
-  explicit GlobalPlanner(const GlobalPlannerParameters& parameters = {}, double clearance = 0.30);
+  /// @param radius     m, of the robot: what it may pass, were there need.
+  explicit GlobalPlanner(const GlobalPlannerParameters& parameters = {}, double clearance = 0.30,
+                         double radius = 0.25);
 
   /// Takes a scan, and decides anew where that is due. Cost: cells crossed by the scan; a decision
   /// costs O(known blocks) for the ways, and a bounded number of view points.
@@ -118,14 +124,23 @@ class GlobalPlanner {
   bool isWithinLimits(Cell c) const;
   std::optional<ViewPoint> bestFrontier() const;
   void lookAround();
-  ViewPoint nextStop(const ViewPoint& best);
+  /// A place to go to, and how it was found: for people.
+  struct Choice {
+    ViewPoint view;
+    std::string found;
+  };
+  Choice nextStop(const ViewPoint& best);
+  std::string promiseOf(const ViewPoint& view) const;
   bool search(const Eigen::Vector2d& robot_map);
   void dropGoal(Failure failure, std::optional<Cell> held_at = {});
+  void finish(const Eigen::Vector2d& robot_map);
   bool drivesInVain() const;
   std::optional<std::string> whyGivenUp() const;
-  void driveTo(const ViewPoint& chosen, const Eigen::Vector2d& robot_map, const char* reason);
+  void driveTo(const ViewPoint& chosen, const Eigen::Vector2d& robot_map,
+               const std::string& reason);
 
   GlobalPlannerParameters parameters_;
+  double radius_;
   KnownPlace place_;
   ViewSearch view_search_;
   Polygon limits_;  ///< map frame
@@ -135,6 +150,8 @@ class GlobalPlanner {
   std::optional<ViewPoint> goal_;
   Eigen::Vector2d decided_at_ = Eigen::Vector2d::Zero();
   std::size_t revealed_then_ = 0;  ///< at the last decision
+  std::vector<UnreachedPart> unreached_;
+  std::optional<std::size_t> unreached_then_;  ///< cells seen when that was found
   int goals_ = 0;
   Plan plan_;
 };

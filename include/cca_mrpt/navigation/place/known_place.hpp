@@ -90,10 +90,6 @@ class KnownPlace {
     return shortestPath(space_, grid_.resolution(), ways_, goal);
   }
 
-  /// m^2: where the robot could stand as far as is known, and no way was last found to. Cost:
-  /// O(cells between the corners of what is known / 16).
-  double unreached() const;
-
   /// See FrontierCells::frontiers(); those longer than 2 m are several.
   std::vector<Frontier> frontiers() const { return frontier_cells_.frontiers(kFrontierExtent); }
   /// The cells of all frontiers of at least so many cells: a small one may be a missing cell of a
