@@ -29,6 +29,9 @@ constexpr double kLeastWayAmongLikes = 5.0;
 /// drives; intel and seattle, cut in two), the like of a room by .03 and more once the robot has
 /// left it. A rival has to be contradicted by so many times as much, and by this more.
 constexpr double kMostContradicted = 0.02, kTimesMore = 3.0, kMore = 0.005;
+/// The same where nothing else is like it: glass and what has been moved contradict a whole visit
+/// of a museum (fhw, cut in two) by .13.
+constexpr double kMostContradictedAlone = 0.15;
 /// A hypothesis that puts the part beside what was seen is contradicted by nothing, and is no rival
 /// of one with this many times as much in common.
 constexpr double kMoreInCommon = 2.0;
@@ -138,7 +141,7 @@ std::vector<LoopVerdict> PartPlacement::decide(const KeyFrames& frames, int part
   }
   for (const Judged& best : judged) {
     const std::vector<LoopVerdict>& loops = best.hypothesis->loops;
-    if (contradicted(best.sights) > kMostContradicted) continue;
+    if (contradicted(best.sights) > kMostContradictedAlone) continue;
     const auto second = std::find_if(loops.begin(), loops.end(), [&](const LoopVerdict& loop) {
       return loop.frame != loops.back().frame;
     });
@@ -150,7 +153,9 @@ std::vector<LoopVerdict> PartPlacement::decide(const KeyFrames& frames, int part
       has_like = true;
       stands_alone = stands_alone && isRefutedBy(best.sights, other.sights);
     }
-    if (stands_alone && (!has_like || way >= kLeastWayAmongLikes)) return {*second, loops.back()};
+    const bool is_clear = contradicted(best.sights) <= kMostContradicted;
+    const bool is_enough = !has_like || (is_clear && way >= kLeastWayAmongLikes);
+    if (stands_alone && is_enough) return {*second, loops.back()};
   }
   return {};
 }
