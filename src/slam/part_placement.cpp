@@ -29,9 +29,10 @@ constexpr double kLeastWayAmongLikes = 5.0;
 /// drives; intel and seattle, cut in two), the like of a room by .03 and more once the robot has
 /// left it. A rival has to be contradicted by so many times as much, and by this more.
 constexpr double kMostContradicted = 0.02, kTimesMore = 3.0, kMore = 0.005;
-/// The same where nothing else is like it: glass and what has been moved contradict a whole visit
-/// of a museum (fhw, cut in two) by .13.
-constexpr double kMostContradictedAlone = 0.15;
+/// The same where nothing else is like it, and loops so far apart [m] say the same: glass and what
+/// has been moved contradict a whole visit of a museum (fhw, cut in two) by .13, and a room and its
+/// like end before that: 5 m is the longer side of a usual room.
+constexpr double kMostContradictedAlone = 0.15, kFarApart = 5.0;
 /// A hypothesis that puts the part beside what was seen is contradicted by nothing, and is no rival
 /// of one with this many times as much in common.
 constexpr double kMoreInCommon = 2.0;
@@ -112,7 +113,9 @@ void PartPlacement::add(const KeyFrames& frames, const LoopVerdict& found) {
     if (graph.part(known.frame) != part || graph.part(known.candidate) != other_part) continue;
     if (!putAlike(graph, found, known, kSamePlace, kSameTurn)) continue;
     hypothesis.loops.push_back(found);
-    if (hypothesis.loops.size() > kLoopsOfEach) hypothesis.loops.erase(hypothesis.loops.begin());
+    // The first one stays: it tells how far the place has held.
+    if (hypothesis.loops.size() > kLoopsOfEach)
+      hypothesis.loops.erase(hypothesis.loops.begin() + 1);
     return;
   }
   hypotheses_.push_back({{found}});
@@ -154,7 +157,10 @@ std::vector<LoopVerdict> PartPlacement::decide(const KeyFrames& frames, int part
       stands_alone = stands_alone && isRefutedBy(best.sights, other.sights);
     }
     const bool is_clear = contradicted(best.sights) <= kMostContradicted;
-    const bool is_enough = !has_like || (is_clear && way >= kLeastWayAmongLikes);
+    const double apart =
+        (graph.pose(second->frame).position() - graph.pose(loops.back().frame).position()).norm();
+    const bool is_enough =
+        has_like ? is_clear && way >= kLeastWayAmongLikes : is_clear || apart >= kFarApart;
     if (stands_alone && is_enough) return {*second, loops.back()};
   }
   return {};
