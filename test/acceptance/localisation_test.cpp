@@ -8,6 +8,7 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <filesystem>
 
@@ -119,7 +120,8 @@ TEST(Localisation, InAPlanWithoutItsFurnitureIsToThreeCentimetres) {
   }
 }
 
-// No pose in a map is better than the map: that of line SLAM with this laser is 3 cm off itself.
+// To three centimetres, or as good as the map: that of line SLAM with this laser may be 3 cm off
+// itself, and no pose in it is better.
 TEST(Localisation, InTheMapOfAnEarlierDriveIsAsGoodAsTheMap) {
   const double seconds = isLong() ? 200.0 : 90.0;
   for (const std::string& name : worlds()) {
@@ -129,7 +131,7 @@ TEST(Localisation, InTheMapOfAnEarlierDriveIsAsGoodAsTheMap) {
     const Errors errors = tracked(drive, map.lines);
     report(errors, name + ", own map");
     std::printf("%-34s rms %.4f m\n", (name + ", that map itself").c_str(), map.rms);
-    EXPECT_LE(errors.rms, map.rms + 0.01) << name;
+    EXPECT_LE(errors.rms, std::max(0.03, map.rms + 0.01)) << name;
     EXPECT_LE(errors.worst, kWorst) << name;
     EXPECT_EQ(errors.lost + errors.unknown, 0) << name;
     startAnywhere(drive, map.lines, name + ", own map");

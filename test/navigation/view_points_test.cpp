@@ -89,7 +89,7 @@ TEST(ViewFrom, PromisesTheFaceOfAWallThatWasNotSeenUntilItIs) {
   EXPECT_EQ(promiseFrom(near).gain, 0.0) << "the wall's own side was seen";
   const ViewPoint view = promiseFrom(beyond);
   EXPECT_NEAR(view.gain, 0.3, 0.1);  // a fifth of a square metre for a metre across the view
-  EXPECT_NEAR(view.expected, 0.07 * 1.5, 0.05);
+  EXPECT_NEAR(view.expected, 0.1 * 1.5, 0.05);
   EXPECT_TRUE(place.isUnseen(view.target));
   EXPECT_EQ(view.target.x, 31);
   place.observe(world.scanFrom({2.26, 1.01, 0.3}, 4.0), {2.26, 1.01});
