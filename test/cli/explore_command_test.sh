@@ -86,13 +86,19 @@ cp part/map.slam whole.slam && head -c 1000 whole.slam >map.slam
 expect_error 1 "map.slam: is damaged" explore "$maps/two_rooms.yaml" --resume . --out d
 rm map.slam
 
-# A room that is seen through a gap and cannot be entered: done, and another status.
-python3 - >gap.pgm <<'END'
+# A room that is seen through a gap: of 40 cm, no way for a robot of 50 cm; of 50 cm, one that its own radius admits and
+# that is too narrow with the margin: done, and another status.
+draw_gap() {  # draw_gap FIRST_ROW LAST_ROW
+  python3 - "$1" "$2" <<'END'
+import sys
 rows = [[0 if x in (0, 59, 119) or y in (0, 59) else 254 for x in range(120)] for y in range(60)]
-for y in range(26, 34):
+for y in range(int(sys.argv[1]), int(sys.argv[2]) + 1):
     rows[y][59] = 254
 print("P2 120 60 255", *(" ".join(map(str, row)) for row in rows), sep="\n")
 END
+}
+draw_gap 26 33 >gap.pgm
+draw_gap 25 34 >wide.pgm
 cat >gap.yaml <<'END'
 image: gap.pgm
 resolution: 0.05
@@ -101,8 +107,12 @@ occupied_thresh: 0.65
 free_thresh: 0.196
 start: [1.5, 1.5, 0]
 END
-expect_error 3 "m^2 in view that no way was found to; the map is in gap" explore gap.yaml --out gap --quiet
-grep -q '"finished": true' gap/summary.json && [ -s gap/lines.csv ] || fail "the map of what was reached is not there"
+"$program" explore gap.yaml --out gap --quiet || fail "a room that no robot gets into: status $?"
+grep -q '"may_be_passable": false' gap/summary.json || fail "the room that was not reached is not named"
+sed 's/gap/wide/' gap.yaml >wide.yaml
+expect_error 3 "m^2 in view that the robot may fit through to; the map is in wide" explore wide.yaml --out wide --quiet
+grep -q '"may_be_passable": true' wide/summary.json || fail "the passage that its radius admits is not named"
+grep -q '"finished": true' wide/summary.json && [ -s wide/lines.csv ] || fail "the map of what was reached is not there"
 
 # A corridor in which it cannot keep the margin that it is told: it gives up, which is not done.
 python3 - >tight.pgm <<'END'
