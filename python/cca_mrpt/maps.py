@@ -199,7 +199,7 @@ class Mapper:
 
 def _table(text: str, path: Path) -> List[Dict[str, float]]:
     try:
-        return [{name: float(value) for name, value in row.items() if name != "line_ids"}
+        return [{name: float(value) for name, value in row.items() if name not in ("line_ids", "kind")}
                 for row in csv.DictReader(io.StringIO(text))]
     except (TypeError, ValueError) as error:
         raise ValueError(f"{path}: is damaged, or no file of a map ({error})") from None

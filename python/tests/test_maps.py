@@ -150,7 +150,7 @@ def both(program, log, pose, tmp_path):
                               capture_output=True, text=True)
         if "built without ROS" in done.stderr:
             pytest.skip("the program was built without ROS")
-        assert done.returncode == 0, done.stderr
+        assert done.returncode in (0, 3), done.stderr  # 3: the program says that these poses contradict the map
     names = ["lines.csv", "arcs.csv", "lines.geojson", "lines.svg", "lines.dxf", "poses.csv"]
     names += ["graph.g2o", "map.slam"] if pose == "slam" else []
     for name in names:
