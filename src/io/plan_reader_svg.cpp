@@ -20,7 +20,10 @@ const std::set<std::string> kSilent{"title", "desc", "style", "metadata", "tspan
 /// Reads numbers, and letters between them, from an attribute.
 class SvgNumbers {
  public:
-  explicit SvgNumbers(const std::string& text) : at_(text.c_str()) {}
+  explicit SvgNumbers(std::string text) : text_(std::move(text)), at_(text_.c_str()) {}
+  SvgNumbers(const SvgNumbers&) = delete;
+  SvgNumbers& operator=(const SvgNumbers&) = delete;
+
   /// The letter that comes next, if one does.
   char letter() {
     skip();
@@ -43,6 +46,7 @@ class SvgNumbers {
   void skip() {
     while (*at_ != '\0' && (std::isspace(static_cast<unsigned char>(*at_)) || *at_ == ',')) ++at_;
   }
+  std::string text_;
   const char* at_;
 };
 
