@@ -62,10 +62,11 @@ Observation Exploration::sense(const Measurement& measurement, const Velocity& v
   return observation;
 }
 
-Estimate Exploration::addSecondary(const Measurement& measurement, std::size_t sensor) {
+Scan Exploration::addSecondary(const Measurement& measurement, std::size_t sensor) {
   const std::lock_guard<std::mutex> lock(saver_.mutex());
-  if (!errand_end_ && (mode_ == Mode::kStopped || finished_)) return {};
-  return session_->addSecondary(measurement, sensor);
+  if (!errand_end_ && (mode_ == Mode::kStopped || finished_)) return measurement.scan;
+  session_->addSecondary(measurement, sensor);
+  return session_->mapping().scan();
 }
 
 Velocity Exploration::step(Observation observation, const ros::Time& stamp) {

@@ -48,7 +48,8 @@ class Exploration {
   /// is not mapped. @return  for step().
   Observation sense(const Measurement& measurement, const Velocity& velocity);
   /// A scan of another laser than that of the steps; see MappingSession::addSecondary().
-  Estimate addSecondary(const Measurement& measurement, std::size_t sensor);
+  /// @return  it, of one instant; as it came where nothing is mapped.
+  Scan addSecondary(const Measurement& measurement, std::size_t sensor);
   /// One step of the explorer. @return  zero unless it explores.
   /// observation.time may do what it likes: the explorer's own clock stands while it waits.
   Velocity step(Observation observation, const ros::Time& stamp);

@@ -185,8 +185,8 @@ void RobotDriver::use(const PlacedScan& placed) {
     if (move_base_) move_base_->forget();
     return;
   }
-  const Eigen::Vector2d ahead_map = observation.T_map_robot * Eigen::Vector2d(kAhead, 0);
-  if (!move_base_ && !looksTowards(observation.scan, ahead_map)) return waitForSight(placed);
+  if (!move_base_ && !looksTowards(placed.scan, placed.T_fixed_robot * Eigen::Vector2d(kAhead, 0)))
+    return waitForSight(placed);
   if (const auto silent = silentLaser(1)) {
     if (exploration_.drives()) waitForLaser(*silent);
     return stand();
@@ -227,8 +227,7 @@ void RobotDriver::obey(const Velocity& velocity) {
 
 void RobotDriver::useBeside(const PlacedScan& placed) {
   last_used_[placed.topic] = placed.arrival;
-  exploration_.addSecondary(measurementOf(placed, slam_ != nullptr), placed.topic);
-  Scan scan = exploration_.session().mapping().scan();
+  Scan scan = exploration_.addSecondary(measurementOf(placed, slam_ != nullptr), placed.topic);
   scan.T_map_sensor = placed.scan.T_map_sensor;
   beside_[placed.topic] = {returnsAround(scan, placed.T_fixed_robot.position()), placed.stamp};
 }
