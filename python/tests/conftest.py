@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 
+import room_log
 from room_log import ROOM, chain, ranges_in
 
 FULL_TURN = dict(angle_min=-np.pi, angle_increment=2 * np.pi / 360)
@@ -25,3 +26,11 @@ def two_rooms():
 @pytest.fixture
 def scan_of():
     return ranges_in
+
+
+@pytest.fixture
+def log(tmp_path):
+    """A CARMEN log of a SICK laser that drives through a room."""
+    path = tmp_path / "room.log.gz"
+    room_log.write(path)
+    return path

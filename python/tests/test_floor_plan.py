@@ -8,16 +8,8 @@ import numpy as np
 import pytest
 
 import cca_mrpt
-import room_log
 from cca_mrpt.program import installed_program
 from conftest import FULL_TURN
-
-
-@pytest.fixture
-def log(tmp_path):
-    path = tmp_path / "room.log.gz"
-    room_log.write(path)
-    return path
 
 
 @pytest.fixture

@@ -6,15 +6,6 @@ import numpy as np
 import pytest
 
 import cca_mrpt
-import room_log
-
-
-@pytest.fixture
-def log(tmp_path):
-    """A CARMEN log of a SICK laser that drives through a room."""
-    path = tmp_path / "room.log.gz"
-    room_log.write(path)
-    return path
 
 
 def test_scans_of_a_log_come_with_their_poses(log):

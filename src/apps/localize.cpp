@@ -33,18 +33,6 @@ struct LocalizeOptions {
   bool force = false, quiet = false;
 };
 
-std::vector<MapLine> mapLinesOf(const std::vector<PlanLine>& plan) {
-  std::vector<MapLine> lines;
-  for (const auto& [start, end] : plan) {
-    MapLine line;
-    line.id = lines.size();
-    line.segment.start = start;
-    line.segment.end = end;
-    lines.push_back(line);
-  }
-  return lines;
-}
-
 nlohmann::ordered_json summaryOf(const LocalizeOptions& options, const PlanFile& plan,
                                  const LocalizedLog& log) {
   double length = 0.0;

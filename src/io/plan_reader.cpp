@@ -114,4 +114,16 @@ PlanFile readPlan(const std::string& path, double scale) {
   return plan;
 }
 
+std::vector<MapLine> mapLinesOf(const std::vector<PlanLine>& plan) {
+  std::vector<MapLine> lines;
+  for (const auto& [start, end] : plan) {
+    MapLine line;
+    line.id = lines.size();
+    line.segment.start = start;
+    line.segment.end = end;
+    lines.push_back(line);
+  }
+  return lines;
+}
+
 }  // namespace cca

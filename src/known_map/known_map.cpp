@@ -218,8 +218,12 @@ void KnownMap::search(const ScanSurface& surface, const MotionBelief& motion) {
   if (fit.evidence < kDoubt) return;
   T_map_sensor_ = fit.match.T_map_sensor;
   covariance_ = fit.match.posterior.inverse();
-  seen_ = fit.seen;
-  residual_ = fit.match.sigma;
+  follow(fit);
+}
+
+void KnownMap::follow(const Fit& found) {
+  seen_ = found.seen;
+  residual_ = found.match.sigma;
   is_localised_ = true;
   is_fresh_ = false;
   doubtful_scans_ = 0;
@@ -245,12 +249,7 @@ void KnownMap::takePlace(const ScanSurface& surface, const Pose2& T_robot_sensor
   }
   T_map_sensor_ = fit.match.paired > 0.0 ? fit.match.T_map_sensor : prior.mean;
   covariance_ = fit.match.paired > 0.0 ? fit.match.posterior.inverse().eval() : covariance;
-  seen_ = fit.seen;
-  residual_ = fit.match.sigma;
-  is_localised_ = true;
-  is_fresh_ = false;
-  doubtful_scans_ = 0;
-  doubtful_way_ = 0.0;
+  follow(fit);
 }
 
 Estimate KnownMap::estimate(const Pose2& T_robot_sensor) const {

@@ -51,18 +51,6 @@ LocalizerParameters readLocalizerParameters(const ros::NodeHandle& private_node)
   return p;
 }
 
-std::vector<MapLine> linesOf(const PlanFile& plan) {
-  std::vector<MapLine> lines;
-  for (const auto& [start, end] : plan.lines) {
-    MapLine line;
-    line.id = lines.size();
-    line.segment.start = start;
-    line.segment.end = end;
-    lines.push_back(line);
-  }
-  return lines;
-}
-
 class Localizer {
  public:
   Localizer() : Localizer(ros::NodeHandle(), ros::NodeHandle("~")) {}
@@ -77,7 +65,7 @@ class Localizer {
         diagnostics_(
             node, private_node, [this]() -> const auto& { return scans_.dropped(); }),
         initial_pose_(node.subscribe("initialpose", 1, &Localizer::place, this)) {
-    lines_.publish(linesOf(plan_), ros::Time::now());
+    lines_.publish(mapLinesOf(plan_.lines), ros::Time::now());
     ROS_INFO("%zu lines of %s (%s)", plan_.lines.size(), parameters_.plan.c_str(),
              plan_.kind.c_str());
     if (!plan_.not_understood.empty()) {

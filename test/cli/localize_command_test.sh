@@ -2,30 +2,7 @@
 # Localisation as a user gets it: localize_command_test.sh PROGRAM MAPS
 set -u
 program=$1 maps=$2
-work=$(mktemp -d)
-trap 'rm -rf "$work"' EXIT
-cd "$work" || exit 1
-failed=0
-
-check() {  # check WHAT COMMAND...: the command must succeed
-  local what=$1
-  shift
-  "$@" >last.out 2>last.err && return
-  echo "FAILED: $what"
-  cat last.out last.err
-  failed=1
-}
-
-refuses() {  # refuses STATUS WORDS COMMAND...: the command must end so, and say so
-  local status=$1 words=$2
-  shift 2
-  "$@" >last.out 2>last.err
-  local got=$?
-  [ $got -eq "$status" ] && grep -q -- "$words" last.out last.err && return
-  echo "FAILED: expected status $status and '$words' from: $* (got $got)"
-  cat last.out last.err
-  failed=1
-}
+. "$(dirname "$0")/commands.sh"
 
 # A room of 8 x 6 m with a niche and a slanted wall: like none of its turns.
 python3 - <<'EOF'

@@ -2,30 +2,7 @@
 # info, map, extract and render as a user runs them: log_commands_test.sh PROGRAM
 set -u
 program=$1
-work=$(mktemp -d)
-trap 'rm -rf "$work"' EXIT
-cd "$work" || exit 1
-failed=0
-
-check() {  # check WHAT COMMAND...: the command must succeed
-  local what=$1
-  shift
-  "$@" >last.out 2>last.err && return
-  echo "FAILED: $what"
-  cat last.out last.err
-  failed=1
-}
-
-refuses() {  # refuses STATUS WORDS COMMAND...: the command must end so, and say so
-  local status=$1 words=$2
-  shift 2
-  "$@" >last.out 2>last.err
-  local got=$?
-  [ $got -eq "$status" ] && grep -q -- "$words" last.out last.err && return
-  echo "FAILED: expected status $status and '$words' from: $* (got $got)"
-  cat last.out last.err
-  failed=1
-}
+. "$(dirname "$0")/commands.sh"
 
 # A robot drives along x in a room of 12 m x 6 m; a SICK of 181 beams without noise.
 room_log() {

@@ -14,21 +14,8 @@ namespace {
 
 using test::PlannedWorld;
 
-/// As ringWithNiches(), its walls known.
-PlannedWorld ring() {
-  PlannedWorld world;
-  world.addBox(0.0, 0.0, 20.0, 16.0);
-  world.addBox(2.0, 2.0, 18.0, 14.0);
-  world.addBox(4.0, 0.0, 4.6, 0.5);
-  world.addBox(11.0, 1.6, 11.8, 2.0);
-  world.addBox(19.4, 5.0, 20.0, 6.1);
-  world.addBox(18.0, 10.2, 18.3, 11.0);
-  world.addBox(13.5, 15.5, 14.6, 16.0);
-  world.addBox(6.0, 14.0, 6.5, 14.4);
-  world.addBox(0.0, 9.0, 0.4, 10.3);
-  world.addBox(1.7, 5.0, 2.0, 5.7);
-  return world;
-}
+/// Its walls are known.
+PlannedWorld ring() { return PlannedWorld(test::ringWithNiches()); }
 
 struct Followed {
   std::vector<Estimate> estimates;

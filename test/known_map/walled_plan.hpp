@@ -9,6 +9,8 @@ namespace cca::test {
 /// A world, and the plan that its walls are drawn in; what is added to the world alone is
 /// furniture.
 struct PlannedWorld {
+  PlannedWorld() = default;
+  explicit PlannedWorld(const WalledWorld& drawn) : world(drawn), plan(drawn.walls()) {}
   void addWall(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
     world.addWall(a, b);
     plan.emplace_back(a, b);

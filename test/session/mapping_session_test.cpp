@@ -10,6 +10,7 @@
 #include "cca_mrpt/localisation/given_poses.hpp"
 #include "cca_mrpt/localisation/wheel_odometry.hpp"
 #include "cca_mrpt/slam/slam_localiser.hpp"
+#include "counting_recorder.hpp"
 
 namespace cca {
 namespace {
@@ -56,18 +57,6 @@ std::vector<double> numbersOf(const LineMap& map) {
   }
   return numbers;
 }
-
-struct CountingRecorder : MapRecorder {
-  std::vector<std::size_t> numbers;
-  int restarts = 0;
-  void restart() override {
-    ++restarts;
-    numbers.clear();
-  }
-  void record(const MappedScan& mapped, const LineMap& /*map*/) override {
-    numbers.push_back(mapped.number);
-  }
-};
 
 /// Believes given poses, all of them moved by half a metre once a scan is the one to correct at;
 /// the robot is lost for the scans before `found`.

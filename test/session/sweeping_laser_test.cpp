@@ -12,6 +12,7 @@
 #include "cca_mrpt/localisation/given_poses.hpp"
 #include "cca_mrpt/session/mapping_session.hpp"
 #include "cca_mrpt/slam/slam_localiser.hpp"
+#include "counting_recorder.hpp"
 
 namespace cca::sweeping_laser_test {
 namespace {
@@ -72,18 +73,6 @@ LineMap mapOf(std::unique_ptr<Localiser> localiser, bool has_odometry,
   return session.lineMap();
 }
 
-struct NumbersOfScans : MapRecorder {
-  std::vector<std::size_t> numbers;
-  int restarts = 0;
-  void restart() override {
-    ++restarts;
-    numbers.clear();
-  }
-  void record(const MappedScan& mapped, const LineMap& /*map*/) override {
-    numbers.push_back(mapped.number);
-  }
-};
-
 TEST(SweepingLaser, ItsWallsAreStraightOnceItsSweepIsKnown) {
   const LineMap learned = mapOf(std::make_unique<SlamLocaliser>(), true);
   const LineMap bent = mapOf(std::make_unique<SlamLocaliser>(), true, 0.0);
@@ -93,7 +82,7 @@ TEST(SweepingLaser, ItsWallsAreStraightOnceItsSweepIsKnown) {
 }
 
 TEST(SweepingLaser, TheScansBeforeItsSweepIsKnownAreMappedAnew) {
-  NumbersOfScans recorder;
+  CountingRecorder recorder;
   MappingSession session(std::make_unique<GivenPoses>(), {}, &recorder);
   const std::vector<Measurement> measurements = drive(true);
   for (Measurement measurement : measurements) {

@@ -23,6 +23,8 @@ class WalledWorld {
     addWall({x0, y1}, {x0, y0});
   }
 
+  const std::vector<std::pair<Eigen::Vector2d, Eigen::Vector2d>>& walls() const { return walls_; }
+
   Scan scan(const Pose2& T_map_sensor, int beams, double field_of_view, double sigma = 0.0,
             double longest = 20.0) {
     Scan scan;

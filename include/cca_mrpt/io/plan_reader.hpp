@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "cca_mrpt/known_map/plan_lines.hpp"
+#include "cca_mrpt/mapping/line_map.hpp"
 
 namespace cca {
 
@@ -33,5 +34,8 @@ struct PlanFile {
 /// @throws std::runtime_error naming the file and the rule that it breaks; also where it holds no
 ///         line.
 PlanFile readPlan(const std::string& path, double scale = 0.0);
+
+/// The same lines as those of a map, for what draws such: numbered from 0, without support.
+std::vector<MapLine> mapLinesOf(const std::vector<PlanLine>& plan);
 
 }  // namespace cca

@@ -62,6 +62,8 @@ class KnownMap : public Localiser {
              const MotionBelief& motion);
   Fit fitAbout(const ScanSurface& surface, const PoseBelief& prior, double share) const;
   void search(const ScanSurface& surface, const MotionBelief& motion);
+  /// The robot is where it was found, and is followed from there on.
+  void follow(const Fit& found);
   void takePlace(const ScanSurface& surface, const Pose2& T_robot_sensor);
   void learn(const ScanSurface& surface, const Fit& fit, double share);
   void countDoubt(bool is_doubtful, const Pose2& step);
