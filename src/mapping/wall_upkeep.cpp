@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "cca_mrpt/mapping/map_similarity.hpp"
 #include "cca_mrpt/mapping/rank_order_clustering.hpp"
@@ -60,6 +61,15 @@ std::vector<Slot> groupOf(Slot slot, const std::vector<Slot>& near, const Walls&
   return group;
 }
 
+/// Exchanges all but what says where the walls stand in the index and in the list of the touched.
+void exchange(Wall& wall, Wall& other) {
+  std::swap(wall, other);
+  std::swap(wall.cells, other.cells);
+  std::swap(wall.visit, other.visit);
+  std::swap(wall.touched, other.touched);
+  wall.indexed = other.indexed = {};  // bins of another frame
+}
+
 /// What was seen in a single look is no face: for the sake of a few returns of a door post two
 /// faces that are well apart must not become one wall.
 constexpr double kVisitsOfFace = 2.0;
@@ -69,8 +79,11 @@ void merge(Slot slot, Slot other_slot, Walls& walls) {
   const bool opposed = wall.fittedDirection().dot(other.fittedDirection()) < 0.0;
   const Wall& greater = wall.hits < other.hits ? other : wall;
   const Wall& lesser = wall.hits < other.hits ? wall : other;
-  wall.two_sided =
+  const bool two_sided =
       greater.two_sided || ((lesser.two_sided || opposed) && lesser.visits >= kVisitsOfFace);
+  // The front is that of the greater: a post seen from behind does not turn a wall round.
+  if (opposed && wall.hits < other.hits) exchange(wall, other);
+  wall.two_sided = two_sided;
   absorb(wall, other);
   wall.hits += other.hits;
   wall.visits = std::max(wall.visits, other.visits);

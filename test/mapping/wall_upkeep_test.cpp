@@ -68,6 +68,20 @@ TEST_F(WallOfTwoMetres, StaysWholeWhereTheBendIsWithinTheNoise) {
   EXPECT_EQ(wallCount(), 1);
 }
 
+TEST_F(WallOfTwoMetres, KeepsItsFrontWhenAFewReturnsFromBehindAreMergedIntoIt) {
+  const Walls::Slot post = walls_.create();
+  walls_[post].origin = {1.0, -0.03};
+  walls_[post].direction = -Eigen::Vector2d::UnitX();
+  hit(walls_, post, 0, 4, 2, 0.0);
+  walls_.place(post);
+  seeToTouched(walls_, noise_, parameters_, next_id_);
+  ASSERT_EQ(wallCount(), 1);
+  const Wall& merged = *std::find_if(walls_.all().begin(), walls_.all().end(),
+                                     [](const Wall& wall) { return wall.alive; });
+  EXPECT_GT(merged.fittedDirection().x(), 0.99);
+  EXPECT_FALSE(merged.two_sided);
+}
+
 TEST_F(WallOfTwoMetres, IsCutAtABendThatGrowsAfterASearchInVain) {
   hit(walls_, slot_, 0, kBins, 50, 0.0, 0.04);  // a residual that no cut takes away
   seeToTouched(walls_, noise_, parameters_, next_id_);
