@@ -16,7 +16,6 @@ using Slot = Walls::Slot;
 
 constexpr double kEndReach = 0.4;   // m, beyond its ends a line is compared with what stands there
 constexpr double kNewLength = 0.1;  // m, two bins that no wall explains
-constexpr double kSteepest = 0.2;   // rad, deviation of orientation with which a wall is founded
 
 /// A new line and a wall that resemble each other.
 struct Resemblance {
@@ -40,7 +39,7 @@ bool isExplained(const NewLine& line, const MapNoise& noise, const Walls& walls)
 }
 
 void found(NewLine& line, const MapNoise& noise, Walls& walls) {
-  if (std::sqrt(line.own_angle_variance) > kSteepest || isExplained(line, noise, walls)) return;
+  if (std::sqrt(line.own_angle_variance) > kDirectionKnown || isExplained(line, noise, walls)) return;
   line.wall = walls.create();
   Wall& wall = walls[line.wall];
   wall.origin = line.segment.moments.mean;

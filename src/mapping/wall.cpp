@@ -29,12 +29,10 @@ struct FrameChange {
   }
 };
 
-constexpr double kDrift = 0.1;         // m, of the line from its frame; the index reaches 0.3 m
-constexpr double kSameDoor = 0.2;      // m, between the lines of a doorway before and after a join
-constexpr double kShortestLine = 0.3;  // m, six bins: what a line costs to tell
-constexpr double kFewestHits = 20.0;   // three to four scans that meet it
-constexpr double kLoosest = 1.2;       // deviations of a return
-constexpr double kLooseShare = 0.08;   // of its length
+constexpr double kDrift = 0.1;        // m, of the line from its frame; the index reaches 0.3 m
+constexpr double kSameDoor = 0.2;     // m, between the lines of a doorway before and after a join
+constexpr double kLoosest = 1.2;      // deviations of a return
+constexpr double kLooseShare = 0.08;  // of its length
 
 /// Weight of the wall's line, in bins, where one of its pieces is fitted.
 constexpr double kTrustInWall = 3.0;
@@ -60,6 +58,11 @@ LineSegment segmentOf(const Wall& wall, const Stretch& stretch) {
   axes << wall.direction, wall.normal();
   s.moments = {moments.weight, wall.toMap(moments.mean), axes * moments.scatter * axes.transpose()};
   return s;
+}
+
+bool isDirected(const PointSums& bins, const MapNoise& noise) {
+  const double spread = bins.xx - bins.x * bins.x / bins.w;
+  return noise.lateralSigma() < kDirectionKnown * std::sqrt(std::max(0.0, spread));
 }
 
 /// Short heaps of returns, broader than noise makes a wall, are clutter.
@@ -152,13 +155,13 @@ void refit(Wall& wall) {
   wall.fit = wall.profile.fit();
 }
 
-void recut(Wall& wall, const MapNoise& noise, std::uint64_t& next_id) {
+void recut(Wall& wall, const MapNoise& noise, double line_price, std::uint64_t& next_id) {
   std::vector<MapLine> pieces;
   for (const Stretch& stretch : wall.profile.stretches()) {
     MapLine line;
     line.segment = segmentOf(wall, stretch);
     line.support = line.segment.moments.weight;
-    if (line.segment.length() < kShortestLine || line.support < kFewestHits) continue;
+    if (line.support < line_price || !isDirected(stretch.tally.fitted, noise)) continue;
     if (isLoose(line.segment, noise)) continue;
     line.id = takeId(wall.pieces, line.segment, pieces);
     pieces.push_back(line);

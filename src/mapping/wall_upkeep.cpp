@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "cca_mrpt/mapping/description_length.hpp"
 #include "cca_mrpt/mapping/map_similarity.hpp"
 #include "cca_mrpt/mapping/rank_order_clustering.hpp"
 
@@ -185,7 +186,7 @@ void seeToTouched(Walls& walls, const MapNoise& noise, const CcaParameters& para
       wall.hits_at_check = wall.hits;
       wall.length_at_check = wall.profile.last() - wall.profile.first();
     }
-    recut(walls[slot], noise, next_id);
+    recut(walls[slot], noise, linePrice(parameters.vertex_price), next_id);
     walls.place(slot);
   }
   touched.clear();

@@ -71,13 +71,43 @@ TEST(Recut, EachPieceLiesOnItsOwnReturns) {
   }
   refit(wall);
   std::uint64_t next_id = 1;
-  recut(wall, MapNoise{}, next_id);
+  recut(wall, MapNoise{}, 16.0, next_id);
   ASSERT_EQ(wall.pieces.size(), 2u);
   for (const MapLine& piece : wall.pieces) {
     const double y = piece.segment.start.x() < 2.5 ? 0.0 : 0.03;
     EXPECT_NEAR(piece.segment.start.y(), y, 0.002);
     EXPECT_NEAR(piece.segment.end.y(), y, 0.002);
   }
+}
+
+/// Number of pieces of a wall from 0 to `length` m of which `hits` fell on each bin.
+std::size_t piecesOf(double length, int hits, double line_price, const MapNoise& noise = {}) {
+  Wall wall;
+  for (double t = 0.025; t < length; t += SupportProfile::kBinLength) {
+    for (int k = 0; k < hits; ++k) wall.profile.hit(t, 0.0);
+  }
+  refit(wall);
+  std::uint64_t next_id = 1;
+  recut(wall, noise, line_price, next_id);
+  return wall.pieces.size();
+}
+
+TEST(Recut, AStubIsALineWhereTheNoiseLetsItsDirectionBeKnown) {
+  MapNoise fine, coarse;
+  for (int i = 0; i < 500; ++i) {
+    fine.learnOffset(0.0, 1e-4);
+    coarse.learnOffset(i % 2 == 0 ? 0.1 : -0.1, 1e-4);
+  }
+  ASSERT_LT(fine.lateralSigma(), 0.01);
+  ASSERT_GT(coarse.lateralSigma(), 0.05);
+  EXPECT_EQ(piecesOf(0.2, 50, 16.0, fine), 1u);
+  EXPECT_EQ(piecesOf(0.2, 50, 16.0, coarse), 0u);
+  EXPECT_EQ(piecesOf(1.0, 50, 16.0, coarse), 1u);
+}
+
+TEST(Recut, ALineTakesAsManyReturnsAsItsPrice) {
+  EXPECT_EQ(piecesOf(1.0, 1, 16.0), 1u);  // twenty bins
+  EXPECT_EQ(piecesOf(1.0, 1, 24.0), 0u);
 }
 
 }  // namespace
