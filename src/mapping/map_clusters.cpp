@@ -39,7 +39,8 @@ bool isExplained(const NewLine& line, const MapNoise& noise, const Walls& walls)
 }
 
 void found(NewLine& line, const MapNoise& noise, Walls& walls) {
-  if (std::sqrt(line.own_angle_variance) > kDirectionKnown || isExplained(line, noise, walls)) return;
+  if (std::sqrt(line.own_angle_variance) > kDirectionKnown || isExplained(line, noise, walls))
+    return;
   line.wall = walls.create();
   Wall& wall = walls[line.wall];
   wall.origin = line.segment.moments.mean;
