@@ -4,9 +4,12 @@
 
 usage: floor_plan_table.py PROGRAM --plans FOLDER --bench FOLDER [--maps FOLDER] [--only NAME...] [--require KEY=VALUE...]
                            [--elsewhere SEED]
+       floor_plan_table.py PROGRAM --logs FOLDER --bench FOLDER [--maps FOLDER] [--only NAME...] [--require KEY=VALUE...]
        floor_plan_table.py PROGRAM --worlds FOLDER [--maps FOLDER] [--only NAME...] [--require KEY=VALUE...]
 
 --plans    plans with world.yaml, gt.png and plain.png; each is explored once and planned
+--logs     real logs, NAME-corrected.log.gz: those of test/floor_plan/truth, whose rooms and doors were drawn by hand;
+           each is mapped by its own poses (`map LOG --pose log`), whose frame the drawings are in
 --bench    the scorer of rooms (score_rooms.py, rooms_lib.py)
 --worlds   worlds with NAME.yaml and NAME.truth.csv, the faces of their walls: door widths, sides, thickness
 --elsewhere  explores from another start each, with this seed, walls shifted off the grid's lines: a second set
@@ -27,6 +30,8 @@ import tempfile
 import time
 
 SHIFT = (0.023, 0.031)  # m, of --elsewhere
+TRUTH = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "test", "floor_plan", "truth")
+COLUMNS = ("pq", "f50", "iou75", "iou", "door_recall", "door_precision", "count_off", "seconds")
 # A start from which the robot gets out: that of the plan stands in a ring of chairs.
 STARTS = {"office_h": "12.375,39.075,0"}
 LOWER_IS_BETTER = {"count_off", "door_cm", "side_cm", "thickness_cm", "area_percent"}
@@ -74,15 +79,59 @@ def planned(program, folder, out):
         return json.load(file)["features"], seconds
 
 
+def head(title):
+    print(f"| {title} | rooms | found | " + " | ".join(COLUMNS) + " |\n" + "|---" * (3 + len(COLUMNS)) + "|")
+
+
+def show(name, row, seconds):
+    row["count_off"] = abs(row["rooms"] - row["gt_rooms"]) / row["gt_rooms"]
+    row["seconds"] = seconds
+    print(f"| {name} | {row['gt_rooms']} | {row['rooms']} | " + " | ".join(f"{row[c]:.3f}" for c in COLUMNS) + " |")
+    return row
+
+
+def means_of(rows):
+    means = {c: statistics.mean(row[c] for row in rows) for c in COLUMNS}
+    print("| mean | | | " + " | ".join(f"{means[c]:.3f}" for c in COLUMNS) + " |")
+    return means
+
+
+def origin_of(folder):
+    with open(os.path.join(folder, "map.yaml")) as file:
+        return [float(v) for v in file.read().split("origin: [")[1].split("]")[0].split(",")[:2]]
+
+
 def seen_cells(folder, shape, score_rooms, shift):
     """The free cells of a map, seen in the ground truth's picture."""
     import numpy as np
     from PIL import Image
 
     cells = np.asarray(Image.open(os.path.join(folder, "map.pgm"))) == 254
-    with open(os.path.join(folder, "map.yaml")) as file:
-        origin = file.read().split("origin: [")[1].split("]")[0].split(",")[:2]
-    return score_rooms.place(cells.astype(np.int64), 0.05, [float(v) for v in origin], shape, 0.05, shift) > 0
+    return score_rooms.place(cells.astype(np.int64), 0.05, origin_of(folder), shape, 0.05, shift) > 0
+
+
+def score_logs(options, work):
+    """Rooms and doors of real logs. A drawn room counts where the map is free; floor outside of all drawn rooms is wrong."""
+    sys.path.insert(0, options.bench)
+    import numpy as np
+    import score_rooms
+    from PIL import Image
+
+    rows = []
+    head("log")
+    for name in sorted(options.only or [f[: -len(".geojson")] for f in os.listdir(TRUTH)]):
+        folder = os.path.join(options.maps, name)
+        subprocess.run([options.program, "map", os.path.join(options.logs, name + "-corrected.log.gz"), "--pose", "log",
+                        "--out", folder, "--quiet", "--force"], check=True)
+        out = os.path.join(work, name)
+        _, seconds = planned(options.program, folder, out)
+        seen = np.asarray(Image.open(os.path.join(folder, "map.pgm"))) == 254
+        origin = origin_of(folder)
+        drawn, points = score_rooms.rasterise(os.path.join(TRUTH, name + ".geojson"), seen.shape, 0.05, origin)
+        doors = [{"x": p["x"], "y": p["y"], "width": 0.0} for p in points]  # a drawn door has no width
+        rows.append(show(name, score_rooms.evaluate(os.path.join(out, "plan.geojson"), np.where(seen, drawn, 0),
+                                                    plain=(drawn > 0) & ~seen, gt_origin=origin, gt_doors=doors), seconds))
+    return means_of(rows)
 
 
 def score_plans(options, work):
@@ -90,8 +139,7 @@ def score_plans(options, work):
     import rooms_lib
     import score_rooms
 
-    columns = ("pq", "f50", "iou75", "iou", "door_recall", "door_precision", "count_off", "seconds")
-    print("| plan | rooms | found | " + " | ".join(columns) + " |\n" + "|---" * (3 + len(columns)) + "|")
+    head("plan")
     rows = []
     for name in sorted(options.only or os.listdir(options.plans)):
         plan = os.path.join(options.plans, name)
@@ -106,15 +154,10 @@ def score_plans(options, work):
         _, seconds = planned(options.program, folder, out)
         truth = score_rooms.load_labels(os.path.join(plan, "gt.png"))
         plain = rooms_lib.read_grey(os.path.join(plan, "plain.png")) >= 250
-        row = score_rooms.evaluate(os.path.join(out, "plan.geojson"), truth, plain=plain,
-                                   seen=seen_cells(folder, truth.shape, score_rooms, shift), gt_origin=shift)
-        row["count_off"] = abs(row["rooms"] - row["gt_rooms"]) / row["gt_rooms"]
-        row["seconds"] = seconds
-        rows.append(row)
-        print(f"| {name} | {row['gt_rooms']} | {row['rooms']} | " + " | ".join(f"{row[c]:.3f}" for c in columns) + " |")
-    means = {c: statistics.mean(row[c] for row in rows) for c in columns}
-    print("| mean | | | " + " | ".join(f"{means[c]:.3f}" for c in columns) + " |")
-    return means
+        rows.append(show(name, score_rooms.evaluate(
+            os.path.join(out, "plan.geojson"), truth, plain=plain,
+            seen=seen_cells(folder, truth.shape, score_rooms, shift), gt_origin=shift), seconds))
+    return means_of(rows)
 
 
 def distance(p, face):
@@ -190,20 +233,21 @@ def measure_worlds(options, work):
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("program")
-    for option in ("--plans", "--bench", "--worlds", "--maps"):
+    for option in ("--plans", "--bench", "--worlds", "--logs", "--maps"):
         parser.add_argument(option)
     parser.add_argument("--elsewhere", type=int, metavar="SEED")
     parser.add_argument("--only", nargs="*")
     parser.add_argument("--require", nargs="*", default=[])
     options = parser.parse_args()
-    for folder in (options.plans, options.bench, options.worlds):
+    for folder in (options.plans, options.bench, options.worlds, options.logs):
         if folder and not os.path.isdir(folder):
             print(f"{folder} is not there; nothing was judged")
             sys.exit(77)
     with tempfile.TemporaryDirectory() as work:
         options.maps = options.maps or os.path.join(work, "maps")
         os.makedirs(options.maps, exist_ok=True)
-        found = score_plans(options, work) if options.plans else measure_worlds(options, work)
+        judge = score_plans if options.plans else score_logs if options.logs else measure_worlds
+        found = judge(options, work)
     failed = False
     for requirement in options.require:
         key, value = requirement.split("=")

@@ -20,6 +20,7 @@ constexpr double kDoor = 1.4, kOpening = 2.5;  // m, the widest of each kind
 constexpr double kStraightBy = 0.06;           // m, where lines do not make a valid polygon
 constexpr double kOnSide = 0.06;               // m
 constexpr double kSmallestHole = 0.05;         // m^2
+constexpr double kBeyondGrid = 1.0;            // m, ends of lines overshoot what is known by less
 
 std::vector<Passage> candidatePassages(const Structure& structure, const Raster<float>& clearance,
                                        const std::vector<MapLine>& lines,
@@ -186,6 +187,31 @@ std::vector<MapLine> withoutLeaning(const std::vector<MapLine>& lines, const Flo
   return walls;
 }
 
+/// The part of each line that lies in the box [Liang & Barsky 1984]; lines outside of it are left
+/// out. Work along a line is then bounded by the grid.
+std::vector<MapLine> linesWithin(const Eigen::AlignedBox2d& box,
+                                 const std::vector<MapLine>& lines) {
+  std::vector<MapLine> within;
+  for (const MapLine& line : lines) {
+    const Eigen::Vector2d start = line.segment.start, way = line.segment.end - start;
+    double from = 0.0, to = 1.0;
+    for (int axis = 0; axis < 2; ++axis) {
+      const double low = box.min()[axis] - start[axis], high = box.max()[axis] - start[axis];
+      if (way[axis] == 0.0) {
+        if (low > 0.0 || high < 0.0) to = -1.0;
+        continue;
+      }
+      from = std::max(from, std::min(low / way[axis], high / way[axis]));
+      to = std::min(to, std::max(low / way[axis], high / way[axis]));
+    }
+    if (from > to) continue;
+    within.push_back(line);
+    if (from > 0.0) within.back().segment.start = start + from * way;
+    if (to < 1.0) within.back().segment.end = start + to * way;
+  }
+  return within;
+}
+
 /// The faces of the building: lines of furniture bound no room.
 std::vector<MapLine> facesOf(const Mask& solid, const std::vector<MapLine>& lines) {
   std::vector<MapLine> faces;
@@ -196,12 +222,16 @@ std::vector<MapLine> facesOf(const Mask& solid, const std::vector<MapLine>& line
 
 }  // namespace
 
-FloorPlan floorPlan(const OccupancyRaster& whole, const std::vector<MapLine>& all_lines,
+FloorPlan floorPlan(const OccupancyRaster& whole, const std::vector<MapLine>& map_lines,
                     const FloorPlanTuning& tuning) {
   FloorPlan plan;
   const OccupancyRaster grid = cropToKnown(whole, kMargin);
   plan.room_of = grid.alike(0);
   if (grid.values.empty()) return plan;
+  const Eigen::Vector2d beyond = Eigen::Vector2d::Constant(kBeyondGrid);
+  const Eigen::Vector2d size = grid.resolution * Eigen::Vector2d(grid.columns, grid.rows);
+  const std::vector<MapLine> all_lines =
+      linesWithin({grid.origin - beyond, grid.origin + size + beyond}, map_lines);
   const Structure structure = tellStructure(grid, all_lines, tuning.structure);
   const std::vector<MapLine> lines = facesOf(structure.solid, all_lines);
   Mask space = structure.open;

@@ -39,6 +39,21 @@ TEST_P(FloorPlanAt, FindsTwoRoomsAndTheirDoor) {
   EXPECT_NE(door.rooms[0], door.rooms[1]);
 }
 
+TEST(FloorPlanOf, LinesThatLeaveTheGridCostNoMoreThanTheGrid) {
+  DrawnMap map = drawMap({twoRooms()}, Pose2());
+  MapLine far = map.lines.front();
+  far.id = map.lines.size() + 1;
+  far.segment.start = {-2e7, -3.0};  // 4 10^8 cells, in parts within 1 m of the grid
+  far.segment.end = {2e7, -3.0};
+  map.lines.push_back(far);
+  far.segment.start = {-1e7, -0.5};
+  far.segment.end = {1e7, -0.5};
+  map.lines.push_back(far);
+  const FloorPlan plan = floorPlan(map.grid, map.lines);
+  EXPECT_EQ(plan.rooms.size(), 2u);
+  for (const PlanWall& wall : plan.walls) EXPECT_LT((wall.end - wall.start).norm(), 20.0);
+}
+
 TEST_P(FloorPlanAt, KnowsTheThicknessOfTheWallBetween) {
   const DrawnMap map = drawMap({twoRooms()}, GetParam());
   int two_faced = 0;
