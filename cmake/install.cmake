@@ -29,7 +29,7 @@ set(eigen_layers cca_geometry cca_motion cca_sensing cca_localisation cca_mappin
 if(TARGET cca_floor_plan)
   list(APPEND eigen_layers cca_floor_plan)
 endif()
-set(mrpt_layers cca_evaluation cca_simulation cca_io)
+set(mrpt_layers cca_evaluation cca_simulation cca_io cca_live)
 if(CCA_WITH_EVIDENCE)
   list(APPEND eigen_layers cca_baselines)
   list(APPEND mrpt_layers cca_evidence)

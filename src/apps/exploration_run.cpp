@@ -2,7 +2,10 @@
 #include "exploration_run.hpp"
 
 #include <algorithm>
+#include <chrono>
+#include <cmath>
 #include <cstdio>
+#include <thread>
 #include <utility>
 
 #include "cca_mrpt/io/pose_source.hpp"
@@ -124,28 +127,82 @@ bool ExplorationRun::hasEnded(const Action& action) {
   return true;
 }
 
-void ExplorationRun::drive(const Interruption& interruption, Progress* progress,
-                           ExplorationWindow* window) {
+void ExplorationRun::drive(const Interruption& interruption, Progress* progress) {
   end_.reason = "the longest simulated time is over";
   while (simulation_.time() < parameters_.run.longest_time) {
     if (interruption.requested()) {
       end_.reason = "interrupted";
       break;
     }
+    heedCommands();
     const Action action = step();
     if (hasEnded(action)) break;
     simulation_.drive(action.velocity, parameters_.run.control_period);
-    show(action, progress, window);
+    show(action, progress);
+    if (action.status == ExplorationStatus::kPaused) standStill(action, interruption);
   }
   background_.wait();
 }
 
-void ExplorationRun::show(const Action& action, Progress* progress, ExplorationWindow* window) {
-  if (window && window->isDue()) {
-    background_.wait();
-    window->show(record_.products(simulation_, session_.mapping()), simulation_, observation_,
-                 action);
+void ExplorationRun::obey(LivePage& page) {
+  addObserver(page);
+  page_ = &page;
+}
+
+void ExplorationRun::heedCommands() {
+  while (page_) {
+    const std::optional<RunCommand> command = page_->nextCommand();
+    if (!command) return;
+    heed(*command);
+    page_->setPaused(is_paused_);
   }
+}
+
+void ExplorationRun::heed(const RunCommand& command) {
+  using Kind = RunCommand::Kind;
+  Explorer& explorer = session_.explorer();
+  const Eigen::Vector2d way = command.place_map - observation_.T_map_robot.position();
+  if (command.kind == Kind::kGo) {
+    explorer.sendTo(
+        Pose2{command.place_map.x(), command.place_map.y(), std::atan2(way.y(), way.x())});
+    return;
+  }
+  if (command.kind == Kind::kStop || command.kind == Kind::kHome) explorer.recall();
+  if (command.kind == Kind::kHome) explorer.returnToStart();
+  is_paused_ = command.kind == Kind::kPause || command.kind == Kind::kStop;
+  explorer.pause(is_paused_);
+}
+
+/// While the robot stands because somebody wants it, no simulated time goes by either. Where it
+/// stands is shown.
+void ExplorationRun::standStill(const Action& action, const Interruption& interruption) {
+  constexpr double kStanding = 0.01;  // m/s, rad/s: it brakes first
+  const Velocity velocity = observation_.velocity;
+  if (std::abs(velocity.linear) > kStanding || std::abs(velocity.angular) > kStanding) return;
+  const auto is_wanted = [this] {
+    heedCommands();
+    return is_paused_ && !session_.explorer().isSent();
+  };
+  while (is_wanted() && !interruption.requested()) {
+    showObservers(action);
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  }
+}
+
+void ExplorationRun::showObservers(const Action& action) {
+  const auto is_due = [](const RunObserver* observer) { return observer->isDue(); };
+  if (std::none_of(observers_.begin(), observers_.end(), is_due)) return;
+  background_.wait();
+  const ReplayMoment moment = momentOf(simulation_, session_.explorer(), observation_, action);
+  const RunView view{moment, observation_.scan, session_.mapping().lineMap(), simulation_.bodies(),
+                     [this] { return record_.products(simulation_, session_.mapping()); }};
+  for (RunObserver* observer : observers_) {
+    if (observer->isDue()) observer->show(view);
+  }
+}
+
+void ExplorationRun::show(const Action& action, Progress* progress) {
+  showObservers(action);
   if (!progress || !progress->isDue()) return;
   background_.wait();
   const double left = metresLeft(simulation_, session_.explorer()), driven = simulation_.distance();

@@ -5,16 +5,17 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "background_work.hpp"
 #include "cca_mrpt/io/memory_file.hpp"
 #include "cca_mrpt/io/parameters.hpp"
+#include "cca_mrpt/live/live_page.hpp"
 #include "cca_mrpt/sensing/missing_returns.hpp"
 #include "cca_mrpt/session/exploration_session.hpp"
 #include "cca_mrpt/simulation/simulation.hpp"
 #include "cca_mrpt/slam/slam_localiser.hpp"
 #include "exploration_record.hpp"
-#include "exploration_window.hpp"
 #include "interruption.hpp"
 #include "progress.hpp"
 
@@ -36,9 +37,14 @@ class ExplorationRun {
   /// Goes on with an earlier map, from anywhere in it; to be called first, with line SLAM only.
   void remember(const SlamMemory& memory);
 
+  /// Shows the run to somebody; to be called before drive(). It must outlive the run.
+  void addObserver(RunObserver& observer) { observers_.push_back(&observer); }
+  /// The same, and does what viewers of the page want.
+  void obey(LivePage& page);
+
   /// Explores until nothing is left, the time is over, the robot is lost, or the user interrupts.
-  /// @param progress, window  may be null.
-  void drive(const Interruption& interruption, Progress* progress, ExplorationWindow* window);
+  /// @param progress  may be null.
+  void drive(const Interruption& interruption, Progress* progress);
 
   /// The last pass over poses and map.
   void finish();
@@ -59,7 +65,11 @@ class ExplorationRun {
   Action step();
   void mapBeside(std::function<void()> work);
   bool hasEnded(const Action& action);
-  void show(const Action& action, Progress* progress, ExplorationWindow* window);
+  void show(const Action& action, Progress* progress);
+  void showObservers(const Action& action);
+  void heedCommands();
+  void heed(const RunCommand& command);
+  void standStill(const Action& action, const Interruption& interruption);
   std::string progressText(const Action& action, double metres_left);
 
   Simulation& simulation_;
@@ -71,6 +81,9 @@ class ExplorationRun {
   Observation observation_;           ///< the last one, as believed
   std::optional<Pose2> last_moment_;  ///< of the replay
   double localised_at_ = 0.0;         ///< m of way: where the robot last knew its pose
+  std::vector<RunObserver*> observers_;
+  LivePage* page_ = nullptr;  ///< one of them, whose viewers' commands are done
+  bool is_paused_ = false;    ///< by them
   ExplorationRecord::End end_;
   Clock::time_point begin_ = Clock::now();
   BackgroundWork background_;  // last: what it still does needs all the rest

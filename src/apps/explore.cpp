@@ -19,10 +19,11 @@
 #include "cca_mrpt/simulation/simulation.hpp"
 #include "commands.hpp"
 #include "exploration_run.hpp"
-#include "exploration_window.hpp"
 #include "interruption.hpp"
 #include "parameter_options.hpp"
 #include "progress.hpp"
+#include "run_window.hpp"
+#include "serve_options.hpp"
 #include "within.hpp"
 #include "world_name.hpp"
 
@@ -38,6 +39,7 @@ constexpr double kSmallestView = 90.0, kWidestSpacing = 5.0;  // deg
 struct ExploreOptions {
   std::string world, movers, out, resume;
   std::vector<double> start;  // x, y in m, heading in degrees; empty: the world's own
+  std::shared_ptr<const ServeOptions> serve;
   bool gui = false, quiet = false, force = false;
 };
 
@@ -101,10 +103,19 @@ void awaitCoverage(Coverage& coverage, const Interruption& interruption) {
   }
 }
 
-std::unique_ptr<ExplorationWindow> openWindow(const World& world) {
-  auto* const open = reinterpret_cast<OpenExplorationWindow*>(
-      lateFunction(kWindowLibrary, kOpenExplorationWindow));
-  return std::unique_ptr<ExplorationWindow>(open(world));
+std::unique_ptr<RunObserver> openWindow(const World& world, double robot_radius) {
+  auto* const open = reinterpret_cast<OpenRunWindow*>(lateFunction(kWindowLibrary, kOpenRunWindow));
+  return std::unique_ptr<RunObserver>(open(world, robot_radius));
+}
+
+std::unique_ptr<LivePage> openPage(const ServeOptions& options, const Scene& scene) {
+  LivePageSettings settings;
+  settings.title = scene.simulation.world().name;
+  settings.robot_radius = scene.simulation.parameters().robot.radius;
+  settings.origin = scene.origin;
+  settings.world = &scene.simulation.world();
+  settings.has_robot = true;
+  return serve(options, settings);
 }
 
 /// With less in view the robot drives where it has not looked, and touches walls.
@@ -159,8 +170,9 @@ void explore(const ExploreOptions& options, const Parameters& parameters) {
   std::optional<SlamMemory> memory;
   if (!options.resume.empty()) memory = seenFrom(scene.origin, loadMemory(options.resume));
   Simulation& simulation = scene.simulation;
-  std::unique_ptr<ExplorationWindow> window;
-  if (options.gui) window = openWindow(simulation.world());
+  std::unique_ptr<RunObserver> window;
+  if (options.gui) window = openWindow(simulation.world(), parameters.robot.radius);
+  const std::unique_ptr<LivePage> page = openPage(*options.serve, scene);
   const std::string folder = chooseFolder(options, simulation.world().name);
   const FolderLock lock = prepareMapFolder(folder, options.force, ExplorationRecord::files());
   ExplorationRun run(simulation, scene.origin, parameters, folder);
@@ -168,7 +180,9 @@ void explore(const ExploreOptions& options, const Parameters& parameters) {
   std::unique_ptr<Progress> progress;
   if (!options.quiet) progress = std::make_unique<Progress>("exploring");
   const Interruption interruption;
-  run.drive(interruption, progress.get(), window.get());
+  if (window) run.addObserver(*window);
+  if (page) run.obey(*page);
+  run.drive(interruption, progress.get());
   progress.reset();
   if (interruption.requested()) tellOfSaving();
   run.finish();
@@ -176,6 +190,7 @@ void explore(const ExploreOptions& options, const Parameters& parameters) {
   awaitCoverage(run.record().coverage(), interruption);
   run.end().wall_s = secondsSince(start);
   run.record().write(simulation, run.session().mapping(), run.slam(), run.end());
+  if (page) page->finish(run.session().mapping().lineMap().lines(), run.end().reason);
   if (!options.quiet) report(simulation, run, folder);
   if (!run.end().finished) {
     throw std::runtime_error(run.end().reason + "; what was mapped so far is in " + folder);
@@ -201,6 +216,7 @@ void addExploreCommand(CLI::App& program) {
   command->add_option("--resume", options->resume,
                       "DIR of an earlier map: go on with it, from anywhere in it");
   command->add_flag("--gui", options->gui, "show the run in MRPT's 3-D window");
+  options->serve = addServeOptions(*command);
   command->add_option("--out", options->out, "folder for the results; else out/WORLD-001, ...");
   command->add_flag("--force", options->force, "overwrite results that are in the folder");
   command->add_flag("--quiet", options->quiet, "print nothing but errors");

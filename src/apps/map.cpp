@@ -15,6 +15,7 @@
 #include "log_warnings.hpp"
 #include "mapped_logs.hpp"
 #include "parameter_options.hpp"
+#include "serve_options.hpp"
 
 namespace cca::apps {
 namespace {
@@ -23,6 +24,7 @@ struct MapOptions {
   std::vector<std::string> logs;
   std::string out, pose, resume;  // no pose source named: see makeMap()
   std::shared_ptr<const LogHints> hints;
+  std::shared_ptr<const ServeOptions> serve;
   std::optional<GeoReference> place;
   bool force = false, quiet = false;
 };
@@ -61,7 +63,7 @@ std::unique_ptr<LocalLog> open(const MapOptions& options, std::size_t k) {
 }
 
 std::unique_ptr<MappedLogs> mapLogs(const MapOptions& options, std::unique_ptr<LocalLog> first,
-                                    const Parameters& parameters,
+                                    const Parameters& parameters, LivePage* page,
                                     const Interruption& interruption) {
   LogsToMap logs;
   logs.paths = options.logs;
@@ -70,6 +72,7 @@ std::unique_ptr<MappedLogs> mapLogs(const MapOptions& options, std::unique_ptr<L
   logs.sweep = options.hints->sweep;
   if (!options.resume.empty()) logs.memory = loadMemory(options.resume);
   auto mapped = std::make_unique<MappedLogs>(logs, *first, parameters);
+  if (page) mapped->obey(*page);
   for (std::size_t k = 0; k < options.logs.size() && !mapped->isInterrupted(); ++k) {
     auto log = k == 0 ? std::move(first) : open(options, k);
     mapped->take(options.logs[k], *log, interruption);
@@ -78,17 +81,25 @@ std::unique_ptr<MappedLogs> mapLogs(const MapOptions& options, std::unique_ptr<L
   return mapped;
 }
 
+std::unique_ptr<LivePage> openPage(const MapOptions& options, const LocalLog& first) {
+  LivePageSettings settings;
+  settings.title = std::filesystem::path(options.logs.front()).filename().string();
+  settings.origin = first.origin();
+  return serve(*options.serve, settings);
+}
+
 void makeMap(const MapOptions& options, const Parameters& parameters) {
   const auto begin = std::chrono::steady_clock::now();
   const Interruption interruption;
   auto log = open(options, 0);
   if (interruption.requested()) throw std::runtime_error("interrupted; no map was begun");
+  const std::unique_ptr<LivePage> page = openPage(options, *log);
   std::error_code unknown;
   const bool is_new = !std::filesystem::exists(options.out, unknown);
   const FolderLock folder = prepareMapFolder(options.out, options.force);
   const std::unique_ptr<const MappedLogs> mapped = [&] {
     try {
-      return mapLogs(options, std::move(log), parameters, interruption);
+      return mapLogs(options, std::move(log), parameters, page.get(), interruption);
     } catch (...) {  // a pose that the log lacks: nothing remains
       std::error_code holds_files;
       if (is_new) std::filesystem::remove(options.out, holds_files);
@@ -102,6 +113,7 @@ void makeMap(const MapOptions& options, const Parameters& parameters) {
   const std::chrono::duration<double> mapping = std::chrono::steady_clock::now() - begin;
   map.summary["mapping_s"] = mapping.count();
   writeMapFolder(options.out, map);
+  if (page) page->finish(map.lines, mapped->isInterrupted() ? "interrupted" : "all is mapped");
   const std::chrono::duration<double> all = std::chrono::steady_clock::now() - begin;
   if (!options.quiet) report(options, map, all.count());
   if (mapped->isInterrupted()) {
@@ -147,6 +159,7 @@ void addMapCommand(CLI::App& program) {
       ->type_name("LAT,LON,DEG");
   command->add_flag("--force", options->force, "overwrite a map that is there");
   command->add_flag("--quiet", options->quiet, "print nothing but errors");
+  options->serve = addServeOptions(*command);
   options->hints = addLogHintOptions(*command);
   auto parameters =
       std::make_shared<ParameterOptions>(*command, std::vector<std::string>{"mapping", "icp"});

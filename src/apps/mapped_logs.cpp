@@ -2,9 +2,11 @@
 #include "mapped_logs.hpp"
 
 #include <algorithm>
+#include <chrono>
 #include <cstdio>
 #include <filesystem>
 #include <stdexcept>
+#include <thread>
 
 #include "cca_mrpt/io/stray_places.hpp"
 #include "cca_mrpt/io/trajectory_error.hpp"
@@ -52,13 +54,20 @@ void MappedLogs::take(const std::string& path, LocalLog& log,
   if (scans() > 0) session_->beginDrive();
   if (slam_ && scans() > 0) slam_->startAnywhere();
   while (!interrupted_) {
+    heedCommands(interruption);
     std::optional<LogRecord> record = log.next();
     if (!record) break;
     beams_ += record->scan.size();
     unguided_ += !record->odometry;
     const Telling told{record->has_time ? record->time : 0.0, referencePose(*record)};
     background_->add([this, told] { told_.push_back(told); });
-    session_->add(measurementOf(std::move(*record), logs_.pose));
+    const Estimate estimate = session_->add(measurementOf(std::move(*record), logs_.pose));
+    if (slam_ && page_ && page_->isDue()) {  // it maps at the end: there are no lines until then
+      ReplayMoment moment;
+      moment.time = told.time;
+      moment.T_map_robot = estimate.T_map_robot;
+      show(moment, session_->scan(), session_->lineMap());
+    }
     progress.show(
         log.progress(),
         std::to_string(scans()) + " scans" +
@@ -68,6 +77,25 @@ void MappedLogs::take(const std::string& path, LocalLog& log,
   warn(log.warnings());
 } catch (const std::runtime_error& error) {
   throw std::runtime_error(path + ": " + error.what());
+}
+
+void MappedLogs::show(const ReplayMoment& moment, const Scan& scan, const LineMap& map) {
+  page_->show({moment, scan, map, {}, [this] { return mapProducts("", *session_); }});
+}
+
+/// Who pauses stops the reading; what was read is mapped on.
+void MappedLogs::heedCommands(const Interruption& interruption) {
+  bool is_paused = false;
+  while (page_ && !interruption.requested()) {
+    const std::optional<RunCommand> command = page_->nextCommand();
+    if (!command && !is_paused) return;
+    if (command) {
+      is_paused = command->kind != RunCommand::Kind::kStart;
+      page_->setPaused(is_paused);
+    } else {
+      std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    }
+  }
 }
 
 void MappedLogs::finish() {
@@ -90,20 +118,23 @@ void MappedLogs::restart() {
   replay_ = Replay(fileName(logs_.paths.front()));
   last_moment_.reset();
   distance_ = 0.0;
+  if (page_) page_->restart();
 }
 
 void MappedLogs::record(const MappedScan& mapped, const LineMap& map) {
   grid_.insert(mapped.scan);
   if (mapped.is_of_earlier_drive) return;
-  const std::optional<Pose2> last = last_moment_;
-  if (!keepIfMoved(last_moment_, mapped.T_map_robot)) return;
-  const double step = last ? (mapped.T_map_robot.position() - last->position()).norm() : 0.0;
-  if (step < kLongestStep) distance_ += step;
   ReplayMoment moment;
   moment.time = told_[mapped.number].time;
   moment.distance = distance_;
   moment.T_map_robot = mapped.T_map_robot;
   moment.truth = told_[mapped.number].reference;
+  if (page_ && page_->isDue()) show(moment, mapped.scan, map);
+  const std::optional<Pose2> last = last_moment_;
+  if (!keepIfMoved(last_moment_, mapped.T_map_robot)) return;
+  const double step = last ? (mapped.T_map_robot.position() - last->position()).norm() : 0.0;
+  if (step < kLongestStep) distance_ += step;
+  moment.distance = distance_;
   replay_.add(moment, mapped.scan, map);
 }
 

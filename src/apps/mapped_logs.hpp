@@ -14,6 +14,7 @@
 #include "cca_mrpt/io/pose_source.hpp"
 #include "cca_mrpt/io/replay.hpp"
 #include "cca_mrpt/io/scan_grid.hpp"
+#include "cca_mrpt/live/live_page.hpp"
 #include "cca_mrpt/session/mapping_session.hpp"
 #include "cca_mrpt/slam/slam_localiser.hpp"
 #include "interruption.hpp"
@@ -36,6 +37,9 @@ class MappedLogs : public MapRecorder {
   /// @param first  of the logs, opened; it says where the frame lies.
   MappedLogs(const LogsToMap& logs, const LocalLog& first, const Parameters& parameters);
 
+  /// Shows what becomes of the logs from now on, and waits while a viewer wants it.
+  void obey(LivePage& page) { page_ = &page; }
+
   /// Goes through a log. @throws std::runtime_error naming the log.
   void take(const std::string& path, LocalLog& log, const Interruption& interruption);
   /// Works out what all logs together tell.
@@ -56,6 +60,8 @@ class MappedLogs : public MapRecorder {
   };
   void restart() override;
   void record(const MappedScan& mapped, const LineMap& map) override;
+  void show(const ReplayMoment& moment, const Scan& scan, const LineMap& map);
+  void heedCommands(const Interruption& interruption);
   std::string withoutOdometry() const;
   std::string slamWarnings() const;
   std::string strayWarning() const;
@@ -71,6 +77,7 @@ class MappedLogs : public MapRecorder {
   std::size_t beams_ = 0, unguided_ = 0;  ///< of all scans; scans without odometry
   std::string warnings_;                  ///< what could not be read, or was missed
   bool interrupted_ = false;
+  LivePage* page_ = nullptr;
   // What background_ alone changes until finish().
   std::vector<Telling> told_;  ///< of each scan
   ScanGrid grid_;

@@ -41,16 +41,26 @@ Replay::Shown Replay::shown(const MapLine& line) {
       sigma(covariance(1, 1))};
 }
 
+// Of a large map the lines are looked at the more seldom, or they would cost more than mapping.
+bool Replay::linesAreDue() const {
+  return offered_ % stride_ == 0 &&
+         frames_.size() % std::max<std::size_t>(1, lines_.size() / kLinesAMoment) == 0;
+}
+
 void Replay::add(const ReplayMoment& moment, const Scan& scan, const LineMap& map) {
+  std::vector<MapLine> lines;
+  const bool is_due = linesAreDue();
+  if (is_due) lines = map.lines();
+  add(moment, scan, is_due ? &lines : nullptr);
+}
+
+void Replay::add(const ReplayMoment& moment, const Scan& scan, const std::vector<MapLine>* lines) {
   if (!isFinite(moment.T_map_robot) || !std::isfinite(moment.time) || offered_++ % stride_ != 0)
     return;
   has_truth_ = has_truth_ && moment.truth && isFinite(*moment.truth);
   decide(moment);
   drawFrontier(moment.frontier);
-  // Of a large map the lines are looked at the more seldom, or they would cost more than mapping.
-  if (frames_.size() % std::max<std::size_t>(1, lines_.size() / kLinesAMoment) == 0) {
-    drawLines(map.lines(), kVisible);
-  }
+  if (lines) drawLines(*lines, kVisible);
   const std::int64_t last = frames_.empty() ? 0 : frames_.back().time;
   Frame frame{std::max(last, thousandths(moment.time)),
               thousandths(moment.distance),
@@ -134,6 +144,21 @@ void Replay::dropEverySecond() {
   for (Toggle& toggle : toggles_) toggle.frame = (toggle.frame + 1) / 2;
   for (LineChange& change : changes_) change.frame = (change.frame + 1) / 2;
   stride_ *= 2;
+  ++generation_;
+}
+
+bool Replay::hasTimes() const {
+  return !frames_.empty() && frames_.back().time > frames_.front().time;
+}
+
+bool Replay::Mark::isBefore(const Mark& later) const {
+  return generation == later.generation && has_truth == later.has_truth &&
+         has_times == later.has_times && frames <= later.frames;
+}
+
+Replay::Mark Replay::mark() const {
+  return {generation_,     frames_.size(), decisions_.size(), toggles_.size(),
+          changes_.size(), has_truth_,     hasTimes()};
 }
 
 void Replay::setCoverage(const std::vector<double>& distance, const std::vector<double>& share) {

@@ -33,6 +33,16 @@ Json column(const Items& items, Value&& value) {
   return numbers;
 }
 
+/// The items from one on.
+template <class Item>
+struct Tail {
+  Tail(const std::vector<Item>& items, std::size_t from)
+      : first(items.data() + from), past(items.data() + items.size()) {}
+  const Item* begin() const { return first; }
+  const Item* end() const { return past; }
+  const Item *first, *past;
+};
+
 std::string packedText(const std::string& text) {
   uLongf size = compressBound(text.size());
   std::vector<std::uint8_t> bytes(size);
@@ -69,12 +79,23 @@ void Replay::setWorld(const World& world) {
 }
 
 std::string Replay::packed(const Eigen::Vector2d& origin) const {
+  return packedText(json({}, origin, world_));
+}
+
+std::string Replay::since(const Mark& mark) const { return json(mark, {0.0, 0.0}, ""); }
+
+std::string Replay::json(const Mark& from, const Eigen::Vector2d& origin,
+                         const std::string& world) const {
+  const Tail<Frame> new_frames(frames_, from.frames);
+  const Tail<Decision> new_decisions(decisions_, from.decisions);
+  const Tail<Toggle> new_toggles(toggles_, from.toggles);
+  const Tail<LineChange> new_changes(changes_, from.changes);
   Json run;
   run["title"] = title_;
   run["origin"] = {origin.x(), origin.y()};
   run["robot_radius"] = robot_radius_;
   run["frontier_block"] = kFrontierBlock;
-  run["world"] = world_.empty() ? Json() : Json::parse(world_);
+  run["world"] = world.empty() ? Json() : Json::parse(world);
   for (const Laser& laser : lasers_) {
     const auto& [x, y, theta] = laser.T_robot_sensor;
     run["lasers"].push_back({{"x", x},
@@ -85,28 +106,28 @@ std::string Replay::packed(const Eigen::Vector2d& origin) const {
                              {"beams", laser.beams}});
   }
   Json& frames = run["frames"];
-  const bool has_times = !frames_.empty() && frames_.back().time > frames_.front().time;
-  frames["time"] = column(frames_, [&](const Frame& f) {
+  const bool has_times = hasTimes();
+  frames["time"] = column(new_frames, [&](const Frame& f) {
     return has_times ? f.time : kMomentWithoutTime * (&f - frames_.data());
   });
-  frames["distance"] = column(frames_, [](const Frame& f) { return f.distance; });
+  frames["distance"] = column(new_frames, [](const Frame& f) { return f.distance; });
   const char* const names[] = {"x", "y", "theta"};
   for (std::size_t k = 0; k < 3; ++k) {
-    frames[names[k]] = column(frames_, [k](const Frame& f) { return f.pose[k]; });
+    frames[names[k]] = column(new_frames, [k](const Frame& f) { return f.pose[k]; });
     if (!has_truth_) continue;
     frames[std::string("true_") + names[k]] =
-        column(frames_, [k](const Frame& f) { return f.truth[k]; });
+        column(new_frames, [k](const Frame& f) { return f.truth[k]; });
   }
   frames["laser"] =
-      column(frames_, [](const Frame& f) { return static_cast<std::int64_t>(f.laser); });
+      column(new_frames, [](const Frame& f) { return static_cast<std::int64_t>(f.laser); });
   frames["ranges"] = Json::array();
-  for (const Frame& frame : frames_) {
+  for (const Frame& frame : new_frames) {
     for (Json& range : column(frame.ranges, [](int r) { return r; })) {
       frames["ranges"].push_back(std::move(range));
     }
   }
   run["decisions"] = Json::array();
-  for (const Decision& decision : decisions_) {
+  for (const Decision& decision : new_decisions) {
     run["decisions"].push_back({{"frame", decision.frame},
                                 {"goal", decision.goal ? Json(*decision.goal) : Json()},
                                 {"reason", decision.reason},
@@ -114,23 +135,35 @@ std::string Replay::packed(const Eigen::Vector2d& origin) const {
   }
   const auto frameOf = [](const auto& item) { return static_cast<std::int64_t>(item.frame); };
   Json& frontier = run["frontier"];
-  frontier["frame"] = column(toggles_, frameOf);
-  frontier["x"] = column(toggles_, [](const Toggle& t) { return t.block.first; });
-  frontier["y"] = column(toggles_, [](const Toggle& t) { return t.block.second; });
+  frontier["frame"] = column(new_toggles, frameOf);
+  frontier["x"] = column(new_toggles, [](const Toggle& t) { return t.block.first; });
+  frontier["y"] = column(new_toggles, [](const Toggle& t) { return t.block.second; });
   Json& lines = run["lines"];
-  lines["frame"] = column(changes_, frameOf);
+  lines["frame"] = column(new_changes, frameOf);
   lines["id"] =
-      column(changes_, [](const LineChange& c) { return static_cast<std::int64_t>(c.id); });
+      column(new_changes, [](const LineChange& c) { return static_cast<std::int64_t>(c.id); });
   const char* const ends[] = {"x1", "y1", "x2", "y2"};
   for (std::size_t k = 0; k < 4; ++k) {
-    lines[ends[k]] = column(changes_, [k](const LineChange& c) { return c.line.ends[k]; });
+    lines[ends[k]] = column(new_changes, [k](const LineChange& c) { return c.line.ends[k]; });
   }
-  lines["support"] = column(changes_, [](const LineChange& c) { return c.line.support; });
-  lines["sigma_offset"] = column(changes_, [](const LineChange& c) { return c.line.sigma_offset; });
-  lines["sigma_angle"] = column(changes_, [](const LineChange& c) { return c.line.sigma_angle; });
+  lines["support"] = column(new_changes, [](const LineChange& c) { return c.line.support; });
+  lines["sigma_offset"] =
+      column(new_changes, [](const LineChange& c) { return c.line.sigma_offset; });
+  lines["sigma_angle"] =
+      column(new_changes, [](const LineChange& c) { return c.line.sigma_angle; });
   run["coverage"]["distance"] = column(coverage_distance_, [](std::int64_t d) { return d; });
   run["coverage"]["share"] = column(coverage_share_, [](std::int64_t s) { return s; });
-  return packedText(run.dump(-1, ' ', false, Json::error_handler_t::replace));
+  return run.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+std::string livePage() {
+  std::string page = kReplayTemplate;
+  const auto put = [&page](const std::string& place, const std::string& text) {
+    page.replace(page.find(place), place.size(), text);
+  };
+  put("img-src data:", "img-src data:; connect-src 'self'");
+  put(kRunsHere, "<script type=\"application/octet-stream\" class=\"live\"></script>\n");
+  return page;
 }
 
 std::string replayPage(const std::vector<std::string>& runs) {

@@ -49,6 +49,9 @@ class Replay {
   /// come in order of time; those without finite time and pose are left out.
   /// Cost: size of the scan and of the frontier, and on average that of forty lines.
   void add(const ReplayMoment& moment, const Scan& scan, const LineMap& map);
+  /// The same, where who has the map says when its lines are looked at. @param lines  null: not
+  /// now.
+  void add(const ReplayMoment& moment, const Scan& scan, const std::vector<MapLine>* lines);
   /// The lines as the run leaves them, exactly.
   void finish(const std::vector<MapLine>& lines);
   /// What there is in truth.
@@ -57,6 +60,18 @@ class Replay {
   void setCoverage(const std::vector<double>& distance, const std::vector<double>& share);
 
   bool empty() const { return frames_.empty(); }
+
+  /// How much of a run somebody has who follows it. One without generation has nothing.
+  struct Mark {
+    std::size_t generation = 0;  ///< another one: moments were dropped, what was had is void
+    std::size_t frames = 0, decisions = 0, toggles = 0, changes = 0;
+    bool has_truth = false, has_times = false;
+    bool isBefore(const Mark& later) const;
+  };
+  Mark mark() const;
+  /// What has come since a mark that isBefore() this one: JSON of the form that packed() packs, but
+  /// without the world. Cost: that of what has come.
+  std::string since(const Mark& mark) const;
   /// The data that a page holds of this run: JSON, deflated, in base64.
   /// @param origin  m, map frame: where the frame of all this lies.
   std::string packed(const Eigen::Vector2d& origin = Eigen::Vector2d::Zero()) const;
@@ -103,13 +118,16 @@ class Replay {
   void addScan(const ReplayMoment& moment, const Scan& scan, Frame& frame);
   void decide(const ReplayMoment& moment);
   void drawFrontier(const std::vector<Eigen::Vector2d>& cells);
+  bool linesAreDue() const;
+  bool hasTimes() const;
+  std::string json(const Mark& from, const Eigen::Vector2d& origin, const std::string& world) const;
   void drawLines(const std::vector<MapLine>& lines, std::int64_t smallest_change);
   void dropEverySecond();
 
   std::string title_;
   double robot_radius_;
   bool has_truth_ = true;
-  std::size_t offered_ = 0, stride_ = 1;
+  std::size_t offered_ = 0, stride_ = 1, generation_ = 1;
   std::vector<Laser> lasers_;
   std::vector<Frame> frames_;
   std::vector<Decision> decisions_;
@@ -123,6 +141,9 @@ class Replay {
 
 /// The page: one file that asks nothing of any network. @param runs  packed(), one or two.
 std::string replayPage(const std::vector<std::string>& runs);
+
+/// The same page without a run: it asks the server that it comes from for one that goes on.
+std::string livePage();
 
 /// The runs of a page, as replayPage() took them.
 /// @param name  of the file, for messages. @throws std::runtime_error where there is none.

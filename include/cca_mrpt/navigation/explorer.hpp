@@ -130,6 +130,8 @@ class Explorer {
   void sendTo(const Pose2& T_map_goal);
   /// Not any more.
   void recall() { errand_.reset(); }
+  /// Whether it is on the way to where it was sent.
+  bool isSent() const { return errand_.has_value(); }
   static constexpr double kBesideGoal = 0.25;  ///< m
 
   /// Exploration stays inside a polygon (m, map frame). To be called before the first step.

@@ -14,17 +14,20 @@ function curvesOf(runs) {
   return charts.filter(([, curves]) => curves.some(Boolean)).slice(0, 2);
 }
 
+/** Curves as uPlot wants them. Where the robot stands several values share a distance: the last one counts. */
+function tableOf(curves) {
+  return uPlot.join(curves.map((curve) => {
+    const of = new Map();
+    if (curve) curve[0].forEach((distance, i) => of.set(distance, curve[1][i]));
+    const known = Array.from(of.keys()).sort((a, b) => a - b);
+    return [known, known.map((distance) => of.get(distance))];
+  }));
+}
+
 class Chart {
   /** @param onSeek  called with the distance [m] that was clicked on. */
   constructor(element, title, curves, onSeek) {
     this.element = element;
-    // Where the robot stands several values share a distance: the last one counts.
-    const tables = curves.map((curve) => {
-      const of = new Map();
-      if (curve) curve[0].forEach((distance, i) => of.set(distance, curve[1][i]));
-      const known = Array.from(of.keys()).sort((a, b) => a - b);
-      return [known, known.map((distance) => of.get(distance))];
-    });
     const axis = { stroke: () => colour('faint'), grid: { stroke: () => colour('edge'), width: 1 }, font: '11px system-ui' };
     this.plot = new uPlot({
       title, ...this.size(), legend: { show: false }, cursor: { drag: { x: false, y: false } },
@@ -32,7 +35,7 @@ class Chart {
       hooks: { ready: [() => this.mark()], setSize: [() => this.mark()] },
       axes: [{ ...axis, size: 26 }, { ...axis, size: 46 }],
       series: [{}, ...curves.map((_, i) => ({ stroke: () => colour(kRunColours[i]), width: 1.5, spanGaps: true, points: { show: false } }))],
-    }, uPlot.join(tables), element);
+    }, tableOf(curves), element);
     this.marks = curves.map((_, i) => {
       const mark = document.createElement('div');
       mark.className = i ? 'now second' : 'now';
@@ -41,6 +44,12 @@ class Chart {
     });
     this.plot.over.addEventListener('click', (event) => onSeek(this.plot.posToVal(event.offsetX, 'x')));
     new ResizeObserver(() => this.plot.setSize(this.size())).observe(element);
+  }
+
+  /** Takes curves that have grown. */
+  update(curves) {
+    this.plot.setData(tableOf(curves));
+    this.mark();
   }
 
   size() { return { width: Math.max(120, this.element.clientWidth), height: Math.max(60, this.element.clientHeight - 20) }; }

@@ -147,14 +147,42 @@ class RunMap {
       if (!this.blocks.delete(key)) this.blocks.set(key, [x[i] * run.block, y[i] * run.block]);
     }, () => this.blocks.clear());
     this.moment = -1;
-    this.wholePath = Array.from(run.pose.x, (x, i) => [run.pose.y[i], x]);
-    this.wholeTruth = run.truth && Array.from(run.truth.x, (x, i) => [run.truth.y[i], x]);
+    this.tracePaths();
     this.bounds = this.findBounds();
-    this.floor = new SeenFloor(run, this.bounds.pad(0.1));
-    L.svgOverlay(this.floor.canvas, this.bounds.pad(0.1), { pane: 'floor', className: 'floor', interactive: false })
-      .addTo(this.layers['seen floor']);
+    this.layFloor(0.1);
     this.paint();
     this.showAll();
+  }
+
+  tracePaths() {
+    const { pose, truth } = this.run;
+    this.wholePath = Array.from(pose.x, (x, i) => [pose.y[i], x]);
+    this.wholeTruth = truth && Array.from(truth.x, (x, i) => [truth.y[i], x]);
+  }
+
+  /** A floor for all that lies within the bounds. @param share  of them, that is left around. */
+  layFloor(share) {
+    this.floorBounds = this.bounds.pad(share);
+    this.floor = new SeenFloor(this.run, this.floorBounds);
+    this.layers['seen floor'].clearLayers();
+    L.svgOverlay(this.floor.canvas, this.floorBounds, { pane: 'floor', className: 'floor', interactive: false })
+      .addTo(this.layers['seen floor']);
+  }
+
+  /** Takes what has come of a run that goes on; show() shows it. */
+  append(data) {
+    this.run.append(data);
+    if (data.frames.time.length + data.lines.frame.length === 0) return;
+    this.tracePaths();
+    this.moment = -1;  // lines may have changed at the last moment, too
+    const grown = this.findBounds(), wasWhole = this.isWhole;
+    const grew = !this.bounds.contains(grown);
+    this.bounds = grown;
+    if (!this.floorBounds.contains(grown)) {
+      this.layFloor(0.5);  // by half: so it is laid anew a few times only, however large the place
+      this.floor.paint();
+    }
+    if (grew && wasWhole) this.showAll();
   }
 
   findBounds() {
@@ -176,7 +204,13 @@ class RunMap {
     return L.latLngBounds([y, x], [y + height * resolution, x + width * resolution]);
   }
 
-  showAll() { this.map.fitBounds(this.bounds, { animate: false, padding: [10, 10] }); }
+  showAll() {
+    this.map.fitBounds(this.bounds, { animate: false, padding: [10, 10] });
+    this.wholeView = String([this.map.getCenter(), this.map.getZoom()]);
+  }
+
+  /** Whether nobody has moved the map since it was shown as a whole. */
+  get isWhole() { return this.wholeView === String([this.map.getCenter(), this.map.getZoom()]); }
 
   /** Gives all its colour: at first, and where the page turns dark or light. */
   paint() {

@@ -32,7 +32,7 @@ class Player {
     Object.assign(view, { reason, numbers: title.querySelector('.numbers') });
     this.maps.push(view);
     new ResizeObserver(() => view.map.invalidateSize({ animate: false })).observe(map);
-    view.map.on('move', () => this.follow(view)).on('moveend', () => this.writeAddress()).on('click', (event) => this.measure(view, event.latlng))
+    view.map.on('move', () => this.follow(view)).on('moveend', () => this.writeAddress()).on('click', (event) => this.live?.send(event.latlng) || this.measure(view, event.latlng))
       .on('mousemove', (event) => this.drawMeasure(view, event.latlng));
     for (const name of this.hidden) view.setVisible(name, false);
     byId('timeline').max = this.duration;
@@ -40,6 +40,19 @@ class Player {
     this.makeLayerBoxes();
     this.showWhole();
     this.show(this.time);
+  }
+
+  removeLastRun() {
+    const old = this.maps.pop();
+    old.map.getContainer().parentElement.remove();
+    old.map.remove();
+  }
+
+  /** The charts of runs that have grown. */
+  updateCharts() {
+    const curves = curvesOf(this.maps.map(({ run }) => run));
+    if (curves.length !== this.charts.length) return this.makeCharts();
+    this.charts.forEach((chart, i) => chart.update(curves[i][1]));
   }
 
   /** Other maps show what this one does. */
@@ -109,7 +122,7 @@ class Player {
 
   /** Keeps time, layers and view behind the '#' of the address, some time after the last change. */
   writeAddress() {
-    if (!this.isOpen) return;
+    if (!this.isOpen) return;  // nor does a run that goes on
     clearTimeout(this.writing);
     this.writing = setTimeout(() => {
       const { map } = this.maps[0], { lat, lng } = map.getCenter();
@@ -136,13 +149,21 @@ class Player {
     if (Number.isFinite(time)) this.show(time);
   }
 
+  /** Shows a time that the user chose: where the run goes on, it is followed no more. */
+  seek(time) {
+    if (!this.maps.length) return;
+    this.live?.follow(false);
+    this.show(time);
+  }
+
   seekDistance(distance) {
     const { run } = this.maps[0];
-    this.show(run.time[Math.max(0, lastUpTo(run.distance, distance))] - run.begin);
+    this.seek(run.time[Math.max(0, lastUpTo(run.distance, distance))] - run.begin);
   }
 
   play(on) {
-    if (on === this.isPlaying) return;
+    if (on === this.isPlaying || !this.maps.length) return;
+    if (on) this.live?.follow(false);
     byId('play').innerHTML = on ? '&#10074;&#10074;' : '&#9654;';
     byId('play').setAttribute('aria-label', on ? 'Pause' : 'Play');
     if (!on) {
@@ -200,21 +221,18 @@ class Player {
     const page = new DOMParser().parseFromString(await file.text(), 'text/html');
     const data = page.querySelector('script.run');
     if (!data) return alert(file.name + ': holds no run');
-    while (this.maps.length > 1) {
-      const old = this.maps.pop();
-      old.map.getContainer().parentElement.remove();
-      old.map.remove();
-    }
+    while (this.maps.length > 1) this.removeLastRun();
     this.addRun(await Run.read(data.textContent));
   }
 
   connect() {
     byId('play').addEventListener('click', () => this.play(!this.isPlaying));
-    byId('timeline').addEventListener('input', (event) => this.show(Number(event.target.value)));
+    byId('timeline').addEventListener('input', (event) => this.seek(Number(event.target.value)));
     byId('measure').addEventListener('click', () => this.setMeasuring(!this.isMeasuring));
     byId('whole').addEventListener('click', () => this.showWhole());
     byId('compare').addEventListener('change', (event) => event.target.files[0] && this.compare(event.target.files[0]));
     matchMedia('(prefers-color-scheme: dark)').addEventListener('change', () => {
+      if (!this.maps.length) return;
       for (const view of this.maps) view.paint();
       this.makeCharts();
       this.show(this.time);
@@ -242,16 +260,17 @@ class Player {
     const isElsewhere = target.closest('a, select, button, input[type=checkbox], .button');
     const far = event.shiftKey ? 10 : 1;
     const keys = {
-      ArrowLeft: () => this.show(this.time - far), ArrowRight: () => this.show(this.time + far),
-      Home: () => this.show(0), End: () => this.show(this.duration),
+      ArrowLeft: () => this.seek(this.time - far), ArrowRight: () => this.seek(this.time + far),
+      Home: () => this.seek(0), End: () => this.seek(this.duration),
       ' ': () => this.play(!this.isPlaying),
     };
     const anywhere = {
-      '+': () => this.changeSpeed(1), '-': () => this.changeSpeed(-1), 0: () => this.showWhole(),
-      m: () => this.setMeasuring(!this.isMeasuring), Escape: () => this.setMeasuring(false),
+      '+': () => this.changeSpeed(1), '-': () => this.changeSpeed(-1), 0: () => this.maps.length && this.showWhole(),
+      m: () => this.setMeasuring(!this.isMeasuring),
+      Escape: () => { this.setMeasuring(false); this.live?.setSending(false); },
     };
     const layer = byId('layers').children[Number(key) - 1];
-    const action = (!isElsewhere && keys[key]) || anywhere[key] || (layer && (() => layer.firstChild.click()));
+    const action = (!isElsewhere && keys[key]) || anywhere[key] || this.live?.actionOf(key) || (layer && (() => layer.firstChild.click()));
     if (!action) return;
     action();
     event.preventDefault();
@@ -260,6 +279,11 @@ class Player {
 
 (async () => {
   const player = new Player();
+  if (document.querySelector('script.live')) {
+    player.live = new Live(player);
+    window.player = player;
+    return;
+  }
   for (const data of document.querySelectorAll('script.run')) player.addRun(await Run.read(data.textContent));
   player.show(player.duration);
   player.readAddress();

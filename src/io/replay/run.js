@@ -4,12 +4,10 @@
 
 const kJump = 1.0;  // m, between two moments: a correction, not a drive
 
-/** The numbers of which a column holds the differences. @param unit  of one of them. */
-function undo(column, unit = 1) {
-  const numbers = new Float64Array(column.length);
+/** Appends the numbers of which a column holds the differences. @param unit  of one of them. */
+function undo(numbers, column, unit = 1) {
   let sum = 0;
-  for (let i = 0; i < column.length; ++i) numbers[i] = (sum += column[i]) * unit;
-  return numbers;
+  for (const difference of column) numbers.push((sum += difference) * unit);
 }
 
 /** The text that was deflated and written in base64. */
@@ -30,42 +28,69 @@ function lastUpTo(sorted, value) {
 }
 
 class Run {
-  static async read(base64) { return new Run(JSON.parse(await unpack(base64))); }
+  /** @param goesOn  whether append() is to follow. */
+  static async read(base64, goesOn = false) { return new Run(JSON.parse(await unpack(base64)), goesOn); }
 
-  constructor(data) {
+  constructor(data, goesOn) {
     this.title = data.title;
     this.origin = data.origin;  // m, map frame
     this.robotRadius = data.robot_radius;
     this.block = data.frontier_block;
     this.world = data.world;
-    const f = data.frames;
-    this.time = undo(f.time, 1e-3);
-    this.distance = undo(f.distance, 1e-3);
-    this.pose = { x: undo(f.x, 1e-3), y: undo(f.y, 1e-3), theta: undo(f.theta, 1e-3) };
-    this.truth = f.true_x && { x: undo(f.true_x, 1e-3), y: undo(f.true_y, 1e-3), theta: undo(f.true_theta, 1e-3) };
-    this.size = this.time.length;
-    if (this.truth && this.poseErrors().every((error) => error === 0)) this.truth = null;  // they are the same
-    this.begin = this.time[0];
-    this.duration = this.time[this.size - 1] - this.begin;
-    this.laserOf = undo(f.laser);
-    this.lasers = data.lasers;
-    this.ranges = f.ranges;
-    this.rangesBegin = [];
-    let at = 0;
-    for (const laser of this.laserOf) {
-      this.rangesBegin.push(at);
-      at += this.lasers[laser].beams;
-    }
-    this.decisions = data.decisions;
-    this.decisionFrames = this.decisions.map((d) => d.frame);
-    const last = this.size - 1, bounded = (frames) => frames.map((i) => Math.min(i, last));
-    this.frontier = { frame: bounded(undo(data.frontier.frame)), x: undo(data.frontier.x), y: undo(data.frontier.y) };
-    const l = data.lines;
-    this.lines = { frame: bounded(undo(l.frame)), id: undo(l.id),
-                   x1: undo(l.x1, 1e-3), y1: undo(l.y1, 1e-3), x2: undo(l.x2, 1e-3), y2: undo(l.y2, 1e-3),
-                   support: undo(l.support), sigmaOffset: undo(l.sigma_offset, 1e-5), sigmaAngle: undo(l.sigma_angle, 1e-5) };
-    this.coverage = { distance: undo(data.coverage.distance, 1e-3), share: undo(data.coverage.share, 1e-4) };
+    const columns = (...names) => Object.fromEntries(names.map((name) => [name, []]));
+    Object.assign(this, columns('time', 'distance', 'laserOf', 'ranges', 'rangesBegin', 'decisions', 'decisionFrames'));
+    this.pose = columns('x', 'y', 'theta');
+    this.truth = data.frames.true_x && columns('x', 'y', 'theta');
+    this.frontier = columns('frame', 'x', 'y');
+    this.lines = columns('frame', 'id', 'x1', 'y1', 'x2', 'y2', 'support', 'sigmaOffset', 'sigmaAngle');
+    this.coverage = columns('distance', 'share');
+    this.append(data);
+    if (!goesOn && this.truth && this.poseErrors().every((error) => error === 0)) this.truth = null;  // they are the same
   }
+
+  /** Takes what comes after all that is here. */
+  append(data) {
+    const f = data.frames;
+    undo(this.time, f.time, 1e-3);
+    undo(this.distance, f.distance, 1e-3);
+    for (const name of ['x', 'y', 'theta']) {
+      undo(this.pose[name], f[name], 1e-3);
+      if (this.truth) undo(this.truth[name], f['true_' + name], 1e-3);
+    }
+    undo(this.laserOf, f.laser);
+    this.lasers = data.lasers;
+    let at = this.ranges.length;
+    for (const range of f.ranges) this.ranges.push(range);
+    for (let i = this.size; i < this.time.length; ++i) {
+      this.rangesBegin.push(at);
+      at += this.lasers[this.laserOf[i]].beams;
+    }
+    for (const decision of data.decisions) {
+      this.decisions.push(decision);
+      this.decisionFrames.push(decision.frame);
+    }
+    const last = this.time.length - 1, bounded = (frames, column) => {
+      const from = frames.length;
+      undo(frames, column);
+      for (let i = from; i < frames.length; ++i) frames[i] = Math.min(frames[i], last);
+    };
+    bounded(this.frontier.frame, data.frontier.frame);
+    undo(this.frontier.x, data.frontier.x);
+    undo(this.frontier.y, data.frontier.y);
+    const l = data.lines, to = this.lines;
+    bounded(to.frame, l.frame);
+    undo(to.id, l.id);
+    for (const name of ['x1', 'y1', 'x2', 'y2']) undo(to[name], l[name], 1e-3);
+    undo(to.support, l.support);
+    undo(to.sigmaOffset, l.sigma_offset, 1e-5);
+    undo(to.sigmaAngle, l.sigma_angle, 1e-5);
+    undo(this.coverage.distance, data.coverage.distance, 1e-3);
+    undo(this.coverage.share, data.coverage.share, 1e-4);
+  }
+
+  get size() { return this.rangesBegin.length; }
+  get begin() { return this.time[0]; }
+  get duration() { return this.time[this.size - 1] - this.begin; }
 
   /** The last moment up to a time [s since the first]. */
   momentAt(time) { return Math.max(0, lastUpTo(this.time, this.begin + time + 1e-9)); }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "exploration_window.hpp"
+#include "run_window.hpp"
 
 #include <mrpt/gui/CDisplayWindow3D.h>
 #include <mrpt/opengl/CBox.h>
@@ -57,19 +57,19 @@ mrpt::opengl::CPointCloud::Ptr returnsOf(const Scan& scan) {
   return points;
 }
 
-class MrptWindow : public ExplorationWindow {
+class MrptWindow : public RunObserver {
  public:
-  explicit MrptWindow(const World& world);
+  MrptWindow(const World& world, double robot_radius);
   bool isDue() const override;
-  void show(const MapProducts& products, const Simulation& simulation,
-            const Observation& observation, const Action& action) override;
+  void show(const RunView& view) override;
 
  private:
+  double robot_radius_;  // m
   mrpt::gui::CDisplayWindow3D::Ptr window_;
   std::chrono::steady_clock::time_point last_;
 };
 
-MrptWindow::MrptWindow(const World& world) {
+MrptWindow::MrptWindow(const World& world, double robot_radius) : robot_radius_(robot_radius) {
   if (!std::getenv("DISPLAY")) {
     throw std::runtime_error("--gui: there is no display (DISPLAY is not set)");
   }
@@ -87,16 +87,15 @@ bool MrptWindow::isDue() const {
   return window_->isOpen() && std::chrono::steady_clock::now() - last_ >= kEvery;
 }
 
-void MrptWindow::show(const MapProducts& products, const Simulation& simulation,
-                      const Observation& observation, const Action& action) {
+void MrptWindow::show(const RunView& view) {
   last_ = std::chrono::steady_clock::now();
-  auto scene = makeScene(products);
-  scene->insert(disc(observation.T_map_robot.position(), simulation.parameters().robot.radius, 0.5,
+  auto scene = makeScene(view.products());
+  scene->insert(disc(view.moment.T_map_robot.position(), robot_radius_, 0.5,
                      mrpt::img::TColorf(0.1f, 0.3f, 0.8f)));
-  scene->insert(returnsOf(observation.scan));
-  for (const Body& body : simulation.bodies()) scene->insert(shapeOf(body));
-  if (action.goal) {
-    scene->insert(disc(*action.goal, 0.15, 1.5, mrpt::img::TColorf(0.1f, 0.7f, 0.2f)));
+  scene->insert(returnsOf(view.scan));
+  for (const Body& body : view.bodies) scene->insert(shapeOf(body));
+  if (view.moment.goal) {
+    scene->insert(disc(*view.moment.goal, 0.15, 1.5, mrpt::img::TColorf(0.1f, 0.7f, 0.2f)));
   }
   window_->get3DSceneAndLock() = scene;
   window_->unlockAccess3DScene();
@@ -106,6 +105,6 @@ void MrptWindow::show(const MapProducts& products, const Simulation& simulation,
 }  // namespace
 }  // namespace cca::apps
 
-extern "C" cca::apps::ExplorationWindow* openExplorationWindow(const cca::World& world) {
-  return new cca::apps::MrptWindow(world);
+extern "C" cca::RunObserver* openRunWindow(const cca::World& world, double robot_radius) {
+  return new cca::apps::MrptWindow(world, robot_radius);
 }
