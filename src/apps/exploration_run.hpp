@@ -13,6 +13,7 @@
 #include "cca_mrpt/session/exploration_session.hpp"
 #include "cca_mrpt/simulation/simulation.hpp"
 #include "cca_mrpt/slam/slam_localiser.hpp"
+#include "decision_file.hpp"
 #include "exploration_record.hpp"
 #include "exploration_window.hpp"
 #include "interruption.hpp"
@@ -35,6 +36,9 @@ class ExplorationRun {
 
   /// Goes on with an earlier map, from anywhere in it; to be called first, with line SLAM only.
   void remember(const SlamMemory& memory);
+
+  /// Each decision is added to a file, which lives as long as this.
+  void explainTo(DecisionFile& file);
 
   /// Explores until nothing is left, the time is over, the robot is lost, or the user interrupts.
   /// @param progress, window  may be null.
