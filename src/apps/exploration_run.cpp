@@ -66,6 +66,12 @@ void ExplorationRun::remember(const SlamMemory& memory) {
   rememberDrive(memory, *slam_, session_.mapping());
 }
 
+void ExplorationRun::explainTo(DecisionFile& file) {
+  session_.explorer().explainTo([this, &file](const ExplainedDecision& decision) {
+    file.add(decision, simulation_.time(), simulation_.distance());
+  });
+}
+
 void ExplorationRun::mapBeside(std::function<void()> work) {
   background_.add([this, work = std::move(work)] {
     const Clock::time_point start = Clock::now();

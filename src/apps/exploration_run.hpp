@@ -15,6 +15,7 @@
 #include "cca_mrpt/session/exploration_session.hpp"
 #include "cca_mrpt/simulation/simulation.hpp"
 #include "cca_mrpt/slam/slam_localiser.hpp"
+#include "decision_file.hpp"
 #include "exploration_record.hpp"
 #include "interruption.hpp"
 #include "progress.hpp"
@@ -41,6 +42,8 @@ class ExplorationRun {
   void addObserver(RunObserver& observer) { observers_.push_back(&observer); }
   /// The same, and does what viewers of the page want.
   void obey(LivePage& page);
+  /// Each decision is added to a file, which lives as long as this.
+  void explainTo(DecisionFile& file);
 
   /// Explores until nothing is left, the time is over, the robot is lost, or the user interrupts.
   /// @param progress  may be null.

@@ -18,6 +18,7 @@
 #include "cca_mrpt/simulation/laser_models.hpp"
 #include "cca_mrpt/simulation/simulation.hpp"
 #include "commands.hpp"
+#include "decision_file.hpp"
 #include "exploration_run.hpp"
 #include "interruption.hpp"
 #include "parameter_options.hpp"
@@ -37,7 +38,7 @@ using Clock = std::chrono::steady_clock;
 constexpr double kSmallestView = 90.0, kWidestSpacing = 5.0;  // deg
 
 struct ExploreOptions {
-  std::string world, movers, out, resume;
+  std::string world, movers, out, resume, explain;
   std::vector<double> start;  // x, y in m, heading in degrees; empty: the world's own
   std::shared_ptr<const ServeOptions> serve;
   bool gui = false, quiet = false, force = false;
@@ -175,8 +176,15 @@ void explore(const ExploreOptions& options, const Parameters& parameters) {
   const std::unique_ptr<LivePage> page = openPage(*options.serve, scene);
   const std::string folder = chooseFolder(options, simulation.world().name);
   const FolderLock lock = prepareMapFolder(folder, options.force, ExplorationRecord::files());
+  std::optional<DecisionFile> decisions;
+  if (!options.explain.empty()) {
+    if (!options.force && fs::exists(options.explain))
+      throw std::runtime_error(options.explain + ": is there already (--force overwrites it)");
+    decisions.emplace(options.explain, scene.origin);
+  }
   ExplorationRun run(simulation, scene.origin, parameters, folder);
   if (memory) run.remember(*memory);
+  if (decisions) run.explainTo(*decisions);
   std::unique_ptr<Progress> progress;
   if (!options.quiet) progress = std::make_unique<Progress>("exploring");
   const Interruption interruption;
@@ -191,6 +199,7 @@ void explore(const ExploreOptions& options, const Parameters& parameters) {
   run.end().wall_s = secondsSince(start);
   run.record().write(simulation, run.session().mapping(), run.slam(), run.end());
   if (page) page->finish(run.session().mapping().lineMap().lines(), run.end().reason);
+  if (decisions) decisions->commit();
   if (!options.quiet) report(simulation, run, folder);
   if (!run.end().finished) {
     throw std::runtime_error(run.end().reason + "; what was mapped so far is in " + folder);
@@ -218,6 +227,8 @@ void addExploreCommand(CLI::App& program) {
   command->add_flag("--gui", options->gui, "show the run in MRPT's 3-D window");
   options->serve = addServeOptions(*command);
   command->add_option("--out", options->out, "folder for the results; else out/WORLD-001, ...");
+  command->add_option("--explain", options->explain,
+                      "file for each decision as a JSON line: candidates, promise, way, score");
   command->add_flag("--force", options->force, "overwrite results that are in the folder");
   command->add_flag("--quiet", options->quiet, "print nothing but errors");
   auto parameters = std::make_shared<ParameterOptions>(

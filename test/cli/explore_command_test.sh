@@ -40,6 +40,35 @@ done
 sed -i -E '/"(wall_s|scan_us_median|scan_us_p99)"/d' a/summary.json b/summary.json
 diff -rq a b || fail "equal seeds gave unequal files"
 
+# --explain tells each decision and changes none: the goals are candidates, of most score or least cost.
+"$program" explore "$maps/two_rooms.yaml" --seed 7 --out c --quiet --explain c.jsonl || fail "--explain: status $?"
+sed -i -E '/"(wall_s|scan_us_median|scan_us_p99)"/d' c/summary.json
+diff -rq a c || fail "--explain changed the run"
+/usr/bin/python3 - c.jsonl c/summary.json <<'CHECK' || fail "--explain: c.jsonl"
+import json, math, sys
+lines = [json.loads(line) for line in open(sys.argv[1])]
+summary = json.load(open(sys.argv[2]))
+*driven, last = lines
+assert len(driven) >= summary["goals"], (len(driven), summary["goals"])
+assert last["rule"] == "none" and last["chosen"] is None and last["reason"] == summary["reason"], last
+assert {line["rule"] for line in driven} <= {"score", "in_passing", "tour"}
+for line in driven:
+    candidates, chosen = line["candidates"], line["candidates"][line["chosen"]]
+    assert line["reason"].startswith("%.2f m^2 behind" % chosen["promise_m2"]), line
+    assert len(candidates) <= 12 and all(c["promise_m2"] > 0 for c in candidates)
+    for c in candidates:
+        assert math.hypot(c["x_m"] - line["x_m"], c["y_m"] - line["y_m"]) <= c["way_m"] + 0.3, (line, c)
+    if line["rule"] != "tour":
+        assert all(abs(c["score"] - c["promise_m2"] * math.exp(-0.2 * c["way_m"])) < 2e-3 for c in candidates)
+    if line["rule"] == "score":
+        assert chosen["score"] == max(c["score"] for c in candidates), line
+    if line["rule"] == "tour":
+        assert chosen["score"] <= min(c["score"] for c in candidates) + 0.5, line
+assert [line["time_s"] for line in lines] == sorted(line["time_s"] for line in lines)
+CHECK
+expect_error 1 "c.jsonl: is there already" explore "$maps/two_rooms.yaml" --out none --explain c.jsonl
+expect_error 1 "nowhere" explore "$maps/two_rooms.yaml" --out none --explain nowhere/d.jsonl
+
 # A page is made anew from what it holds; two runs stand in one.
 "$program" render a --html --out again.html || fail "render --html: status $?"
 cmp again.html a/replay.html || fail "render --html gave another page"

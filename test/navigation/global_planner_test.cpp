@@ -93,6 +93,53 @@ TEST(GlobalPlanner, ReasonsSayWhatAGoalPromisesWhereAndHowFarItIs) {
   EXPECT_NEAR(way, (plan.path.back() - robot).norm(), 2.0);
 }
 
+/// Of a drive through the two rooms.
+std::vector<ExplainedDecision> decisionsOf(Strategy strategy, Drive& drive_out) {
+  GlobalPlannerParameters parameters;
+  parameters.strategy = strategy;
+  GlobalPlanner planner(parameters);
+  std::vector<ExplainedDecision> decisions;
+  planner.explainTo([&](const ExplainedDecision& decision) { decisions.push_back(decision); });
+  drive_out = drive(planner, kTwoRooms, {1.0, 1.0});
+  return decisions;
+}
+
+TEST_P(EveryStrategy, ExplainsEachDecisionByTheBestOfItsCandidates) {
+  const Strategy strategy = GetParam().second;
+  Drive way;
+  const auto decisions = decisionsOf(strategy, way);
+  ASSERT_GT(decisions.size(), 2u);
+  for (const ExplainedDecision& decision : decisions) {
+    if (decision.rule == DecisionRule::kNone) continue;
+    ASSERT_TRUE(decision.chosen);
+    ASSERT_LT(*decision.chosen, decision.candidates.size());
+    const Candidate& chosen = decision.candidates[*decision.chosen];
+    const bool is_tour = decision.rule == DecisionRule::kTour;
+    for (const Candidate& other : decision.candidates) {
+      EXPECT_GE(other.way + 0.3, (other.place_map - decision.robot_map).norm());
+      EXPECT_GT(other.expected, 0.0);
+      if (is_tour) {
+        EXPECT_LE(chosen.score, other.score + 0.5) << decision.reason;
+      } else if (decision.rule != DecisionRule::kInPassing) {
+        EXPECT_GE(chosen.score, other.score) << decision.reason;
+      }
+    }
+  }
+  const ExplainedDecision& last = decisions.back();
+  EXPECT_EQ(last.rule, DecisionRule::kNone);
+  EXPECT_FALSE(last.chosen);
+  EXPECT_EQ(last.reason, way.last.reason);
+}
+
+TEST_P(EveryStrategy, DrivesTheSameWayWhereItsDecisionsAreExplained) {
+  Drive explained;
+  decisionsOf(GetParam().second, explained);
+  GlobalPlannerParameters parameters;
+  parameters.strategy = GetParam().second;
+  GlobalPlanner planner(parameters);
+  EXPECT_EQ(drive(planner, kTwoRooms, {1.0, 1.0}).goals, explained.goals);
+}
+
 TEST(GlobalPlanner, FinishesAtOnceWhereAllIsInSight) {
   const KnownWorld room{{"######", "#....#", "#....#", "#....#", "######"}, 10};
   GlobalPlanner planner;

@@ -13,6 +13,7 @@ constexpr std::size_t kWorthReconsidering = 20;  // cells newly seen
 constexpr double kPromising = 0.15;              // m^2 that are expected for their way
 constexpr double kPassed = 0.1;                  // m, of a corner
 constexpr double kLongestInVain = 100.0;         // m, and once around what is known
+constexpr std::size_t kMostExplained = 12;       // candidates, as many as a tour has stops
 
 }  // namespace
 
@@ -125,9 +126,7 @@ void GlobalPlanner::decide(const Eigen::Vector2d& robot_map) {
   if (!drivesInVain()) {
     do {
       place_.findWays(robot_map);
-      if (const auto chosen = bestFrontier())
-        return driveTo(*chosen, robot_map, promiseOf(*chosen) + ", at a frontier");
-      if (search(robot_map)) return;
+      if (driveToFrontier(robot_map) || search(robot_map)) return;
     } while (!place_.isHeld() && place_.open());  // where it is held it gets nowhere from here
   }
   goal_.reset();
@@ -148,6 +147,7 @@ void GlobalPlanner::finish(const Eigen::Vector2d& robot_map) {
   const auto given_up = whyGivenUp();
   plan_.gave_up = given_up.has_value();
   plan_.reason = given_up.value_or(view_search_.whatIsLeft());
+  explain(robot_map, {{}, "", DecisionRule::kNone, {}, {}});
 }
 
 // The way there and back between the farthest places of a building is not in vain yet.
@@ -193,16 +193,35 @@ ViewSearch::Filter GlobalPlanner::openOnes() const {
 }
 
 // By the strategies of others, whose goals are frontiers.
-std::optional<ViewPoint> GlobalPlanner::bestFrontier() const {
-  std::optional<ViewPoint> best;
-  if (parameters_.strategy == Strategy::kViewTour) return best;
+bool GlobalPlanner::driveToFrontier(const Eigen::Vector2d& robot_map) {
+  if (parameters_.strategy == Strategy::kViewTour) return false;
+  std::vector<ViewPoint> open;
   for (const ViewPoint& view :
        frontierPlaces(place_, parameters_.smallest_frontier, parameters_.smallest_gain)) {
-    const bool is_better =
-        !best || scoreOf(parameters_.strategy, view) > scoreOf(parameters_.strategy, *best);
-    if (is_better && openOnes()(view)) best = view;
+    if (openOnes()(view)) open.push_back(view);
   }
-  return best;
+  std::stable_sort(open.begin(), open.end(), [this](const ViewPoint& a, const ViewPoint& b) {
+    return scoreOf(parameters_.strategy, a) > scoreOf(parameters_.strategy, b);
+  });
+  if (open.empty()) return false;
+  const ViewPoint best = open.front();
+  driveTo(best, robot_map, promiseOf(best) + ", at a frontier");
+  open.resize(std::min(open.size(), kMostExplained), best);
+  explain(robot_map, {best, "", DecisionRule::kFrontier, std::move(open), {}});
+  return true;
+}
+
+void GlobalPlanner::explain(const Eigen::Vector2d& robot_map, const Choice& choice) const {
+  if (!observer_) return;
+  ExplainedDecision decision{robot_map, choice.rule, {}, {}, plan_.reason};
+  for (std::size_t k = 0; k < choice.weighed.size(); ++k) {
+    const ViewPoint& view = choice.weighed[k];
+    if (!decision.chosen && view.cell == choice.view.cell) decision.chosen = k;
+    decision.candidates.push_back(
+        {grid().centreOf(view.cell), grid().centreOf(view.target), view.expected, view.distance,
+         choice.costs.empty() ? scoreOf(parameters_.strategy, view) : choice.costs[k]});
+  }
+  observer_(decision);
 }
 
 /// For people. Its place is that in the map frame.
@@ -219,20 +238,31 @@ std::string GlobalPlanner::promiseOf(const ViewPoint& view) const {
 
 // Where no place promises much, all that is left is seen in a tour.
 GlobalPlanner::Choice GlobalPlanner::nextStop(const ViewPoint& best) {
-  const auto other = view_search_.nextBest(place_, parameters_.strategy, openOnes(), best);
+  const std::size_t shown = observer_ ? kMostExplained - 1 : 1;
+  auto weighed = view_search_.nextBest(place_, parameters_.strategy, openOnes(), {best}, shown);
   const std::string next =
-      other ? "next best " + promiseOf(*other) : "nothing else is worth its way";
-  if (parameters_.strategy != Strategy::kViewTour) return {best, next};
+      weighed.empty() ? "nothing else is worth its way" : "next best " + promiseOf(weighed.front());
+  weighed.insert(weighed.begin(), best);
+  Choice by_score{best, next, DecisionRule::kScore, std::move(weighed), {}};
+  if (parameters_.strategy != Strategy::kViewTour) return by_score;
   if (scoreOf(parameters_.strategy, best) >= kPromising) {
     const auto passed = view_search_.inPassing(place_, openOnes(), best);
-    return passed ? Choice{*passed, "in passing, on the way to " + promiseOf(best)}
-                  : Choice{best, next};
+    if (!passed) return by_score;
+    by_score.weighed.insert(by_score.weighed.begin(), *passed);
+    by_score.weighed.resize(std::min(by_score.weighed.size(), kMostExplained), best);
+    return {*passed,
+            "in passing, on the way to " + promiseOf(best),
+            DecisionRule::kInPassing,
+            std::move(by_score.weighed),
+            {}};
   }
   const auto present = isGoalUnseen() ? std::optional<Cell>(goal_->target) : std::nullopt;
-  const auto stops = view_search_.stops(place_, openOnes());
-  const auto first = firstOfTour(place_, stops, present);
-  if (!first) return {best, next};
-  return {*first, "first of a tour of " + std::to_string(stops.size()) + " stops"};
+  auto stops = view_search_.stops(place_, openOnes());
+  auto start = firstOfTour(place_, stops, present);
+  if (!start) return by_score;
+  const ViewPoint first = stops[start->first];
+  const std::string found = "first of a tour of " + std::to_string(stops.size()) + " stops";
+  return {first, found, DecisionRule::kTour, std::move(stops), std::move(start->costs)};
 }
 
 // The best of all places.
@@ -242,6 +272,7 @@ bool GlobalPlanner::search(const Eigen::Vector2d& robot_map) {
   if (chosen) {
     const Choice choice = nextStop(*chosen);
     driveTo(choice.view, robot_map, promiseOf(choice.view) + "; " + choice.found);
+    explain(robot_map, choice);
   } else if (!view_search_.isUnderWay()) {
     return false;
   } else if (isGoalUnseen() && place_.ways().isReached(goal_->cell)) {

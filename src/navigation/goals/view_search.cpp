@@ -69,15 +69,26 @@ bool ViewSearch::canBeSeen(const KnownPlace& place, Cell target) const {
   });
 }
 
-std::optional<ViewPoint> ViewSearch::nextBest(const KnownPlace& place, Strategy strategy,
-                                              const Filter& filter, const ViewPoint& chosen) const {
-  const ViewPoint* best = nullptr;
-  for (const ViewPoint& view : found_) {
-    const double apart = distanceBetween(view.target, chosen.target) * place.grid().resolution();
-    if (apart < kElsewhere || !isWorthItsWay(view, filter)) continue;
-    if (!best || scoreOf(strategy, view) > scoreOf(strategy, *best)) best = &view;
+std::vector<ViewPoint> ViewSearch::nextBest(const KnownPlace& place, Strategy strategy,
+                                            const Filter& filter, std::vector<ViewPoint> chosen,
+                                            std::size_t most) const {
+  const double elsewhere = kElsewhere / place.grid().resolution();
+  std::vector<ViewPoint> others;
+  while (others.size() < most) {
+    const ViewPoint* best = nullptr;
+    for (const ViewPoint& view : found_) {
+      const bool is_worse = best && scoreOf(strategy, view) <= scoreOf(strategy, *best);
+      if (is_worse || !isWorthItsWay(view, filter)) continue;
+      const bool is_shown = std::any_of(chosen.begin(), chosen.end(), [&](const ViewPoint& other) {
+        return distanceBetween(view.target, other.target) < elsewhere;
+      });
+      if (!is_shown) best = &view;
+    }
+    if (!best) break;
+    others.push_back(*best);
+    chosen.push_back(*best);
   }
-  return best ? std::optional<ViewPoint>(*best) : std::nullopt;
+  return others;
 }
 
 std::string ViewSearch::whatIsLeft() const {

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <utility>
 
 namespace cca {
 namespace {
@@ -59,7 +60,7 @@ std::vector<double> tourCosts(const Eigen::MatrixXd& distance, const std::vector
   return costs;
 }
 
-std::optional<ViewPoint> firstOfTour(const KnownPlace& place, const std::vector<ViewPoint>& stops,
+std::optional<TourStart> firstOfTour(const KnownPlace& place, const std::vector<ViewPoint>& stops,
                                      std::optional<Cell> present) {
   if (stops.empty()) return {};
   double sum = 0.0;
@@ -68,7 +69,7 @@ std::optional<ViewPoint> firstOfTour(const KnownPlace& place, const std::vector<
   for (const ViewPoint& stop : stops) {
     urgency.push_back(sum > 0.0 ? kHurry * stop.expected / sum : 0.0);
   }
-  const auto costs = tourCosts(waysBetween(stops, place.grid().resolution()), urgency);
+  auto costs = tourCosts(waysBetween(stops, place.grid().resolution()), urgency);
   auto best =
       static_cast<std::size_t>(std::min_element(costs.begin(), costs.end()) - costs.begin());
   const double kept_below = costs[best] + kStay;
@@ -76,7 +77,7 @@ std::optional<ViewPoint> firstOfTour(const KnownPlace& place, const std::vector<
     const bool sees_present = isInView(place.grid(), stops[k].cell, *present, place.laserRange());
     if (sees_present && costs[k] < kept_below) best = k;
   }
-  return stops[best];
+  return TourStart{best, std::move(costs)};
 }
 
 }  // namespace cca

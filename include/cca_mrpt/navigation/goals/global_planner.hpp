@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "cca_mrpt/geometry/polygon.hpp"
+#include "cca_mrpt/navigation/goals/explained_decision.hpp"
 #include "cca_mrpt/navigation/goals/view_points.hpp"
 #include "cca_mrpt/navigation/goals/view_search.hpp"
 #include "cca_mrpt/navigation/goals/view_tour.hpp"
@@ -77,6 +78,10 @@ class GlobalPlanner {
   /// Exploration stays inside a polygon (m, map frame); fewer than three corners: no limit.
   void limitTo(Polygon polygon) { limits_ = std::move(polygon); }
 
+  /// Each decision from now on is told to an observer, with what it was made of. It decides
+  /// nothing.
+  void explainTo(DecisionObserver observer) { observer_ = std::move(observer); }
+
   /// Takes a correction of the past: what is known is made anew from the scans, and goals and
   /// barred ways go with them. The next update finds the way to the same goal anew. Cost: that of
   /// observing all the scans.
@@ -122,14 +127,18 @@ class GlobalPlanner {
   void decide(const Eigen::Vector2d& robot_map);
   ViewSearch::Filter openOnes() const;
   bool isWithinLimits(Cell c) const;
-  std::optional<ViewPoint> bestFrontier() const;
+  bool driveToFrontier(const Eigen::Vector2d& robot_map);
   void lookAround();
-  /// A place to go to, and how it was found: for people.
+  /// A place to go to, how it was found, and what else was weighed: for people.
   struct Choice {
     ViewPoint view;
     std::string found;
+    DecisionRule rule;
+    std::vector<ViewPoint> weighed;  ///< it among them
+    std::vector<double> costs;       ///< of these, where the rule is a tour
   };
   Choice nextStop(const ViewPoint& best);
+  void explain(const Eigen::Vector2d& robot_map, const Choice& choice) const;
   std::string promiseOf(const ViewPoint& view) const;
   bool search(const Eigen::Vector2d& robot_map);
   void dropGoal(Failure failure, std::optional<Cell> held_at = {});
@@ -154,6 +163,7 @@ class GlobalPlanner {
   std::optional<std::size_t> unreached_then_;  ///< cells seen when that was found
   int goals_ = 0;
   Plan plan_;
+  DecisionObserver observer_;  ///< may be none
 };
 
 }  // namespace cca

@@ -51,10 +51,11 @@ class ViewSearch {
   std::optional<ViewPoint> inPassing(const KnownPlace& place, const Filter& filter,
                                      const ViewPoint& goal);
 
-  /// The best of the places found that is there to see something else than a chosen one, two metres
-  /// from it at least, as it was when it was asked. For people. Cost: O(places found).
-  std::optional<ViewPoint> nextBest(const KnownPlace& place, Strategy strategy,
-                                    const Filter& filter, const ViewPoint& chosen) const;
+  /// The best of the places found that are there to see something else than the chosen ones and
+  /// each other, two metres apart at least, as they were when they were asked; the best first. For
+  /// people. Cost: O(places found) for each.
+  std::vector<ViewPoint> nextBest(const KnownPlace& place, Strategy strategy, const Filter& filter,
+                                  std::vector<ViewPoint> chosen, std::size_t most) const;
 
   /// Whether a target is in view of a place found so far that the ways last found lead to.
   bool canBeSeen(const KnownPlace& place, Cell target) const;

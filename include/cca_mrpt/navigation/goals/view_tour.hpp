@@ -21,14 +21,20 @@ namespace cca {
 /// @return  what each costs, by its first stop. Cost: O(2^n n^2).
 std::vector<double> tourCosts(const Eigen::MatrixXd& distance, const std::vector<double>& urgency);
 
-/// The order in which few places to look from are driven to: the best open tour through them, the
-/// more urgent a stop the more is expected to be seen from it. The tour that begins where the
-/// present goal is seen from is kept unless another is clearly cheaper.
+/// Where the order in which few places to look from are driven to begins.
+struct TourStart {
+  std::size_t first;          ///< the stop to go to
+  std::vector<double> costs;  ///< m, of the best tour that begins with each stop
+};
+
+/// The best open tour through few places to look from, the more urgent a stop the more is expected
+/// to be seen from it. The tour that begins where the present goal is seen from is kept unless
+/// another is clearly cheaper.
 /// @param stops    twelve at most, with their ways and what is expected of them. Ways between them
 ///                 are estimated: the mean of the straight line and the way by the robot's place.
 /// @param present  target of the present goal, if it still stands.
-/// @return         the stop to go to; empty where there is none. Cost: O(2^n n^2) for n stops.
-std::optional<ViewPoint> firstOfTour(const KnownPlace& place, const std::vector<ViewPoint>& stops,
+/// @return         empty where there is no stop. Cost: O(2^n n^2) for n stops.
+std::optional<TourStart> firstOfTour(const KnownPlace& place, const std::vector<ViewPoint>& stops,
                                      std::optional<Cell> present);
 
 }  // namespace cca
