@@ -143,6 +143,7 @@ void ExplorationRun::drive(const Interruption& interruption, Progress* progress)
     heedCommands();
     const Action action = step();
     if (hasEnded(action)) break;
+    showObservers(action);
     simulation_.drive(action.velocity, parameters_.run.control_period);
     show(action, progress);
     if (action.status == ExplorationStatus::kPaused) standStill(action, interruption);
@@ -208,7 +209,6 @@ void ExplorationRun::showObservers(const Action& action) {
 }
 
 void ExplorationRun::show(const Action& action, Progress* progress) {
-  showObservers(action);
   if (!progress || !progress->isDue()) return;
   background_.wait();
   const double left = metresLeft(simulation_, session_.explorer()), driven = simulation_.distance();
