@@ -4,8 +4,10 @@
 # coverage over distance with their 95 % bands, in $OUT (out/strategies).
 #
 #   compare_strategies.sh [WORLD.yaml ...] [options of 'cca-mrpt compare-strategies']
+#   MOVED="0.021 0.034" compare_strategies.sh ../shared/data/worlds/dare/dare_*.yaml --starts 1 --laser.range 7.5
 #
-# Without worlds: those of maps/, and five random ones.
+# Without worlds: those of maps/, and five random ones. With MOVED their lower left corners lie there (m), off the lines
+# of the 5 cm grid; a worlds.json beside a world tells its start.
 set -eu
 cd "$(dirname "$0")/.."
 program=$(launch_scripts/build_program.sh --evidence)
@@ -22,6 +24,10 @@ if [ ${#worlds[@]} -eq 0 ]; then
     "$program" generate-world random --seed "$seed" --name "random_$seed" --out "$out" --force
     worlds+=("$out/random_$seed.yaml")
   done
+fi
+if [ -n "${MOVED:-}" ]; then
+  mapfile -t worlds < <(/usr/bin/python3 launch_scripts/move_worlds.py "$out" $MOVED "${worlds[@]}")
+  [ ${#worlds[@]} -gt 0 ]
 fi
 "$program" compare-strategies "${worlds[@]}" --out "$out" "$@"
 /usr/bin/python3 launch_scripts/plot_strategies.py "$out"

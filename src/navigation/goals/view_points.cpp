@@ -133,7 +133,8 @@ ViewPoint viewFrom(const ExplorationGrid& grid, Cell from, double range, const C
     };
     const auto enter = [&](Cell c, CellState state, double entered) {
       const std::size_t side = sideOf(c, before);
-      met = entered > 0.0 && grid.isFaceUnseen(c, side) && openings.contains(last) ? entered : -1.0;
+      const bool is_face = entered > 0.0 && isOpaque(state) && grid.isFaceUnseen(c, side);
+      met = is_face && openings.contains(last) ? entered : -1.0;
       before = c;
       if (state != CellState::kUnknown) {
         close(entered);

@@ -200,9 +200,10 @@ void ExplorationGrid::noteFaces(Cell cell, unsigned sides) {
 }
 
 bool ExplorationGrid::isFaceUnseen(Cell cell, std::size_t side) const {
+  const CellState state = at(cell);
+  if (state != CellState::kPresumedWall && state != CellState::kOccupied) return false;
   const unsigned faces = faces_.at(cell), opposite = (side + 2) % 4;
-  if (at(cell) == CellState::kPresumedWall) return !(faces & kBetweenReturns);
-  if (at(cell) != CellState::kOccupied) return false;
+  if (state == CellState::kPresumedWall) return !(faces & kBetweenReturns);
   return !(faces >> side & 1u) && (faces >> opposite & 1u);
 }
 
