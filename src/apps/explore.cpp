@@ -174,14 +174,14 @@ void explore(const ExploreOptions& options, const Parameters& parameters) {
   std::unique_ptr<RunObserver> window;
   if (options.gui) window = openWindow(simulation.world(), parameters.robot.radius);
   const std::unique_ptr<LivePage> page = openPage(*options.serve, scene);
-  const std::string folder = chooseFolder(options, simulation.world().name);
-  const FolderLock lock = prepareMapFolder(folder, options.force, ExplorationRecord::files());
   std::optional<DecisionFile> decisions;
   if (!options.explain.empty()) {
     if (!options.force && fs::exists(options.explain))
       throw std::runtime_error(options.explain + ": is there already (--force overwrites it)");
     decisions.emplace(options.explain, scene.origin);
   }
+  const std::string folder = chooseFolder(options, simulation.world().name);
+  const FolderLock lock = prepareMapFolder(folder, options.force, ExplorationRecord::files());
   ExplorationRun run(simulation, scene.origin, parameters, folder);
   if (memory) run.remember(*memory);
   if (decisions) run.explainTo(*decisions);

@@ -41,10 +41,10 @@ sed -i -E '/"(wall_s|scan_us_median|scan_us_p99)"/d' a/summary.json b/summary.js
 diff -rq a b || fail "equal seeds gave unequal files"
 
 # --explain tells each decision and changes none: the goals are candidates, of most score or least cost.
-"$program" explore "$maps/two_rooms.yaml" --seed 7 --out c --quiet --explain c.jsonl || fail "--explain: status $?"
-sed -i -E '/"(wall_s|scan_us_median|scan_us_p99)"/d' c/summary.json
-diff -rq a c || fail "--explain changed the run"
-/usr/bin/python3 - c.jsonl c/summary.json <<'CHECK' || fail "--explain: c.jsonl"
+"$program" explore "$maps/two_rooms.yaml" --seed 7 --out explained --quiet --explain c.jsonl || fail "--explain: status $?"
+sed -i -E '/"(wall_s|scan_us_median|scan_us_p99)"/d' explained/summary.json
+diff -rq a explained || fail "--explain changed the run"
+/usr/bin/python3 - c.jsonl explained/summary.json <<'CHECK' || fail "--explain: c.jsonl"
 import json, math, sys
 lines = [json.loads(line) for line in open(sys.argv[1])]
 summary = json.load(open(sys.argv[2]))
