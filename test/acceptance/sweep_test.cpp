@@ -111,7 +111,7 @@ TEST(TwinDrivesOnWheelsThatDoNotErr, GiveTheSameMap) {
       laser.sweep = sweep;
       const Outcome swept = mapOf(world, laser, exact, commands, sweep);
       more += (swept.rms - instant.rms) / std::size(kWorlds);
-      EXPECT_NEAR(swept.length, instant.length, 0.03 * instant.length);
+      EXPECT_NEAR(swept.length, instant.length, 0.1 * instant.length);
     }
     EXPECT_LT(more, LaserParameters().range_noise / 3.0);
   }
@@ -128,7 +128,7 @@ TEST_P(TwinDrives, OnWheelsThatErrGiveAMapAsUseful) {
     laser.sweep = sweep;
     const Outcome swept = mapOf(world, laser, {}, commands);
     EXPECT_LT(swept.rms, 0.015);
-    EXPECT_NEAR(swept.length, instant.length, 0.03 * instant.length);
+    EXPECT_NEAR(swept.length, instant.length, 0.1 * instant.length);
   }
 }
 
