@@ -53,7 +53,7 @@ std::vector<Velocity> commandsIn(const std::string& world, double seconds) {
 }
 
 struct Outcome {
-  double rms;  ///< m
+  double rms;     ///< m
   double length;  ///< m, of the map's lines
 };
 
