@@ -115,10 +115,10 @@ class Explorer {
   /// set aside as one that proved unreachable.
   void noteOutcome(DriveOutcome outcome) { outcome_ = outcome; }
 
-  /// The robot moves otherwise from now on: its speeds, accelerations and latency (the rest stays).
   /// See GlobalPlanner::explainTo().
   void explainTo(DecisionObserver observer) { planner_.explainTo(std::move(observer)); }
 
+  /// The robot moves otherwise from now on: its speeds, accelerations and latency (the rest stays).
   /// What the odometry has shown is learned anew where accelerations or latency change.
   void changeMotion(const RobotParameters& robot);
 
