@@ -14,7 +14,7 @@ namespace cca {
 namespace {
 
 using Slot = Walls::Slot;
-constexpr double kLongestReturn = 100.0;  // m
+constexpr double kLongestReturn = 100.0;  // m; no indoor wall is farther, and work stays bounded
 constexpr double kLongestRay = 30.0;      // m; further out a beam is wider than a door
 constexpr double kClear = 0.1;            // m, two bins: the least that counts as "behind"
 constexpr double kBlind = 0.05;           // m, before the sensor

@@ -41,8 +41,8 @@ struct Residuals {
   }
   /// Factor of the variance, >= 1, by which bins are worth less than their number.
   double inflation() const {
-    constexpr double kMostAlike = 0.98;
-    constexpr int kFewest = 4;  // bins that tell a bend from noise
+    constexpr double kMostAlike = 0.98;  // bins are worth a hundredth of their number at least
+    constexpr int kFewest = 4;           // bins that tell a bend from noise
     if (bins < kFewest || pairs == 0 || squares <= 0.0) return 1.0;
     const double spread = std::max(1.0, squares / (bins - 2));
     const double alike = std::clamp(products / pairs / (squares / bins), 0.0, kMostAlike);

@@ -14,8 +14,8 @@
 namespace cca {
 namespace {
 
-constexpr double kTellingLength = 1.0;  // m; shorter lines say little about the pose
-constexpr double kMostVisits = 200.0;
+constexpr double kTellingLength = 1.0;   // m; shorter lines say little about the pose
+constexpr double kMostVisits = 200.0;    // what all scans share does not average out for ever
 constexpr double kFarthestPose = 1e7;    // m; beyond, a double no longer tells bins apart
 constexpr double kLongestSight = 500.0;  // m; no 2-D laser sees further
 constexpr double kCornerReach = 0.1;     // m, two bins of support

@@ -10,22 +10,22 @@
 namespace cca {
 namespace {
 
-constexpr double kPlaceSize = 0.1;  // m
-constexpr double kFloorCell = 1.0;  // m, in which scans are counted
-constexpr std::size_t kMostLooks = 4;
-constexpr double kNewLook = 0.5;        // m, from the last scan kept in a cell
-constexpr double kFarthestLook = 12.0;  // m, at which beams still tell posts apart
-constexpr double kWidestBeam = 0.1;     // m, between beams where they are asked
-constexpr int kFewestLooks = 3;         // from different places: no passer-by
-constexpr double kBesideWall = 0.15;    // m
-constexpr double kLeastShare = 0.1;     // of the rays, that a cluster returns; a pane does a fifth
-constexpr int kRefuting = 20;           // rays in a row: one pane's cluster in a hundred
-constexpr double kLongestGap = 2.0;     // m, between neighbours of a row
-constexpr double kBand = 1.0;           // m, to either side of a row, what chance is judged by
-constexpr double kLeastOff = 0.03;      // m, of a cluster from its row: half a post
-constexpr std::size_t kFewestInRow = 5;
-constexpr double kChance = 1e-4;  // maps with a false row
-constexpr std::size_t kNeighboursAsked = 6;
+constexpr double kPlaceSize = 0.1;       // m: two posts' width
+constexpr double kFloorCell = 1.0;       // m, in which scans are counted
+constexpr std::size_t kMostLooks = 4;    // one more than the fewest: bounds the memory
+constexpr double kNewLook = 0.5;         // m, from the last scan kept in a cell
+constexpr double kFarthestLook = 12.0;   // m, at which beams still tell posts apart
+constexpr double kWidestBeam = 0.1;      // m, between beams where they are asked
+constexpr int kFewestLooks = 3;          // from different places: no passer-by
+constexpr double kBesideWall = 0.15;     // m; what stands nearer is the wall's own fringe
+constexpr double kLeastShare = 0.1;      // of the rays, that a cluster returns; a pane does a fifth
+constexpr int kRefuting = 20;            // rays in a row: one pane's cluster in a hundred
+constexpr double kLongestGap = 2.0;      // m, between neighbours of a row
+constexpr double kBand = 1.0;            // m, to either side of a row, what chance is judged by
+constexpr double kLeastOff = 0.03;       // m, of a cluster from its row: half a post
+constexpr std::size_t kFewestInRow = 5;  // three fix a row and its spacing, two confirm them
+constexpr double kChance = 1e-4;         // maps with a false row
+constexpr std::size_t kNeighboursAsked = 6;  // of a cluster, to begin a row with: both sides, three
 
 /// log of the chance that at least `hits` of `tries` come true, each at p.
 double logTail(int tries, int hits, double p) {
@@ -155,7 +155,7 @@ LooseReturns::Verdict LooseReturns::ask(const Eigen::Vector2d& p) const {
 
 double LooseReturns::shareOf(const LineSegment& row) const {
   Verdict all;
-  constexpr double kStep = 0.05;  // m
+  constexpr double kStep = 0.05;  // m, a bin of a wall
   const int steps = std::max(1, static_cast<int>(row.length() / kStep));
   for (int k = 0; k <= steps; ++k) {
     const Verdict v = ask(row.start + (row.end - row.start) * k / steps);

@@ -7,10 +7,10 @@
 namespace cca {
 namespace {
 
-constexpr double kMedianOfMagnitude = 0.6745;
-constexpr double kFinestOffset = 0.003;  // m; nothing is known better than that
-constexpr double kFinestAngle = 0.001;   // rad
-constexpr double kLongestMemory = 500.0;
+constexpr double kMedianOfMagnitude = 0.6745;  // of a normal deviate
+constexpr double kFinestOffset = 0.003;        // m; nothing is known better than that
+constexpr double kFinestAngle = 0.001;         // rad: the same 3 mm over three metres
+constexpr double kLongestMemory = 500.0;  // innovations; a step is then 0.4 %, and may still follow
 
 double stepped(double sigma, double innovation, double own_variance, double samples) {
   const double step = 2.0 / (20.0 + samples);

@@ -7,7 +7,7 @@
 namespace cca {
 namespace {
 
-constexpr std::size_t kMostBeams = 90;
+constexpr std::size_t kMostBeams = 90;  // evenly over the scan: more say the same
 constexpr double kLongestRay = 15.0;  // m; further out a degree of heading is a quarter of a metre
 constexpr double kOnWall = 0.15;      // m, across it
 constexpr double kBehind = 0.30;      // m, across it, and a ray has gone through

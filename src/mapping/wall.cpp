@@ -32,7 +32,7 @@ struct FrameChange {
 constexpr double kDrift = 0.1;        // m, of the line from its frame; the index reaches 0.3 m
 constexpr double kSameDoor = 0.2;     // m, between the lines of a doorway before and after a join
 constexpr double kLoosest = 1.2;      // deviations of a return
-constexpr double kLooseShare = 0.08;  // of its length
+constexpr double kLooseShare = 0.08;  // of its length: broader is a heap
 
 /// Weight of the wall's line, in bins, where one of its pieces is fitted.
 constexpr double kTrustInWall = 3.0;

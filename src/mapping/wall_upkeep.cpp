@@ -16,7 +16,7 @@ using Slot = Walls::Slot;
 
 /// Returns after which a wall is compared with its neighbours again, however many it has.
 constexpr double kMostBeforeCheck = 100.0;
-constexpr double kSideBySide = 0.97;  // cosine
+constexpr double kSideBySide = 0.97;  // cosine of 14 degrees: more is a corner
 constexpr double kHitReach = 0.2;  // m, how far a wall's hits lie off its extent in another frame
 
 /// Where two walls that are not one run side by side all the same, the longer one takes it all.

@@ -20,7 +20,7 @@ constexpr double kSameTime = 0.05;                                      // s, of
 // Returns, of the 90 that a scan is compared by: wheels that slipped by a tenth of a radian come to
 // 13, a localisation that was wrong by a metre to 65 and more.
 constexpr int kMoreReturns = 30;
-constexpr std::size_t kMostCompared = 150;  // scans
+constexpr std::size_t kMostCompared = 150;  // scans, spread over the past: bounds the cost
 
 /// So much of a motion, in [0, 1].
 Pose2 part(const Pose2& T, double share) { return {share * T.x, share * T.y, share * T.theta}; }

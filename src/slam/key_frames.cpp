@@ -22,11 +22,11 @@ double apartness(const Pose2& a, const Pose2& b, bool full_turn) {
 constexpr int kLeastPairs = 10;
 /// Directions that less than this share of the strongest speaks for are noise of the normals.
 constexpr double kWeakest = 0.01;
-constexpr double kArm = 3.0;
+constexpr double kArm = 3.0;  // m, at which a turn counts as a shift
 
 /// Pairs for an adjustment: as many of the same visit as of others, within the common view.
 std::set<std::pair<int, int>> pairsInView(const KeyFrames& frames) {
-  constexpr int kOfEach = 7;
+  constexpr int kOfEach = 7;           // bounds the matches of a frame
   constexpr double kSameVisit = 10.0;  // m of way
   std::vector<double> way(static_cast<std::size_t>(frames.size()), 0.0);
   for (int k = 1; k < frames.size(); ++k) {
@@ -160,6 +160,7 @@ class PairEdge {
 }  // namespace
 
 void adjust(KeyFrames& frames, int rounds, const DoAll& do_all) {
+  // m; as of a match of one scan, but narrowed slowly: each round moves all poses.
   constexpr double kFirstReach = 0.3, kNarrows = 0.8, kLastReach = 0.1;
   constexpr int kAtOnce = 64;  // matches, so that sharing them out costs nothing
   std::vector<PairEdge> pairs;

@@ -10,10 +10,10 @@
 namespace cca {
 namespace {
 
-/// The likelihood beside a return, as far as it matters (three deviations).
+/// The likelihood beside a return, as far as it matters.
 class Kernel {
  public:
-  constexpr static int kHalf = 3;
+  constexpr static int kHalf = 3;  // cells: 2.5 deviations
   Kernel() {
     for (int y = -kHalf; y <= kHalf; ++y) {
       for (int x = -kHalf; x <= kHalf; ++x) {
@@ -29,6 +29,7 @@ class Kernel {
   std::uint8_t values_[2 * kHalf + 1][2 * kHalf + 1];
 };
 
+/// Each layer holds what faces within a sector of its direction, so a return is in two.
 constexpr int kDirections = 8;
 constexpr double kSector = 2.0 * M_PI / kDirections;
 

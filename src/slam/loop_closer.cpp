@@ -13,6 +13,7 @@ constexpr double kNeighbourWay = 12.0;
 /// the right one has not been seen yet and its like has: rays have to agree by more in wide windows
 /// [m].
 constexpr double kAgreeNear = 0.8, kAgreeAnywhere = 0.92, kNearWindow = 1.0;
+/// Of the rays; what fewer say decides nothing.
 constexpr double kLeastCommon = 0.15;
 /// Between shelves, or doors, one place is as another a few metres on, whose like has not been seen
 /// yet: nothing but the way can tell. What moves by more than this [m] has to be likely.

@@ -11,22 +11,23 @@ namespace cca {
 namespace {
 
 constexpr double kMostSigma = 8.0;     // m, beyond which a place is looked for anywhere else
-constexpr double kSigmas = 2.5;        // half window
-constexpr double kWidestWindow = 8.0;  // m
+constexpr double kSigmas = 2.5;        // half window: 98.8 % of what is likely
+constexpr double kWidestWindow = 8.0;  // m; as kMostSigma, for the cost grows with its square
 constexpr int kRecent = 8;             // frames that look for their place together
-constexpr double kRecentWay = 8.0;     // m
+constexpr double kRecentWay = 8.0;     // m; what lies farther back has drifted from the frame
 constexpr int kEarlier = 12;           // frames that they are compared with
 constexpr double kCell = 0.1;          // m, of the search
-constexpr int kLevels = 4;
-constexpr int kLevelsAnywhere = 6;
-constexpr double kSpacing = 0.2;  // m, of the returns that search
-constexpr double kReach = 15.0;   // m, of the returns that are searched among
+constexpr int kLevels = 4;             // coarsest cells of 1.6 m: five to the widest half window
+constexpr int kLevelsAnywhere = 6;     // 13 m, for a whole building
+constexpr double kSpacing = 0.2;       // m, of the returns that search
+constexpr double kReach = 15.0;        // m, of the returns that are searched among
+/// Of the best place in a window, to be matched and judged by rays at all; these decide.
 constexpr double kLeastScore = 0.45;
 /// Among all places of a building some score so much without being the right one; those that rays
 /// agree with score .88 and more.
 constexpr double kLeastScoreAnywhere = 0.8;
-constexpr double kCellAnywhere = 0.2, kSpacingAnywhere = 0.4;
-constexpr double kTolerance = 0.2;                        // m, within which rays agree
+constexpr double kCellAnywhere = 0.2, kSpacingAnywhere = 0.4;  // m, twice the others: a first place
+constexpr double kTolerance = 0.2;                             // m, within which rays agree
 constexpr double kRivalDistance = 0.6, kRivalTurn = 0.3;  // m, rad, from the best place at least
 
 /// Returns of frames in the axes that `T_base_map` leads to.
@@ -117,8 +118,8 @@ std::vector<RelativeSigma> loopCandidates(const KeyFrames& frames, int frame) {
   });
   // One of each visit: frames that follow one another are one.
   std::vector<RelativeSigma> chosen;
-  constexpr int kSameVisit = 20;  // frames
-  constexpr std::size_t kMostCandidates = 3;
+  constexpr int kSameVisit = 20;              // frames: ten metres of way
+  constexpr std::size_t kMostCandidates = 3;  // bounds what a key frame costs
   for (const Likely& next : likely) {
     const bool known = std::any_of(chosen.begin(), chosen.end(), [&](const auto& other) {
       return std::abs(other.node - next.at.node) < kSameVisit;

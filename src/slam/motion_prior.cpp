@@ -7,12 +7,12 @@
 namespace cca {
 namespace {
 
-// First guess of the random part, wide: a tenth of the way and of the turn, 4 degrees a metre, and
-// what a robot that stands may have been pushed.
-constexpr double kPerWay = 0.10;
-constexpr double kPerTurn = 0.15;
-constexpr double kTurnPerWay = 0.07;    // rad / m
-constexpr double kShiftPerTurn = 0.05;  // m / rad
+// First guess of the random part, wide: it is scaled by what matches show.
+constexpr double kPerWay = 0.10;        // of the way
+constexpr double kPerTurn = 0.15;       // of the turn
+constexpr double kTurnPerWay = 0.07;    // rad / m: 4 degrees a metre
+constexpr double kShiftPerTurn = 0.05;  // m / rad: the axis of turning is known to 5 cm
+/// m, rad; what a robot that stands may have been pushed.
 constexpr double kStandingShift = 0.02, kStandingTurn = 0.01;
 /// Without wheels the robot may have changed its speed altogether.
 constexpr double kBlindShift = 0.15, kBlindTurn = 0.15;
@@ -25,7 +25,8 @@ constexpr double kRandomWay = 0.02;
 constexpr double kVaries = 0.04;
 /// m; of a shorter way a match says too little.
 constexpr double kLeastWay = 0.05;
-constexpr double kForgetAfter = 100.0;  // steps
+constexpr double kForgetAfter = 100.0;  // steps: half of what is known is of the last 70
+/// Of the first guess's variance: wheels that err by a hundredth of the way, and by a third.
 constexpr double kLeastScale = 0.02, kMostScale = 10.0;
 
 double squared(double x) { return x * x; }

@@ -13,7 +13,7 @@ namespace {
 constexpr std::size_t kMostAsked = 40, kJudgesOfPart = 6;
 /// m; farther from the loop the part's own drift contradicts.
 constexpr double kJudgedAround = 20.0;
-constexpr double kRaysAgree = 0.2;  // m
+constexpr double kRaysAgree = 0.2;  // m, as where loops are closed
 /// Of the rays of a loop's own frames: among all places of a building, chance comes to less.
 constexpr double kLeastAgreement = 0.92, kLeastShared = 0.15;
 /// m, rad; loops that put the part within this say the same. Rivals lie .6 m apart or more, and
@@ -36,6 +36,7 @@ constexpr double kMostContradictedAlone = 0.15, kFarApart = 5.0;
 /// A hypothesis that puts the part beside what was seen is contradicted by nothing, and is no rival
 /// of one with this many times as much in common.
 constexpr double kMoreInCommon = 2.0;
+/// Bound what a part costs: each hypothesis is judged by all scans of the part.
 constexpr std::size_t kMostHypotheses = 12, kLoopsOfEach = 4;
 
 /// Takes the part of the loop's frame to where the loop puts it.

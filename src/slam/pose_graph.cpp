@@ -70,7 +70,7 @@ void join(std::vector<int>& before, int a, int b) {
 constexpr double kAgreed = 0.05;
 /// m; after a step of less, what is left is its square.
 constexpr double kPrecise = 2e-3;
-constexpr int kMostIterations = 20;
+constexpr int kMostIterations = 20;  // bounds the time where loops contradict one another
 
 /// The least squares over a graph, linearised about its poses: Levenberg-Marquardt, where a loop's
 /// weight falls with its error (Cauchy).
@@ -134,8 +134,10 @@ class GraphSolver {
   const std::vector<Pose2>& poses() const { return poses_; }
 
  private:
-  static constexpr int kMostFailures = 8;
+  /// Of the diagonal: nearly Gauss-Newton at first; a step that fails is tried with ten times as
+  /// much, up to 10^4, where it hardly moves.
   static constexpr double kFirstDamping = 1e-4, kLeastDamping = 1e-7, kMoreDamping = 10.0;
+  static constexpr int kMostFailures = 8;
   static constexpr double kHeld = 1e-6;  // of what the damping is a share of, at least
 
   static std::vector<std::pair<int, int>> pairsOf(const std::vector<GraphEdge>& edges) {

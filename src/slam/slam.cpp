@@ -9,19 +9,27 @@
 namespace cca {
 namespace {
 
-constexpr double kFrameDistance = 0.5;  // m
-constexpr double kFrameTurn = 0.35;     // rad
+/// m, rad; a new key frame after so much way, or turn of a laser that does not see all round: a
+/// doorway is passed in two, and of 180 degrees nine tenths are common to neighbours.
+constexpr double kFrameDistance = 0.5, kFrameTurn = 0.35;
+/// Key frames that a scan is compared with: five metres of way. A scan that becomes no key frame
+/// makes do with the nearest of them.
 constexpr int kViewFrames = 10;
-constexpr std::size_t kMatched = 5;  // of them, by a scan that is no key frame yet
+constexpr std::size_t kMatched = 5;
+/// m; of a search around the pose: cells of half the least reach of a match, returns two cells
+/// apart, none beyond 12 m, where beams of a degree are farther apart than these.
 constexpr double kSearchCell = 0.05, kSearchSpacing = 0.1, kSearchReach = 12.0;
-constexpr int kSearchLevels = 3;
-constexpr int kLevelsAllRound =
-    5;  // a coarsest cell nearly spans the window: one bound a direction
+/// Coarsest cells of 0.4 m for a window of one metre. All round of 1.6 m, which nearly spans the
+/// window: one bound a direction.
+constexpr int kSearchLevels = 3, kLevelsAllRound = 5;
+/// 99.7 % of the prior lies within the window.
 constexpr double kSearchSigmas = 3.0;
+/// m, rad; a wider window finds the next door as well, which is for loop closing to tell apart. A
+/// narrower one than the least is what a match reaches by itself.
 constexpr double kWidestWindowHere = 1.0, kWidestTurn = 1.0;
 constexpr double kLeastSearch = 0.2, kLeastTurn = 0.2;
-constexpr double kFirstReach = 0.3;  // m, of a match
-constexpr double kSearchArm = 3.0;   // m
+constexpr double kFirstReach = 0.3;  // m, of a match: the least window and a half
+constexpr double kSearchArm = 3.0;   // m, a usual distance of walls
 constexpr std::size_t kJudges = 3;   // frames that say how well a scan agrees with them
 constexpr double kAgree = 0.2;       // m, within which rays do
 /// From a key frame to the next.

@@ -10,9 +10,9 @@ namespace {
 
 /// The reach shrinks by this a round, and so does the kernel, to these at the least.
 constexpr double kShrink = 0.7;
-constexpr double kLeastReach = 0.1;
-constexpr double kReachPerSigma = 4.0;
-constexpr int kMostRounds = 12;
+constexpr double kLeastReach = 0.1;     // m; a wall is not to be taken for its other face
+constexpr double kReachPerSigma = 4.0;  // of the kernel; what is beyond is of another wall
+constexpr int kMostRounds = 12;         // four shrink 0.3 m to the least; the rest settle
 /// A step of less than this share of the reach finds the partners of the finest one at once.
 constexpr double kNear = 0.1;
 /// m; a turn counts as it moves what is seen so far away.

@@ -14,7 +14,9 @@ class WallIndex {
  public:
   using Slot = std::int32_t;
   using Cell = Eigen::Vector2i;
-  static constexpr double kCellSize = 0.8;  ///< m
+  /// m; some more than the 0.3 m around a wall that it is named in, to either side: smaller cells
+  /// name it oftener, larger ones name walls that nobody asks for.
+  static constexpr double kCellSize = 0.8;
 
   static Cell cellOf(const Eigen::Vector2d& point) {
     return {below(point.x() / kCellSize), below(point.y() / kCellSize)};

@@ -29,7 +29,7 @@ class LikelihoodPyramid {
   ///                45 degrees of it; those that face nowhere are in none.
   LikelihoodPyramid(const std::vector<SurfacePoint>& points, const Eigen::Vector2d& centre,
                     double reach, int levels, double cell, Facing facing = Facing::kAny);
-  static constexpr double kSigma = 1.2;
+  static constexpr double kSigma = 1.2;  ///< cells: the next cell still holds 0.7
 
   double cell() const { return cell_; }  ///< m
 
