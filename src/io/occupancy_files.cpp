@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "cca_mrpt/io/occupancy_files.hpp"
 
-#include <mrpt/containers/yaml.h>
-#include <mrpt/img/CImage.h>
-
 #include <cstdio>
 #include <filesystem>
 
 #include "cca_mrpt/io/atomic_file.hpp"
 #include "cca_mrpt/io/gzip_archive.hpp"
+#include "cca_mrpt/simulation/occupancy_image.hpp"
 
 namespace cca {
 namespace {
@@ -19,11 +17,6 @@ char shade(float free) {
   const float occupied = 1.0F - free;
   if (occupied > kOccupiedFrom) return kOccupied;
   return occupied < kFreeBelow ? kFree : kUnknown;
-}
-
-float freeness(char shade) {
-  if (shade == kUnknown) return 0.5F;
-  return shade == kOccupied ? 0.0F : 1.0F;
 }
 
 std::string pgm(const mrpt::maps::COccupancyGridMap2D& grid) {
@@ -60,29 +53,22 @@ void writeOccupancyMap(const std::string& path_without_extension,
 
 std::shared_ptr<mrpt::maps::COccupancyGridMap2D> readOccupancyMap(const std::string& yaml_path,
                                                                   const Eigen::Vector2d& p_frame) {
-  try {
-    const auto file = mrpt::containers::yaml::FromFile(yaml_path);
-    const auto origin = file["origin"].toStdVector<double>();
-    const auto name = file["image"].as<std::string>();
-    mrpt::img::CImage image;
-    const auto path = std::filesystem::path(yaml_path).parent_path() / name;
-    if (origin.size() < 2 || !image.loadFromFile(path.string(), 0)) return nullptr;
-    const int columns = static_cast<int>(image.getWidth()),
-              rows = static_cast<int>(image.getHeight());
-    const auto side = file["resolution"].as<float>();
-    const auto left = static_cast<float>(origin[0] - p_frame.x()),
-               low = static_cast<float>(origin[1] - p_frame.y());
-    auto grid = std::make_shared<mrpt::maps::COccupancyGridMap2D>();
-    grid->setSize(left, left + columns * side, low, low + rows * side, side);
-    for (int row = 0; row < rows; ++row) {
-      const auto* line = image.ptrLine<char>(rows - 1 - row);
-      for (int column = 0; column < columns; ++column)
-        grid->setCell(column, row, freeness(line[column]));
+  const OccupancyImage map = readOccupancyImage(yaml_path);
+  const auto left = static_cast<float>(map.origin.x() - p_frame.x()),
+             low = static_cast<float>(map.origin.y() - p_frame.y()),
+             side = static_cast<float>(map.resolution);
+  auto grid = std::make_shared<mrpt::maps::COccupancyGridMap2D>();
+  grid->setSize(left, left + map.columns * side, low, low + map.rows * side, side);
+  for (int row = 0; row < map.rows; ++row) {
+    for (int column = 0; column < map.columns; ++column) {
+      const double occupied = map.occupancy(column, row);
+      grid->setCell(column, row,
+                    occupied > map.occupied_thresh ? 0.0F
+                    : occupied < map.free_thresh   ? 1.0F
+                                                   : 0.5F);
     }
-    return grid;
-  } catch (const std::exception&) {
-    return nullptr;
   }
+  return grid;
 }
 
 void writeGridMap(const std::string& path, const mrpt::maps::COccupancyGridMap2D& grid) {

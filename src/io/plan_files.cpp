@@ -50,6 +50,20 @@ std::vector<std::pair<std::string, std::string>> drawn(const FloorPlan& plan,
           {"rooms.csv", roomsCsv(plan)}};
 }
 
+void requireCommonPlace(const std::vector<MapLine>& lines, const OccupancyRaster& grid,
+                        const std::string& yaml) {
+  const Eigen::Vector2d size = grid.resolution * Eigen::Vector2d(grid.columns, grid.rows);
+  const auto is_on_grid = [&](const Eigen::Vector2d& p_map) {
+    const Eigen::Vector2d p = p_map - grid.origin;
+    return p.minCoeff() >= 0.0 && (size - p).minCoeff() >= 0.0;
+  };
+  const bool has_common = std::any_of(lines.begin(), lines.end(), [&](const MapLine& line) {
+    return is_on_grid(line.segment.start) || is_on_grid(line.segment.end);
+  });
+  if (!lines.empty() && !has_common)
+    throw std::runtime_error(yaml + ": origin: no line of lines.csv ends on this grid");
+}
+
 void requireNew(const fs::path& path) {
   throw std::runtime_error(path.string() + ": is there already (--force overwrites it)");
 }
@@ -85,9 +99,9 @@ FloorPlan planOfFolder(const std::string& folder) {
   std::vector<Eigen::Vector2d> places;
   for (const MapLine& line : lines) places.push_back(line.segment.start);
   const Eigen::Vector2d frame = localOrigin(medianPlace(places));
-  const auto grid = readOccupancyMap(yaml.string(), frame);
-  if (!grid) throw std::runtime_error(yaml.string() + ": is no map of map_server");
-  return floorPlan(occupancyOf(*grid, frame), lines);
+  const OccupancyRaster raster = occupancyOf(*readOccupancyMap(yaml.string(), frame), frame);
+  requireCommonPlace(lines, raster, yaml.string());
+  return floorPlan(raster, lines);
 }
 
 std::string titleOfFolder(const std::string& folder) {

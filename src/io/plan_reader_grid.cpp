@@ -7,7 +7,6 @@
 #include "cca_mrpt/geometry/line_segment.hpp"
 #include "cca_mrpt/io/occupancy_files.hpp"
 #include "cca_mrpt/io/plan_files.hpp"
-#include "cca_mrpt/simulation/world.hpp"
 #include "plan_reader_formats.hpp"
 
 namespace cca {
@@ -90,9 +89,7 @@ void addBorder(Polygon border, const Raster<int>& labels, const OccupancyRaster&
 }  // namespace
 
 PlanFile readGridPlan(const std::string& yaml_path) {
-  loadWorld(yaml_path);  // tells what is wrong with the file
   const auto grid = readOccupancyMap(yaml_path, {0.0, 0.0});
-  if (!grid) throw std::runtime_error(yaml_path + ": is no map of map_server");
   const OccupancyRaster raster = occupancyOf(*grid, {0.0, 0.0});
   Raster<int> labels = raster.alike(kUnknownLabel);
   for (std::size_t k = 0; k < raster.values.size(); ++k) {

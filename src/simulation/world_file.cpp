@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <mrpt/img/CImage.h>
-
 #include <cmath>
 #include <filesystem>
-#include <fstream>
 #include <string>
 
+#include "cca_mrpt/simulation/occupancy_image.hpp"
 #include "cca_mrpt/simulation/world.hpp"
 #include "yaml_file.hpp"
 
@@ -13,84 +11,13 @@ namespace cca {
 
 namespace {
 
-namespace fs = std::filesystem;
-
-constexpr double kLargestImage = 64e6;  // cells; 8000 x 8000: 400 x 400 m at 5 cm
-
-/// Width * height of a PNG from its header, so that a monster is refused before it is unpacked;
-/// 0 for every other kind of file.
-double pngCells(const fs::path& path) {
-  unsigned char head[24] = {};
-  std::ifstream file(path, std::ios::binary);
-  if (!file.read(reinterpret_cast<char*>(head), sizeof head)) return 0.0;
-  if (head[0] != 0x89 || head[1] != 'P' || head[2] != 'N' || head[3] != 'G') return 0.0;
-  const auto number = [&head](int at) {
-    return head[at] * 16777216.0 + head[at + 1] * 65536.0 + head[at + 2] * 256.0 + head[at + 3];
-  };
-  return number(16) * number(20);
-}
-
-/// The value of white that a PGM's header tells; 255 for every other kind of file.
-int pgmWhite(const fs::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  std::string magic, comment;
-  int number = 255;
-  if (!(file >> magic) || (magic != "P2" && magic != "P5")) return number;
-  for (int i = 0; i < 3; ++i) {  // width, height, white
-    while ((file >> std::ws).peek() == '#') std::getline(file, comment);
-    if (!(file >> number)) return 255;
-  }
-  return number;
-}
-
-mrpt::img::CImage loadImage(const YamlNode& file, const std::string& yaml_path) {
-  const fs::path path = fs::path(yaml_path).parent_path() / file.text("image");
-  if (!fs::is_regular_file(path)) {
-    file.fail("image", path.string() + (fs::exists(path) ? " is no file" : " does not exist"));
-  }
-  const auto refuse_size = [&](double cells) {
-    if (cells > kLargestImage) {
-      file.fail("image", path.string() + " has more than 64 million cells");
-    }
-  };
-  refuse_size(pngCells(path));
-  // The image library takes the values of a byte as they are, whatever white is.
-  const int white = pgmWhite(path);
-  if (white < 255) {
-    file.fail("image",
-              path.string() + " has " + std::to_string(white) + " for white, allowed is 255");
-  }
-  mrpt::img::CImage image;
-  bool loaded = false;
-  try {
-    loaded = image.loadFromFile(path.string(), 0);
-  } catch (const std::exception&) {
-  }
-  if (!loaded) file.fail("image", path.string() + " is no readable image");
-  refuse_size(static_cast<double>(image.getWidth()) * static_cast<double>(image.getHeight()));
-  return image;
-}
-
-Eigen::Vector2d readOrigin(const YamlNode& file) {
-  const auto origin = file.numbers("origin", 3);
-  for (double value : origin) {
-    if (std::abs(value) > 1e7) file.fail("origin", "is out of range, allowed is -1e7 to 1e7");
-  }
-  if (origin[2] != 0.0) file.fail("origin", "a turned map is not supported, yaw must be 0");
-  return {origin[0], origin[1]};
-}
-
-std::vector<unsigned char> obstaclesOf(const mrpt::img::CImage& image, double free_thresh,
-                                       bool negate) {
-  const int width = static_cast<int>(image.getWidth()),
-            height = static_cast<int>(image.getHeight());
+/// What is not known to be free bars the way.
+std::vector<unsigned char> obstaclesOf(const OccupancyImage& map) {
   std::vector<unsigned char> obstacle;
-  obstacle.reserve(static_cast<std::size_t>(width) * height);
-  for (int row = height - 1; row >= 0; --row) {  // an image begins at the top, a grid at y = 0
-    const auto* line = image.ptrLine<unsigned char>(row);
-    for (int ix = 0; ix < width; ++ix) {
-      const double grey = line[ix] / 255.0, occupancy = negate ? grey : 1.0 - grey;
-      obstacle.push_back(occupancy >= free_thresh);
+  obstacle.reserve(map.shades.size());
+  for (int row = 0; row < map.rows; ++row) {
+    for (int column = 0; column < map.columns; ++column) {
+      obstacle.push_back(map.occupancy(column, row) >= map.free_thresh);
     }
   }
   return obstacle;
@@ -109,17 +36,9 @@ bool hasFreeCell(const World& world) {
 
 World loadWorld(const std::string& yaml_path) {
   const YamlNode file = YamlNode::load(yaml_path);
-  const double resolution = file.number("resolution", 0.001, 10.0);
-  const Eigen::Vector2d origin = readOrigin(file);
-  const double free_thresh = file.number("free_thresh", 0.0, 1.0);
-  file.number("occupied_thresh", free_thresh, 1.0);  // only the free cells matter here
-  const bool negate = file.choice("negate", {"0", "1", "false", "true"}, "0") != "0" &&
-                      file.text("negate") != "false";
-  file.choice("mode", {"trinary", "scale"}, "trinary");
-  const mrpt::img::CImage image = loadImage(file, yaml_path);
-  World world(fs::path(yaml_path).stem().string(), static_cast<int>(image.getWidth()),
-              static_cast<int>(image.getHeight()), obstaclesOf(image, free_thresh, negate),
-              resolution, origin);
+  const OccupancyImage map = readOccupancyImage(yaml_path);
+  World world(std::filesystem::path(yaml_path).stem().string(), map.columns, map.rows,
+              obstaclesOf(map), map.resolution, map.origin);
   if (!hasFreeCell(world)) file.fail("image", "has no free cell within its outermost rows");
   if (file.has("start")) {
     const auto start = file.numbers("start", 3);

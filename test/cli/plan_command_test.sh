@@ -83,7 +83,14 @@ refuses 1 "lines.csv: cannot be read" "$program" plan empty
 cp map/lines.csv empty/
 refuses 1 "map.yaml: cannot be read" "$program" plan empty
 echo "image: none.pgm" >empty/map.yaml
-refuses 1 "is no map of map_server" "$program" plan empty
+refuses 1 "map.yaml: resolution" "$program" plan empty
+sed 's/map.pgm/none.pgm/' map/map.yaml >empty/map.yaml
+refuses 1 "map.yaml: image: .*none.pgm does not exist" "$program" plan empty
+cp map/map.pgm empty/
+sed 's/^origin:.*/origin: [0, 0, 1.0]/' map/map.yaml >empty/map.yaml
+refuses 1 "map.yaml: origin: a turned map" "$program" plan empty
+sed 's/^origin:.*/origin: [1000, 0, 0]/' map/map.yaml >empty/map.yaml
+refuses 1 "map.yaml: origin: no line of lines.csv ends on this grid" "$program" plan empty
 refuses 2 "DIR" "$program" plan
 
 # A map of which nothing is known: the files are there, the status tells.

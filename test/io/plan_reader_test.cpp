@@ -199,8 +199,12 @@ TEST(PlanReader, EachOfOurOwnFormatsGivesTheSameLines) {
   EXPECT_LT((on_earth.lines[1].second - Eigen::Vector2d(5, 3)).norm(), 0.01);
 }
 
-/// A grid of 5 cm, of 10 x 8 m: 0 occupied, 205 unknown, 254 free, as `cell` says at its middle.
-PlanFile readGrid(const std::function<int(const Eigen::Vector2d&)>& cell) {
+/// A grid of 5 cm, of 10 x 8 m: 0 occupied, 205 unknown, 254 free, as `cell` says at its middle,
+/// unless `meaning` says otherwise.
+PlanFile readGrid(const std::function<int(const Eigen::Vector2d&)>& cell,
+                  const std::string& meaning =
+                      "negate: 0\noccupied_thresh: 0.65\n"
+                      "free_thresh: 0.196\n") {
   const TemporaryFolder folder;
   std::string image = "P5\n200 160\n255\n";
   for (int row = 159; row >= 0; --row) {
@@ -210,8 +214,7 @@ PlanFile readGrid(const std::function<int(const Eigen::Vector2d&)>& cell) {
   }
   writeFile(folder / "a.pgm", image);
   writeFile(folder / "a.yaml",
-            "image: a.pgm\nresolution: 0.05\norigin: [-1.0, 2.0, 0.0]\nnegate: 0\n"
-            "occupied_thresh: 0.65\nfree_thresh: 0.196\n");
+            "image: a.pgm\nresolution: 0.05\norigin: [-1.0, 2.0, 0.0]\n" + meaning);
   return readPlan(folder / "a.yaml");
 }
 
@@ -228,6 +231,16 @@ TEST(PlanReader, TheWallsOfAGridAreItsFacesTowardsFreeSpace) {
     EXPECT_NEAR(along.maxCoeff(), along.x() > 1 ? 8.0 : 6.0, 1e-4);
   }
   EXPECT_NEAR(plan.lines[0].first.minCoeff(), 0.0, 1e-4);  // 1 m from the corner at -1, 2
+}
+
+TEST(PlanReader, TheShadesOfAGridMeanWhatItsThresholdsSay) {
+  const auto shade = [](const Eigen::Vector2d& p) {
+    const bool is_room = p.x() > 1 && p.x() < 9 && p.y() > 1 && p.y() < 7;
+    const bool is_wall = p.x() > 0.8 && p.x() < 9.2 && p.y() > 0.8 && p.y() < 7.2;
+    return is_room ? 20 : is_wall ? 180 : 100;
+  };
+  const PlanFile plan = readGrid(shade, "negate: 1\noccupied_thresh: 0.6\nfree_thresh: 0.3\n");
+  EXPECT_EQ(plan.lines.size(), 4U);
 }
 
 TEST(PlanReader, WhereKnowledgeOfAGridEndsThereIsNoWall) {

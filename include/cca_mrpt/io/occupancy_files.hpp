@@ -21,8 +21,9 @@ void writeOccupancyMap(const std::string& path_without_extension,
                        const mrpt::maps::COccupancyGridMap2D& grid,
                        const Eigen::Vector2d& p_frame = Eigen::Vector2d::Zero());
 
-/// Reads what writeOccupancyMap() wrote, as it looks from a frame that lies at p_frame.
-/// @return  null where it cannot be read.
+/// Reads a map of map_server, as it looks from a frame that lies at p_frame: occupied 0, free 1,
+/// unknown one half.
+/// @throws std::runtime_error as readOccupancyImage() does.
 std::shared_ptr<mrpt::maps::COccupancyGridMap2D> readOccupancyMap(const std::string& yaml_path,
                                                                   const Eigen::Vector2d& p_frame);
 
