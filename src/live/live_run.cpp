@@ -8,7 +8,7 @@
 namespace cca {
 namespace {
 
-constexpr std::size_t kMostWaiting = 100;
+constexpr std::size_t kMostWaiting = 100;    // five seconds of moments
 constexpr double kStep = 0.05, kTurn = 0.1;  // m, rad; nearer moments are not kept
 constexpr std::chrono::seconds kPatience(1), kPackedFor(2);
 

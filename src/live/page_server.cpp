@@ -10,7 +10,7 @@
 namespace cca {
 namespace {
 
-constexpr int kMostViewers = 32;
+constexpr int kMostViewers = 32;                    // a class before one robot; each holds a thread
 constexpr std::size_t kThreads = kMostViewers + 8;  // the others answer all that is no stream
 /// Open connections: far below the 1024 files that a program may have open by default, or the run
 /// could not write its own.

@@ -9,7 +9,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr auto kEvery = std::chrono::milliseconds(50);
+constexpr auto kEvery = std::chrono::milliseconds(50);  // an eye takes 20 Hz for motion
 /// Lines are looked at twice a second, of a large map more seldom: for a fiftieth of the time.
 constexpr auto kLinesEvery = std::chrono::milliseconds(500);
 constexpr int kShareOfLines = 50;
