@@ -10,8 +10,8 @@
 #include <stdexcept>
 #include <utility>
 
-#include "cca_mrpt/io/line_formats.hpp"
-#include "cca_mrpt/io/plan_formats.hpp"
+#include "io/lines/line_formats.hpp"
+#include "io/plans/plan_formats.hpp"
 #include "module.hpp"
 
 namespace cca::python {

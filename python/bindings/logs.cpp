@@ -11,10 +11,10 @@
 #include <utility>
 
 #include "arguments.hpp"
-#include "carmen_reader.hpp"
-#include "cca_mrpt/io/atomic_file.hpp"
 #include "cca_mrpt/io/log_reader.hpp"
 #include "cca_mrpt/sensing/missing_returns.hpp"
+#include "io/files/atomic_file.hpp"
+#include "io/logs/carmen_reader.hpp"
 #include "locked.hpp"
 #include "module.hpp"
 

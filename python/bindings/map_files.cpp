@@ -9,9 +9,9 @@
 #include <memory>
 #include <utility>
 
-#include "cca_mrpt/io/line_formats.hpp"
-#include "cca_mrpt/io/local_frame.hpp"
 #include "cca_mrpt/io/pose_files.hpp"
+#include "io/lines/line_formats.hpp"
+#include "io/poses/local_frame.hpp"
 #include "line_arrays.hpp"
 #include "module.hpp"
 #include "owned_array.hpp"

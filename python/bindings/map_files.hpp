@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "cca_mrpt/floor_plan/raster.hpp"
-#include "cca_mrpt/io/memory_file.hpp"
 #include "cca_mrpt/mapping/line_map.hpp"
 #include "cca_mrpt/slam/pose_graph.hpp"
+#include "io/files/memory_file.hpp"
 
 namespace cca::python {
 

@@ -9,8 +9,8 @@
 #include <optional>
 
 #include "arguments.hpp"
-#include "cca_mrpt/io/line_formats.hpp"
 #include "cca_mrpt/mapping/line_extraction.hpp"
+#include "io/lines/line_formats.hpp"
 #include "line_arrays.hpp"
 #include "map_files.hpp"
 #include "module.hpp"

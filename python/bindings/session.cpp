@@ -11,23 +11,23 @@
 #include <optional>
 #include <utility>
 
+#include "apps/runs/on_all_cores.hpp"
 #include "arguments.hpp"
-#include "cca_mrpt/io/local_frame.hpp"
-#include "cca_mrpt/io/measurements.hpp"
-#include "cca_mrpt/io/stray_places.hpp"
 #include "cca_mrpt/localisation/given_poses.hpp"
 #include "cca_mrpt/localisation/wheel_odometry.hpp"
 #include "cca_mrpt/navigation/place/exploration_grid.hpp"
 #include "cca_mrpt/slam/slam_localiser.hpp"
+#include "io/files/stray_places.hpp"
+#include "io/logs/measurements.hpp"
+#include "io/logs/scan_cut_off.hpp"
+#include "io/logs/sound_log.hpp"
+#include "io/poses/local_frame.hpp"
 #include "line_arrays.hpp"
 #include "locked.hpp"
 #include "map_files.hpp"
 #include "module.hpp"
-#include "on_all_cores.hpp"
 #include "owned_array.hpp"
 #include "parameters.hpp"
-#include "scan_cut_off.hpp"
-#include "sound_log.hpp"
 
 namespace cca::python {
 namespace {

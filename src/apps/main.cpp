@@ -5,9 +5,9 @@
 #include <string>
 
 #ifdef CCA_ROS
-#include "cca_mrpt/ros/bag_log.hpp"
+#include "ros/bags/bag_log.hpp"
 #endif
-#include "commands.hpp"
+#include "apps/commands/commands.hpp"
 
 namespace {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "cca_mrpt/evaluation/log_score.hpp"
+#include "evaluation/log_score.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -5,7 +5,7 @@
 #include <limits>
 #include <vector>
 
-#include "cca_mrpt/evaluation/log_score.hpp"
+#include "evaluation/log_score.hpp"
 
 /// The parts of scoreAgainstLog(), each in a file of its own.
 namespace cca::log_score {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "cca_mrpt/evaluation/sigma_score.hpp"
+#include "evaluation/sigma_score.hpp"
 
 #include <algorithm>
 #include <cmath>

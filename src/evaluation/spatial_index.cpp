@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "cca_mrpt/evaluation/spatial_index.hpp"
+#include "evaluation/spatial_index.hpp"
 
 #include <algorithm>
 #define BOOST_ALLOW_DEPRECATED_HEADERS  // Boost.Geometry includes one itself

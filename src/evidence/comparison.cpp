@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "cca_mrpt/evidence/comparison.hpp"
+#include "evidence/comparison.hpp"
 
 #include <chrono>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "cca_mrpt/evidence/extraction_score.hpp"
+#include "evidence/extraction_score.hpp"
 
 #include <algorithm>
 #include <cmath>

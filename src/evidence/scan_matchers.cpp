@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "cca_mrpt/evidence/scan_matchers.hpp"
+#include "evidence/scan_matchers.hpp"
 
 #include <Eigen/Cholesky>
 #include <Eigen/Geometry>
@@ -8,8 +8,8 @@
 #include <cmath>
 #include <utility>
 
-#include "cca_mrpt/evaluation/spatial_index.hpp"
 #include "cca_mrpt/geometry/cross.hpp"
+#include "evaluation/spatial_index.hpp"
 
 namespace cca::evidence {
 namespace {

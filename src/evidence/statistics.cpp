@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "cca_mrpt/evidence/statistics.hpp"
+#include "evidence/statistics.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "cca_mrpt/evidence/tour.hpp"
+#include "evidence/tour.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "cca_mrpt/evidence/tuning_design.hpp"
+#include "evidence/tuning_design.hpp"
 
 #include <cmath>
 #include <sstream>
 
-#include "cca_mrpt/evaluation/world_score.hpp"
-#include "cca_mrpt/evidence/extraction_score.hpp"
-#include "cca_mrpt/evidence/tour.hpp"
 #include "cca_mrpt/mapping/line_extraction.hpp"
 #include "cca_mrpt/mapping/line_map.hpp"
+#include "evaluation/world_score.hpp"
+#include "evidence/extraction_score.hpp"
+#include "evidence/tour.hpp"
 
 namespace cca::evidence {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "cca_mrpt/evidence/tuning_rows.hpp"
+#include "evidence/tuning_rows.hpp"
 
 #include <algorithm>
 #include <filesystem>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "cca_mrpt/live/live_page.hpp"
+#include "live/live_page.hpp"
 
 #include <stdexcept>
 
-#include "cca_mrpt/io/late_library.hpp"
+#include "io/files/late_library.hpp"
 
 namespace cca {
 

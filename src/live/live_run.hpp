@@ -11,7 +11,7 @@
 #include <thread>
 #include <vector>
 
-#include "cca_mrpt/live/live_page.hpp"
+#include "live/live_page.hpp"
 
 namespace cca {
 

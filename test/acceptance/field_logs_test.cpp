@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "cca_mrpt/io/local_frame.hpp"
 #include "cca_mrpt/slam/slam.hpp"
+#include "io/poses/local_frame.hpp"
 
 namespace cca {
 namespace {

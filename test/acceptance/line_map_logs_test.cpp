@@ -7,10 +7,10 @@
 #include <string>
 #include <vector>
 
-#include "cca_mrpt/evaluation/log_score.hpp"
 #include "cca_mrpt/io/log_reader.hpp"
 #include "cca_mrpt/mapping/line_map.hpp"
 #include "cca_mrpt/mapping/scan_agreement.hpp"
+#include "evaluation/log_score.hpp"
 
 namespace cca {
 namespace {

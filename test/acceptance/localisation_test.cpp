@@ -12,7 +12,7 @@
 #include <cstdlib>
 #include <filesystem>
 
-#include "cca_mrpt/io/plan_reader.hpp"
+#include "io/plans/plan_reader.hpp"
 #include "localised_drive.hpp"
 
 namespace cca {

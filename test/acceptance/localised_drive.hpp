@@ -13,7 +13,6 @@
 #include <utility>
 #include <vector>
 
-#include "cca_mrpt/io/line_formats.hpp"
 #include "cca_mrpt/io/parameters.hpp"
 #include "cca_mrpt/known_map/known_map.hpp"
 #include "cca_mrpt/sensing/missing_returns.hpp"
@@ -21,6 +20,7 @@
 #include "cca_mrpt/simulation/laser_models.hpp"
 #include "cca_mrpt/simulation/simulation.hpp"
 #include "cca_mrpt/slam/slam.hpp"
+#include "io/lines/line_formats.hpp"
 
 namespace cca::test {
 

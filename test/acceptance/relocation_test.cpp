@@ -13,9 +13,9 @@
 #include <string>
 
 #include "cca_mrpt/io/parameters.hpp"
-#include "cca_mrpt/io/world_files.hpp"
 #include "cca_mrpt/simulation/simulation.hpp"
 #include "cca_mrpt/slam/slam.hpp"
+#include "io/maps/world_files.hpp"
 
 namespace cca {
 namespace {

@@ -12,12 +12,12 @@
 #include <vector>
 
 #include "cca_mrpt/io/parameters.hpp"
-#include "cca_mrpt/io/trajectory_error.hpp"
-#include "cca_mrpt/io/world_files.hpp"
 #include "cca_mrpt/sensing/missing_returns.hpp"
 #include "cca_mrpt/session/exploration_session.hpp"
 #include "cca_mrpt/simulation/simulation.hpp"
 #include "cca_mrpt/slam/slam_localiser.hpp"
+#include "io/maps/world_files.hpp"
+#include "io/poses/trajectory_error.hpp"
 
 namespace cca {
 namespace {

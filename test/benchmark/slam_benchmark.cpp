@@ -11,8 +11,8 @@
 #include <filesystem>
 #include <vector>
 
-#include "cca_mrpt/io/local_frame.hpp"
 #include "cca_mrpt/slam/slam.hpp"
+#include "io/poses/local_frame.hpp"
 
 namespace cca {
 namespace {

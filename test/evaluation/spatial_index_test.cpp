@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "cca_mrpt/evaluation/spatial_index.hpp"
+#include "evaluation/spatial_index.hpp"
 
 #include <gtest/gtest.h>
 

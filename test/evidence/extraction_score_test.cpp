@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "cca_mrpt/evidence/extraction_score.hpp"
+#include "evidence/extraction_score.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "cca_mrpt/evidence/comparison.hpp"
+#include "evidence/comparison.hpp"
 
 namespace cca::evidence {
 namespace {

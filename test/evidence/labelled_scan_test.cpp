@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "cca_mrpt/evidence/labelled_scan.hpp"
+#include "evidence/labelled_scan.hpp"
 
 #include <gtest/gtest.h>
 

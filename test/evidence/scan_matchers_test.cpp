@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "cca_mrpt/evidence/scan_matchers.hpp"
+#include "evidence/scan_matchers.hpp"
 
 #include <gtest/gtest.h>
 

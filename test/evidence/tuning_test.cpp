@@ -5,8 +5,8 @@
 #include <fstream>
 #include <set>
 
-#include "cca_mrpt/evidence/tour.hpp"
-#include "cca_mrpt/evidence/tuning_rows.hpp"
+#include "evidence/tour.hpp"
+#include "evidence/tuning_rows.hpp"
 
 namespace cca::evidence {
 namespace {

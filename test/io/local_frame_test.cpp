@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "cca_mrpt/io/local_frame.hpp"
+#include "io/poses/local_frame.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,9 +7,9 @@
 #include <filesystem>
 
 #include "cca_mrpt/io/map_products.hpp"
-#include "cca_mrpt/io/occupancy_files.hpp"
 #include "cca_mrpt/io/scan_grid.hpp"
-#include "cca_mrpt/io/stray_places.hpp"
+#include "io/files/stray_places.hpp"
+#include "io/maps/occupancy_files.hpp"
 #include "temporary_folder.hpp"
 
 namespace cca {

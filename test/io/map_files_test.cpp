@@ -9,12 +9,12 @@
 #include <filesystem>
 #include <fstream>
 
-#include "cca_mrpt/io/atomic_file.hpp"
-#include "cca_mrpt/io/line_formats.hpp"
-#include "cca_mrpt/io/map_picture.hpp"
 #include "cca_mrpt/io/map_products.hpp"
-#include "cca_mrpt/io/map_scene.hpp"
 #include "cca_mrpt/io/scan_grid.hpp"
+#include "io/files/atomic_file.hpp"
+#include "io/lines/line_formats.hpp"
+#include "io/maps/map_picture.hpp"
+#include "io/maps/map_scene.hpp"
 #include "temporary_folder.hpp"
 
 namespace cca {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "cca_mrpt/io/memory_file.hpp"
+#include "io/files/memory_file.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "cca_mrpt/io/atomic_file.hpp"
+#include "io/files/atomic_file.hpp"
 #include "temporary_folder.hpp"
 
 namespace cca {

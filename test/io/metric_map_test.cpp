@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "cca_mrpt/io/metric_map.hpp"
+#include "io/maps/metric_map.hpp"
 
 #include <gtest/gtest.h>
 #include <mrpt/config/CConfigFileMemory.h>
@@ -16,7 +16,7 @@
 #include <fstream>
 #include <limits>
 
-#include "cca_mrpt/io/mrpt_scan.hpp"
+#include "io/mrpt/mrpt_scan.hpp"
 
 namespace cca {
 namespace {

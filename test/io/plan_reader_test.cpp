@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "cca_mrpt/io/plan_reader.hpp"
+#include "io/plans/plan_reader.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -7,8 +7,8 @@
 #include <algorithm>
 #include <functional>
 
-#include "cca_mrpt/io/atomic_file.hpp"
-#include "cca_mrpt/io/line_formats.hpp"
+#include "io/files/atomic_file.hpp"
+#include "io/lines/line_formats.hpp"
 #include "temporary_folder.hpp"
 
 namespace cca {

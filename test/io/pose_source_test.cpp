@@ -4,10 +4,10 @@
 #include <cmath>
 #include <fstream>
 
-#include "cca_mrpt/io/log_info.hpp"
-#include "cca_mrpt/io/pose_source.hpp"
-#include "cca_mrpt/io/rawlog_writer.hpp"
-#include "cca_mrpt/io/trajectory_error.hpp"
+#include "io/logs/log_info.hpp"
+#include "io/logs/rawlog_writer.hpp"
+#include "io/poses/pose_source.hpp"
+#include "io/poses/trajectory_error.hpp"
 #include "temporary_folder.hpp"
 
 namespace cca {

@@ -17,8 +17,8 @@
 #include <fstream>
 
 #include "cca_mrpt/io/log_reader.hpp"
-#include "cca_mrpt/io/mrpt_scan.hpp"
-#include "cca_mrpt/io/rawlog_writer.hpp"
+#include "io/logs/rawlog_writer.hpp"
+#include "io/mrpt/mrpt_scan.hpp"
 #include "temporary_folder.hpp"
 
 namespace cca {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "cca_mrpt/io/replay.hpp"
+#include "io/replay/replay.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "cca_mrpt/io/world_files.hpp"
+#include "io/maps/world_files.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "bag_frames.hpp"
+#include "ros/bags/bag_frames.hpp"
 
 #include <gtest/gtest.h>
 
-#include "cca_mrpt/ros/pose_message.hpp"
+#include "ros/messages/pose_message.hpp"
 
 namespace cca {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "cca_mrpt/ros/bag_log.hpp"
+#include "ros/bags/bag_log.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -17,7 +17,7 @@
 #include <optional>
 
 #include "cca_mrpt/io/log_reader.hpp"
-#include "cca_mrpt/ros/pose_message.hpp"
+#include "ros/messages/pose_message.hpp"
 
 namespace cca {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "cca_mrpt/ros/pose_gate.hpp"
+#include "ros/input/pose_gate.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "cca_mrpt/ros/pose_message.hpp"
+#include "ros/messages/pose_message.hpp"
 
 #include <gtest/gtest.h>
 

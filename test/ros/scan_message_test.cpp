@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "cca_mrpt/ros/scan_message.hpp"
+#include "ros/messages/scan_message.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

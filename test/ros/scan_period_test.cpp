@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "scan_period.hpp"
+#include "ros/input/scan_period.hpp"
 
 #include <gtest/gtest.h>
 

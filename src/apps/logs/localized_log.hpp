@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "apps/runs/interruption.hpp"
+#include "cca_mrpt/io/log_reader.hpp"
+#include "cca_mrpt/io/pose_files.hpp"
+#include "cca_mrpt/known_map/known_map.hpp"
+
+namespace cca::apps {
+
+/// A log taken through the localisation in a plan, and what it showed.
+class LocalizedLog {
+ public:
+  /// @param start  T_map_robot where the log begins, about; nothing: anywhere in the plan.
+  LocalizedLog(const std::vector<PlanLine>& plan, const std::optional<Pose2>& start);
+
+  void take(LogReader& log, const Interruption& interruption);
+
+  /// Of the scans that were localised; stamped by the log's time, else by the scan's number.
+  const std::vector<StampedPose>& poses() const { return poses_; }
+  std::size_t scans() const { return scans_; }
+  int timesLost() const { return localiser_.timesLost(); }
+  double explainedShare() const { return explained_.mean(); }
+  double residual() const { return std::sqrt(residual_sq_.mean()); }  ///< m, rms
+  bool isInterrupted() const { return interrupted_; }
+  const std::string& warnings() const { return warnings_; }
+  /// Why the robot is not localised now, for people; empty where nothing is known of it.
+  std::string whyNot() const;
+  void addTo(nlohmann::ordered_json& summary) const;
+
+ private:
+  struct Mean {
+    double sum = 0.0, count = 0.0;
+    void add(double value) {
+      sum += value;
+      count += 1.0;
+    }
+    double mean() const { return count > 0.0 ? sum / count : 0.0; }
+  };
+  void note(const Estimate& estimate, const LogRecord& record);
+
+  KnownMap localiser_;
+  std::vector<StampedPose> poses_;
+  std::size_t scans_ = 0;
+  std::optional<std::size_t> first_;  ///< scan that was localised
+  Mean explained_, agreement_, residual_sq_, error_sq_;
+  double worst_error_ = 0.0;  ///< m, from the truth, where the log has it
+  bool interrupted_ = false;
+  std::string warnings_;
+};
+
+}  // namespace cca::apps

@@ -1,0 +1,201 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "carmen_reader.hpp"
+
+#include <cmath>
+#include <stdexcept>
+
+#include "carmen_line.hpp"
+#include "cca_mrpt/sensing/missing_returns.hpp"
+#include "io/files/gzip_lines.hpp"
+
+namespace cca {
+namespace {
+
+constexpr double kShortestRange = 0.05;   // m; below it a SICK reports errors
+constexpr double kLongestMounting = 2.0;  // m; a laser further from the robot is a corrected pose
+
+bool samePose(const Pose2& a, const Pose2& b, double tolerance) {
+  return (a.position() - b.position()).norm() <= tolerance &&
+         std::abs(wrapAngle(a.theta - b.theta)) <= tolerance;
+}
+
+/// What a first pass over the log tells about all of it.
+struct Survey {
+  bool robot_laser = false;  ///< ROBOTLASER lines are read, else FLASER and RLASER
+  std::size_t scans = 0, damaged_lines = 0;
+  bool damaged_file = false;
+  double no_return_from = 0.0;  ///< m
+  bool rewritten = false;       ///< poses are a SLAM program's
+  bool has_odometry = false;    ///< a chain of raw odometry leads through the log
+  bool mounting_holds = false;  ///< laser and robot pose differ by the same in every scan
+};
+
+bool isRead(const CarmenScan& scan, bool robot_laser) {
+  return (scan.message == CarmenMessage::kRobotLaser) == robot_laser;
+}
+
+/// Surveys one of the two families of laser lines.
+class Surveyor {
+ public:
+  void add(const CarmenScan& scan) {
+    ++scans_;
+    Scan read;
+    read.angle_increment = scan.angle_increment;
+    const double own = scan.max_range > 0.0 ? kOfReach * scan.max_range : HUGE_VAL;
+    for (const double range : scan.ranges) read.ranges.push_back(range < own ? range : HUGE_VAL);
+    saturation_.add(read);
+    if (scan.message != CarmenMessage::kRearLaser) addMounting(scan);
+    scans_with_odometry_ += odometry_lines_ > 0;
+    odometry_lines_ = 0;
+    last_laser_ = scan.laser;
+  }
+
+  void add(const Pose2& odometry) {
+    const bool copy = last_laser_ && samePose(*last_laser_, odometry, 1e-9);
+    odometry_lines_ += !copy;
+    last_laser_.reset();
+  }
+
+  void addEffectiveParticles() { ++effective_particles_; }
+
+  Survey survey() const {
+    Survey survey;
+    survey.scans = scans_;
+    survey.no_return_from = saturation_.threshold();
+    survey.rewritten = 2 * effective_particles_ > scans_;
+    survey.has_odometry = !survey.rewritten || 10 * scans_with_odometry_ >= 9 * scans_;
+    survey.mounting_holds = mounting_holds_ && !survey.rewritten;
+    return survey;
+  }
+
+ private:
+  void addMounting(const CarmenScan& scan) {
+    const Pose2 mounting = scan.robot.inverse() * scan.laser;
+    if (!mounting_) mounting_ = mounting;
+    mounting_holds_ = mounting_holds_ && mounting.position().norm() < kLongestMounting &&
+                      samePose(*mounting_, mounting, 1e-2);
+  }
+
+  Saturation saturation_;
+  std::size_t scans_ = 0, scans_with_odometry_ = 0, odometry_lines_ = 0, effective_particles_ = 0;
+  std::optional<Pose2> last_laser_, mounting_;
+  bool mounting_holds_ = true;
+};
+
+Survey surveyLog(const std::string& path) {
+  GzipLines lines(path);
+  Surveyor sick, robot;
+  std::size_t damaged = 0;
+  while (const auto line = lines.next()) {
+    if (const auto odometry = parseCarmenOdometry(*line)) {
+      sick.add(*odometry);
+      robot.add(*odometry);
+    } else if (const auto scan = parseCarmenScan(*line)) {
+      (isRead(*scan, true) ? robot : sick).add(*scan);
+    } else if (line->substr(0, 5) == "NEFF ") {  // a line that only GMapping writes, one a scan
+      sick.addEffectiveParticles();
+      robot.addEffectiveParticles();
+    } else {
+      damaged += isCarmenScan(*line);
+    }
+  }
+  const bool robot_laser = robot.survey().scans > sick.survey().scans;
+  Survey survey = (robot_laser ? robot : sick).survey();
+  survey.robot_laser = robot_laser;
+  survey.damaged_lines = damaged;
+  survey.damaged_file = lines.damaged();
+  return survey;
+}
+
+/// Undoes what GMapping did to the odometry: increments of the ODOM lines, one after another,
+/// without the jumps to each corrected pose.
+class OdometryChain {
+ public:
+  void add(const Pose2& logged, bool starts_anew) {
+    if (last_ && !starts_anew) T_odom_robot_ = T_odom_robot_ * (last_->inverse() * logged);
+    if (!last_) T_odom_robot_ = logged;
+    last_ = logged;
+  }
+  const Pose2& pose() const { return T_odom_robot_; }
+
+ private:
+  Pose2 T_odom_robot_;
+  std::optional<Pose2> last_;
+};
+
+class CarmenReader : public LogReader {
+ public:
+  explicit CarmenReader(const std::string& path)
+      : path_(path), survey_(surveyLog(path)), lines_(path) {
+    if (survey_.scans == 0) {
+      throw std::runtime_error(path + ": holds no whole laser scan (FLASER, RLASER, ROBOTLASER1)" +
+                               (warnings().empty() ? "" : "; " + warnings()));
+    }
+  }
+
+  std::optional<LogRecord> next() override {
+    while (const auto line = lines_.next()) {
+      if (const auto odometry = parseCarmenOdometry(*line)) {
+        chain_.add(*odometry, last_laser_ && samePose(*last_laser_, *odometry, 1e-9));
+        last_laser_.reset();
+      } else if (const auto scan = parseCarmenScan(*line)) {
+        if (isRead(*scan, survey_.robot_laser)) return record(*scan);
+      }
+    }
+    return std::nullopt;
+  }
+
+  std::string warnings() const override {
+    std::string text;
+    if (survey_.damaged_file) text = "the compressed file is damaged or ends early";
+    if (survey_.damaged_lines > 0) {
+      text += (text.empty() ? "" : "; ") + std::to_string(survey_.damaged_lines) +
+              " damaged laser line(s) left out";
+    }
+    return text;
+  }
+
+  double progress() const override { return lines_.progress(); }
+
+ private:
+  LogRecord record(const CarmenScan& logged) {
+    LogRecord record;
+    record.time = logged.time;
+    record.scan.angle_min = logged.angle_min;
+    record.scan.angle_increment = logged.angle_increment;
+    record.scan.T_map_sensor = logged.laser;
+    record.scan.ranges = logged.ranges;
+    for (double& range : record.scan.ranges) range = judged(range, logged.max_range);
+    if (survey_.mounting_holds) record.T_robot_sensor = logged.robot.inverse() * logged.laser;
+    // Where the robot's pose is the laser's, the wheels have written both: nothing is corrected.
+    if (!survey_.mounting_holds) record.corrected = logged.laser * record.T_robot_sensor.inverse();
+    if (survey_.rewritten) {
+      if (survey_.has_odometry) record.odometry = chain_.pose();
+      last_laser_ = logged.laser;
+    } else {
+      record.odometry = logged.robot;
+    }
+    return record;
+  }
+
+  double judged(double range, double own_maximum) const {
+    const bool no_return =
+        range >= survey_.no_return_from || (own_maximum > 0.0 && range >= kOfReach * own_maximum);
+    if (no_return) return HUGE_VAL;
+    return range >= kShortestRange ? range : 0.0;
+  }
+
+  std::string path_;
+  Survey survey_;
+  GzipLines lines_;
+  OdometryChain chain_;
+  std::optional<Pose2> last_laser_;  ///< of the scan just given, until the next ODOM line
+};
+
+}  // namespace
+
+std::unique_ptr<LogReader> openCarmenLog(const std::string& path) {
+  return std::make_unique<CarmenReader>(path);
+}
+
+}  // namespace cca

@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "canvas.hpp"
+
+#include <mrpt/img/CImage.h>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "io/files/png_file.hpp"
+#include "io/logs/unhinted_text.hpp"
+
+namespace cca {
+namespace {
+
+constexpr double kSmallestScale = 0.01;
+
+int pixels(double metres, double pixels_per_metre) {
+  return std::max(1, static_cast<int>(std::lround(metres * pixels_per_metre)));
+}
+
+}  // namespace
+
+Canvas::Canvas(const Eigen::AlignedBox2d& view, int longest_side, int header)
+    : view_(view),
+      pixels_per_metre_(longest_side / view.sizes().maxCoeff()),
+      width_(pixels(view.sizes().x(), pixels_per_metre_)),
+      height_(pixels(view.sizes().y(), pixels_per_metre_) + header),
+      header_(header),
+      surface_(cairo_image_surface_create(CAIRO_FORMAT_RGB24, width_, height_),
+               cairo_surface_destroy),
+      cairo_(cairo_create(surface_.get()), cairo_destroy) {
+  drawUnhinted(cairo_.get());
+  cairo_set_line_cap(cairo_.get(), CAIRO_LINE_CAP_ROUND);
+  cairo_set_line_join(cairo_.get(), CAIRO_LINE_JOIN_ROUND);
+}
+
+Eigen::Vector2d Canvas::pixel(const Eigen::Vector2d& p_map) const {
+  return {(p_map.x() - view_.min().x()) * pixels_per_metre_,
+          header_ + (view_.max().y() - p_map.y()) * pixels_per_metre_};
+}
+
+void Canvas::colour(const Colour& colour) {
+  cairo_set_source_rgba(cairo_.get(), colour.red, colour.green, colour.blue, colour.alpha);
+}
+
+void Canvas::fill(const Colour& with) {
+  colour(with);
+  cairo_paint(cairo_.get());
+}
+
+void Canvas::polyline(const std::vector<Eigen::Vector2d>& points_map, double width,
+                      const Colour& with) {
+  for (const auto& p_map : points_map) {
+    const Eigen::Vector2d p = pixel(p_map);
+    cairo_line_to(cairo_.get(), p.x(), p.y());
+  }
+  colour(with);
+  cairo_set_line_width(cairo_.get(), width);
+  cairo_stroke(cairo_.get());
+}
+
+void Canvas::disc(const Eigen::Vector2d& centre_map, double radius, const Colour& with, double rim,
+                  const Colour& rim_colour) {
+  const Eigen::Vector2d centre = pixel(centre_map);
+  cairo_new_sub_path(cairo_.get());
+  cairo_arc(cairo_.get(), centre.x(), centre.y(), radius, 0.0, 2.0 * M_PI);
+  colour(with);
+  cairo_fill_preserve(cairo_.get());
+  colour(rim_colour);
+  cairo_set_line_width(cairo_.get(), rim);
+  if (rim > 0.0) cairo_stroke_preserve(cairo_.get());
+  cairo_new_path(cairo_.get());
+}
+
+void Canvas::image(std::vector<std::uint32_t>& argb, int columns, int rows,
+                   const Eigen::Vector2d& lower_left_map, double metres_per_pixel) {
+  const std::unique_ptr<cairo_surface_t, void (*)(cairo_surface_t*)> picture(
+      cairo_image_surface_create_for_data(reinterpret_cast<unsigned char*>(argb.data()),
+                                          CAIRO_FORMAT_RGB24, columns, rows, 4 * columns),
+      cairo_surface_destroy);
+  const Eigen::Vector2d corner =
+      pixel(lower_left_map + Eigen::Vector2d(0.0, rows * metres_per_pixel));
+  const double scale = metres_per_pixel * pixels_per_metre_;
+  cairo_save(cairo_.get());
+  cairo_translate(cairo_.get(), corner.x(), corner.y());
+  cairo_scale(cairo_.get(), scale, scale);
+  cairo_set_source_surface(cairo_.get(), picture.get(), 0.0, 0.0);
+  // The good filter looks at every cell of a pixel's, and gives up the sheet where these are many.
+  cairo_pattern_set_filter(cairo_get_source(cairo_.get()),
+                           scale < kSmallestScale ? CAIRO_FILTER_FAST : CAIRO_FILTER_GOOD);
+  cairo_paint(cairo_.get());
+  cairo_restore(cairo_.get());
+}
+
+void Canvas::text(double x, double y, double size, bool bold, const Colour& with,
+                  const std::string& utf8) {
+  cairo_select_font_face(cairo_.get(), "sans-serif", CAIRO_FONT_SLANT_NORMAL,
+                         bold ? CAIRO_FONT_WEIGHT_BOLD : CAIRO_FONT_WEIGHT_NORMAL);
+  cairo_set_font_size(cairo_.get(), size);
+  colour(with);
+  cairo_move_to(cairo_.get(), x, y);
+  cairo_show_text(cairo_.get(), utf8.c_str());
+  cairo_new_path(cairo_.get());
+}
+
+void Canvas::bar(double x, double y, double width, double height, const Colour& with) {
+  cairo_rectangle(cairo_.get(), x, y, width, height);
+  colour(with);
+  cairo_fill(cairo_.get());
+}
+
+void Canvas::writePng(const std::string& path) const {
+  const cairo_status_t status = cairo_status(cairo_.get());
+  if (status != CAIRO_STATUS_SUCCESS) {
+    throw std::runtime_error(path + ": cannot be drawn: " + cairo_status_to_string(status));
+  }
+  // Cairo's own PNG writer squeezes three times as long as all the drawing takes; MRPT's is quick.
+  cairo_surface_flush(surface_.get());
+  const unsigned char* const data = cairo_image_surface_get_data(surface_.get());
+  const int stride = cairo_image_surface_get_stride(surface_.get());
+  mrpt::img::CImage image(static_cast<unsigned>(width_), static_cast<unsigned>(height_),
+                          mrpt::img::CH_RGB);
+  for (int row = 0; row < height_; ++row) {
+    const unsigned char* from = data + static_cast<std::ptrdiff_t>(row) * stride;
+    auto* to = image.ptrLine<std::uint8_t>(static_cast<unsigned>(row));
+    for (int column = 0; column < width_; ++column, from += 4) to = std::copy_n(from, 3, to);
+  }
+  cca::writePng(image, path);
+}
+
+}  // namespace cca

@@ -1,0 +1,194 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "cca_mrpt/io/map_products.hpp"
+
+#include <algorithm>
+#include <filesystem>
+#include <stdexcept>
+#include <tuple>
+#include <vector>
+
+#include "io/files/atomic_file.hpp"
+#include "io/files/memory_file.hpp"
+#include "io/lines/line_formats.hpp"
+#include "io/maps/map_picture.hpp"
+#include "io/maps/map_scene.hpp"
+#include "io/maps/metric_map.hpp"
+#include "io/maps/occupancy_files.hpp"
+#include "io/plans/plan_files.hpp"
+#include "io/poses/local_frame.hpp"
+#include "io/replay/replay.hpp"
+
+namespace cca {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kSummary = "summary.json";
+/// What writeMapFolder() writes always, and where the products hold it.
+constexpr const char* kAlways[] = {kSummary,         "lines.csv", "arcs.csv",
+                                   "lines.geojson",  "lines.svg", "lines.dxf",
+                                   "map.linemap.gz", "map.png",   "scene.3Dscene"};
+constexpr const char* kSometimes[] = {"map.pgm",   "map.yaml",  "map.gridmap.gz", "poses.csv",
+                                      "poses.tum", "graph.g2o", kMemoryFile,      "replay.html"};
+/// Names of files and what is found in damaged ones need not be UTF-8.
+constexpr auto kReplace = nlohmann::ordered_json::error_handler_t::replace;
+
+std::string inFolder(const std::string& folder, const char* name) {
+  return (fs::path(folder) / name).string();
+}
+
+nlohmann::ordered_json summarize(const MapProducts& products) {
+  double length = 0.0;
+  for (const MapLine& line : products.lines) length += line.segment.length();
+  auto summary = products.summary;
+  summary["title"] = products.title;
+  if (!products.origin.isZero()) {
+    summary["frame_origin_m"] = {products.origin.x(), products.origin.y()};
+  }
+  summary["map_lines"] = products.lines.size();
+  summary["map_poly_lines"] = products.poly_lines.size();
+  summary["map_arcs"] = products.arcs.size();
+  summary["map_length_m"] = length;
+  return summary;
+}
+
+/// Writes the floor plan beside the map, and its numbers into the summary. A map is a map without a
+/// plan, too: what goes wrong with it goes into the summary. @param p_grid  where the grid's frame
+/// lies in the map's. @return  whether the plan was written.
+bool addPlan(const std::string& folder, const MapProducts& map, const Eigen::Vector2d& p_grid,
+             nlohmann::ordered_json& summary) {
+  if (!map.grid) return false;
+  try {
+    const FloorPlan plan = planOfMap(map.lines, *map.grid, p_grid);
+    writePlanFiles(folder, plan, map.title, true);
+    double area = 0.0;
+    for (const PlanRoom& room : plan.rooms) area += room.area;
+    summary["plan"] = {
+        {"rooms", plan.rooms.size()}, {"openings", plan.openings.size()}, {"floor_m2", area}};
+    return true;
+  } catch (const std::exception& error) {
+    summary["plan"] = {{"error", error.what()}};
+    return false;
+  }
+}
+
+std::vector<StampedPose> stamped(const std::vector<double>& times,
+                                 const std::vector<Pose2>& trajectory) {
+  std::vector<StampedPose> poses;
+  for (std::size_t k = 0; k < std::min(times.size(), trajectory.size()); ++k) {
+    poses.push_back({times[k], trajectory[k]});
+  }
+  return poses;
+}
+
+}  // namespace
+
+MapProducts mapProducts(const std::string& title, const MappingSession& session) {
+  MapProducts products;
+  products.title = title;
+  products.lines = session.lineMap().lines();
+  products.poly_lines = session.lineMap().polyLines();
+  products.arcs = session.lineMap().arcs();
+  products.trajectory = session.trajectory();
+  products.times = session.times();
+  return products;
+}
+
+FolderLock prepareMapFolder(const std::string& folder, bool overwrite,
+                            const std::vector<const char*>& beside) {
+  makeFolder(folder);
+  const auto requireNew = [&](const char* name) {
+    const std::string path = inFolder(folder, name);
+    if (!fs::exists(path) || overwrite) return;
+    throw std::runtime_error(path + ": is there already (--force overwrites it)");
+  };
+  for (const char* name : kAlways) requireNew(name);
+  for (const char* name : kSometimes) requireNew(name);
+  for (const char* name : kPlanFiles) requireNew(name);
+  for (const char* name : beside) requireNew(name);
+  AtomicFile probe(inFolder(folder, kSummary));  // fails now, not after the work
+  removeLeftovers(folder);
+  return FolderLock(folder);
+}
+
+void withdrawSummary(const std::string& folder) {
+  std::error_code none_there;
+  fs::remove(inFolder(folder, kSummary), none_there);
+}
+
+std::string keepMemory(const std::string& folder) {
+  if (!fs::exists(inFolder(folder, kMemoryFile))) return {};
+  std::string kept = inFolder(folder, "earlier.slam");
+  for (int number = 2; fs::exists(kept); ++number) {
+    kept = inFolder(folder, ("earlier-" + std::to_string(number) + ".slam").c_str());
+  }
+  std::error_code failed;
+  fs::rename(inFolder(folder, kMemoryFile), kept, failed);
+  if (failed) throw std::runtime_error(kept + ": " + failed.message());
+  return kept;
+}
+
+MapProducts seenFrom(const Eigen::Vector2d& p_frame, MapProducts products) {
+  products.origin += p_frame;
+  for (MapLine& line : products.lines) {
+    line.segment.start -= p_frame;
+    line.segment.end -= p_frame;
+    line.segment.moments.mean -= p_frame;
+  }
+  for (PolyLine& chain : products.poly_lines) {
+    for (auto& vertex : chain.vertices) vertex -= p_frame;
+  }
+  for (MapArc& arc : products.arcs) arc.arc.centre -= p_frame;
+  for (Pose2& pose : products.trajectory) pose = seenFrom(p_frame, pose);
+  for (int k = 0; k < products.graph.size(); ++k) {
+    products.graph.place(k, seenFrom(p_frame, products.graph.pose(k)));
+  }
+  return products;
+}
+
+void writeMapFolder(const std::string& folder, const MapProducts& products) {
+  makeFolder(folder);
+  withdrawSummary(folder);
+  const MapProducts map = seenFrom(-products.origin, products);
+  const auto& [lines, poly_lines, trajectory] = std::tie(map.lines, map.poly_lines, map.trajectory);
+  std::vector<std::string> written = products.beside;
+  const auto put = [&](const char* name, const std::string& content) {
+    writeFile(inFolder(folder, name), content);
+    written.push_back(name);
+  };
+  put("lines.csv", linesCsv(lines));
+  put("arcs.csv", arcsCsv(map.arcs));
+  put("lines.geojson", linesGeoJson(lines, poly_lines, trajectory, map.arcs, map.place));
+  put("lines.svg", linesSvg(lines, poly_lines, trajectory, map.arcs, map.place));
+  put("lines.dxf", linesDxf(lines, poly_lines, trajectory, map.arcs));
+  writeLineMap(inFolder(folder, "map.linemap.gz"), lines);
+  if (products.grid) {
+    writeOccupancyMap(inFolder(folder, "map"), *products.grid, products.origin);
+    writeGridMap(inFolder(folder, "map.gridmap.gz"), *products.grid);
+    written.insert(written.end(), {"map.pgm", "map.yaml", "map.gridmap.gz"});
+  }
+  writePicture(inFolder(folder, "map.png"), products);
+  writeScene(inFolder(folder, "scene.3Dscene"), products);
+  if (!map.times.empty()) {
+    const std::vector<StampedPose> poses = stamped(map.times, trajectory);
+    put("poses.csv", posesCsv(poses));
+    put("poses.tum", posesTum(poses));
+  }
+  if (map.graph.size() > 0) put("graph.g2o", graphG2o(map.graph));
+  if (!map.memory.empty()) put(kMemoryFile, map.memory);
+  if (!map.replay.empty()) put("replay.html", replayPage({map.replay}));
+  auto summary = summarize(products);
+  if (addPlan(folder, map, products.origin, summary))
+    written.insert(written.end(), kPlanFiles.begin(), kPlanFiles.end());
+  // What an earlier run left would be taken for this one's.
+  const auto removeOld = [&](const char* name) {
+    std::error_code none_there;
+    if (std::find(written.begin(), written.end(), name) == written.end())
+      fs::remove(inFolder(folder, name), none_there);
+  };
+  for (const char* name : kSometimes) removeOld(name);
+  for (const char* name : kPlanFiles) removeOld(name);
+  put(kSummary, summary.dump(2, ' ', false, kReplace) + "\n");
+}
+
+}  // namespace cca

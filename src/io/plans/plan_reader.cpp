@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "io/plans/plan_reader.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <stdexcept>
+
+#include "io/files/memory_file.hpp"
+#include "io/lines/line_formats.hpp"
+#include "plan_reader_formats.hpp"
+
+namespace cca {
+namespace {
+
+constexpr double kFarthestPlan = 1e8;  // m, from (0, 0): beyond, it is in other units
+
+std::string planText(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  if (!file || std::filesystem::is_directory(path)) {
+    throw std::runtime_error(path.string() + ": cannot be read");
+  }
+  std::ostringstream text;
+  text << file.rdbuf();
+  return text.str();
+}
+
+std::string endingOf(const std::filesystem::path& path) {
+  std::string ending = path.extension().string();
+  std::transform(ending.begin(), ending.end(), ending.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return ending;
+}
+
+std::vector<PlanLine> planLinesOf(const std::vector<MapLine>& lines) {
+  std::vector<PlanLine> plan;
+  for (const MapLine& line : lines) plan.emplace_back(line.segment.start, line.segment.end);
+  return plan;
+}
+
+/// What map.slam remembers, mapped anew.
+PlanFile readMemoryPlan(const std::string& path) {
+  const SlamMemory memory = seenFrom({0.0, 0.0}, loadMemory(path));
+  LineMap map;
+  for (std::size_t k = 0; k < memory.scans.size(); ++k) {
+    Scan scan = memory.scans[k].scan;
+    scan.T_map_sensor = memory.graph.pose(static_cast<int>(k));
+    map.insert(scan);
+  }
+  return {"map.slam", planLinesOf(map.lines()), ""};
+}
+
+PlanFile read(const std::filesystem::path& path, double scale) {
+  const std::string name = path.string(), ending = endingOf(path);
+  if (ending == ".csv") return {"CSV", planLinesOf(readLinesCsv(planText(path), name)), ""};
+  if (ending == ".slam") return readMemoryPlan(name);
+  if (ending == ".geojson" || ending == ".json") {
+    return readGeoJsonPlan(planText(path), name, scale);
+  }
+  if (ending == ".dxf") return readDxfPlan(planText(path), name, scale);
+  if (ending == ".svg") return readSvgPlan(planText(path), name, scale);
+  if (ending == ".yaml" || ending == ".yml") return readGridPlan(name);
+  throw std::runtime_error(name +
+                           ": is no plan by its name; allowed are a map's folder, .csv, .slam, "
+                           ".geojson, .json, .dxf, .svg and .yaml");
+}
+
+}  // namespace
+
+std::string inWords(const Counts& counts) {
+  std::string words;
+  for (const auto& [kind, count] : counts) {
+    words += (words.empty() ? "" : ", ") + std::to_string(count) + " " + kind;
+  }
+  return words;
+}
+
+void addChain(const std::vector<Eigen::Vector2d>& chain, bool closed,
+              std::vector<PlanLine>& lines) {
+  for (std::size_t k = 1; k < chain.size(); ++k) lines.emplace_back(chain[k - 1], chain[k]);
+  if (closed && chain.size() > 2) lines.emplace_back(chain.back(), chain.front());
+}
+
+void addArc(const Eigen::Vector2d& centre, double radius, double from, double to,
+            std::vector<PlanLine>& lines) {
+  constexpr double kOff = 0.01;  // m
+  const double most = radius > kOff ? 2.0 * std::acos(1.0 - kOff / radius) : M_PI_2;
+  const int steps = std::clamp(static_cast<int>(std::ceil((to - from) / most)), 1, 720);
+  std::vector<Eigen::Vector2d> chain;
+  for (int k = 0; k <= steps; ++k) {
+    const double angle = from + (to - from) * k / steps;
+    chain.push_back(centre + radius * Eigen::Vector2d(std::cos(angle), std::sin(angle)));
+  }
+  addChain(chain, false, lines);
+}
+
+PlanFile readPlan(const std::string& path, double scale) {
+  std::filesystem::path file(path);
+  if (std::filesystem::is_directory(file)) file /= "lines.csv";
+  PlanFile plan = read(file, scale);
+  for (const auto& [a, b] : plan.lines) {
+    const double farthest = std::max(a.cwiseAbs().maxCoeff(), b.cwiseAbs().maxCoeff());
+    if (!(farthest <= kFarthestPlan)) {
+      throw std::runtime_error(path +
+                               ": a line ends more than 1e8 m from (0, 0), or at no finite place");
+    }
+  }
+  if (plan.lines.empty()) {
+    const std::string rest = plan.not_understood;
+    throw std::runtime_error(path + ": holds no line" + (rest.empty() ? "" : ", but " + rest));
+  }
+  return plan;
+}
+
+std::vector<MapLine> mapLinesOf(const std::vector<PlanLine>& plan) {
+  std::vector<MapLine> lines;
+  for (const auto& [start, end] : plan) {
+    MapLine line;
+    line.id = lines.size();
+    line.segment.start = start;
+    line.segment.end = end;
+    lines.push_back(line);
+  }
+  return lines;
+}
+
+}  // namespace cca

@@ -1,0 +1,191 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <mrpt/system/string_utils.h>
+#include <zlib.h>
+
+#include <cstdint>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+
+#include "io/replay/replay.hpp"
+#include "replay_template.hpp"
+
+namespace cca {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr const char* kRunsHere = "<!-- runs -->";
+constexpr const char* kRunBegin = "<script type=\"application/octet-stream\" class=\"run\">";
+constexpr const char* kRunEnd = "</script>\n";
+
+constexpr std::int64_t kMomentWithoutTime = 100;  // ms, from one to the next
+
+/// One number of each item, as differences to the item before.
+template <class Items, class Value>
+Json column(const Items& items, Value&& value) {
+  Json numbers = Json::array();
+  std::int64_t last = 0;
+  for (const auto& item : items) {
+    const std::int64_t now = value(item);
+    numbers.push_back(now - last);
+    last = now;
+  }
+  return numbers;
+}
+
+/// The items from one on.
+template <class Item>
+struct Tail {
+  Tail(const std::vector<Item>& items, std::size_t from)
+      : first(items.data() + from), past(items.data() + items.size()) {}
+  const Item* begin() const { return first; }
+  const Item* end() const { return past; }
+  const Item *first, *past;
+};
+
+std::string packedText(const std::string& text) {
+  uLongf size = compressBound(text.size());
+  std::vector<std::uint8_t> bytes(size);
+  if (compress2(bytes.data(), &size, reinterpret_cast<const Bytef*>(text.data()), text.size(),
+                Z_DEFAULT_COMPRESSION) != Z_OK) {
+    throw std::runtime_error("replay.html: out of memory");
+  }
+  bytes.resize(size);
+  std::string base64;
+  mrpt::system::encodeBase64(bytes, base64);
+  return base64;
+}
+
+}  // namespace
+
+/// The obstacles as lengths of runs: free, not free, free, ..., row by row from the lowest y.
+void Replay::setWorld(const World& world) {
+  Json runs = Json::array();
+  bool is_obstacle = false;
+  std::int64_t length = 0;
+  for (const unsigned char cell : world.obstacles()) {
+    if ((cell != 0) != is_obstacle) {
+      runs.push_back(length);
+      length = 0;
+      is_obstacle = !is_obstacle;
+    }
+    ++length;
+  }
+  runs.push_back(length);
+  world_ = Json{{"width", world.width()},           {"height", world.height()},
+                {"resolution", world.resolution()}, {"x", world.origin().x()},
+                {"y", world.origin().y()},          {"runs", runs}}
+               .dump();
+}
+
+std::string Replay::packed(const Eigen::Vector2d& origin) const {
+  return packedText(json({}, origin, world_));
+}
+
+std::string Replay::since(const Mark& mark) const { return json(mark, {0.0, 0.0}, ""); }
+
+std::string Replay::json(const Mark& from, const Eigen::Vector2d& origin,
+                         const std::string& world) const {
+  const Tail<Frame> new_frames(frames_, from.frames);
+  const Tail<Decision> new_decisions(decisions_, from.decisions);
+  const Tail<Toggle> new_toggles(toggles_, from.toggles);
+  const Tail<LineChange> new_changes(changes_, from.changes);
+  Json run;
+  run["title"] = title_;
+  run["origin"] = {origin.x(), origin.y()};
+  run["robot_radius"] = robot_radius_;
+  run["frontier_block"] = kFrontierBlock;
+  run["world"] = world.empty() ? Json() : Json::parse(world);
+  for (const Laser& laser : lasers_) {
+    const auto& [x, y, theta] = laser.T_robot_sensor;
+    run["lasers"].push_back({{"x", x},
+                             {"y", y},
+                             {"theta", theta},
+                             {"first", laser.first},
+                             {"step", laser.step},
+                             {"beams", laser.beams}});
+  }
+  Json& frames = run["frames"];
+  const bool has_times = hasTimes();
+  frames["time"] = column(new_frames, [&](const Frame& f) {
+    return has_times ? f.time : kMomentWithoutTime * (&f - frames_.data());
+  });
+  frames["distance"] = column(new_frames, [](const Frame& f) { return f.distance; });
+  const char* const names[] = {"x", "y", "theta"};
+  for (std::size_t k = 0; k < 3; ++k) {
+    frames[names[k]] = column(new_frames, [k](const Frame& f) { return f.pose[k]; });
+    if (!has_truth_) continue;
+    frames[std::string("true_") + names[k]] =
+        column(new_frames, [k](const Frame& f) { return f.truth[k]; });
+  }
+  frames["laser"] =
+      column(new_frames, [](const Frame& f) { return static_cast<std::int64_t>(f.laser); });
+  frames["ranges"] = Json::array();
+  for (const Frame& frame : new_frames) {
+    for (Json& range : column(frame.ranges, [](int r) { return r; })) {
+      frames["ranges"].push_back(std::move(range));
+    }
+  }
+  run["decisions"] = Json::array();
+  for (const Decision& decision : new_decisions) {
+    run["decisions"].push_back({{"frame", decision.frame},
+                                {"goal", decision.goal ? Json(*decision.goal) : Json()},
+                                {"reason", decision.reason},
+                                {"way", decision.way}});
+  }
+  const auto frameOf = [](const auto& item) { return static_cast<std::int64_t>(item.frame); };
+  Json& frontier = run["frontier"];
+  frontier["frame"] = column(new_toggles, frameOf);
+  frontier["x"] = column(new_toggles, [](const Toggle& t) { return t.block.first; });
+  frontier["y"] = column(new_toggles, [](const Toggle& t) { return t.block.second; });
+  Json& lines = run["lines"];
+  lines["frame"] = column(new_changes, frameOf);
+  lines["id"] =
+      column(new_changes, [](const LineChange& c) { return static_cast<std::int64_t>(c.id); });
+  const char* const ends[] = {"x1", "y1", "x2", "y2"};
+  for (std::size_t k = 0; k < 4; ++k) {
+    lines[ends[k]] = column(new_changes, [k](const LineChange& c) { return c.line.ends[k]; });
+  }
+  lines["support"] = column(new_changes, [](const LineChange& c) { return c.line.support; });
+  lines["sigma_offset"] =
+      column(new_changes, [](const LineChange& c) { return c.line.sigma_offset; });
+  lines["sigma_angle"] =
+      column(new_changes, [](const LineChange& c) { return c.line.sigma_angle; });
+  run["coverage"]["distance"] = column(coverage_distance_, [](std::int64_t d) { return d; });
+  run["coverage"]["share"] = column(coverage_share_, [](std::int64_t s) { return s; });
+  return run.dump(-1, ' ', false, Json::error_handler_t::replace);
+}
+
+std::string livePage() {
+  std::string page = kReplayTemplate;
+  const auto put = [&page](const std::string& place, const std::string& text) {
+    page.replace(page.find(place), place.size(), text);
+  };
+  put("img-src data:", "img-src data:; connect-src 'self'");
+  put(kRunsHere, "<script type=\"application/octet-stream\" class=\"live\"></script>\n");
+  return page;
+}
+
+std::string replayPage(const std::vector<std::string>& runs) {
+  std::string page = kReplayTemplate;
+  std::string data;
+  for (const std::string& run : runs) data += kRunBegin + run + kRunEnd;
+  return page.replace(page.find(kRunsHere), std::string(kRunsHere).size(), data);
+}
+
+std::vector<std::string> runsOfReplayPage(const std::string& page, const std::string& name) {
+  const std::string begin = kRunBegin;
+  std::vector<std::string> runs;
+  for (std::size_t at = page.find(begin); at != std::string::npos; at = page.find(begin, at)) {
+    at += begin.size();
+    runs.push_back(page.substr(
+        at, page.find_first_not_of("ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz"
+                                   "0123456789+/=\r\n",
+                                   at) -
+                at));
+  }
+  if (runs.empty()) throw std::runtime_error(name + ": holds no run");
+  return runs;
+}
+
+}  // namespace cca

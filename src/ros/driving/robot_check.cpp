@@ -1,0 +1,393 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "robot_check.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdarg>
+#include <cstdio>
+#include <map>
+#include <memory>
+#include <optional>
+#include <utility>
+
+#include "cca_mrpt/sensing/missing_returns.hpp"
+#include "cca_mrpt/session/mapping_session.hpp"
+#include "cca_mrpt/slam/slam_localiser.hpp"
+#include "ros/input/scan_period.hpp"
+#include "ros/input/scan_placement.hpp"
+#include "ros/messages/scan_message.hpp"
+
+namespace cca {
+namespace {
+
+constexpr double kDegrees = 180.0 / M_PI;
+constexpr double kSlowLaser = 0.15;   // s; scan_timeout grows with the period from there on
+constexpr double kClockAhead = 0.05;  // s; clocks that are kept by the network differ by less
+constexpr double kLate = 0.2;         // s, beyond the period: the robot is driven by what was
+constexpr double kRarely = 0.07;      // s, between odometry messages: below 15 a second
+constexpr double kMostly = 0.9;       // of the scans
+constexpr double kBlindArc = 5.0;     // deg; narrower ones are single surfaces that return nothing
+constexpr double kLeastTurn = 1.0;    // rad, driven, that scans can tell anything of
+constexpr double kLeastWay = 1.0;     // m, the same
+constexpr double kWrongScale = 0.05;  // of turn or way: line SLAM learns it, others do not
+constexpr double kLongestDelay = 0.2, kDelayStep = 0.01, kLeastDelay = 0.03;  // s
+constexpr double kTelling = 10.0;     // times the squared error of the best delay, at the worst one
+constexpr double kOneInstant = 0.02;  // s
+constexpr std::size_t kLeastScans = 10;
+
+std::string text(const char* format, ...) __attribute__((format(printf, 1, 2)));
+std::string text(const char* format, ...) {
+  char buffer[300];
+  va_list values;
+  va_start(values, format);
+  std::vsnprintf(buffer, sizeof buffer, format, values);
+  va_end(values);
+  return buffer;
+}
+
+Finding good(std::string what) { return {Finding::Kind::kGood, std::move(what), ""}; }
+Finding note(std::string what, std::string remedy) {
+  return {Finding::Kind::kNote, std::move(what), std::move(remedy)};
+}
+Finding fault(std::string what, std::string remedy) {
+  return {Finding::Kind::kFault, std::move(what), std::move(remedy)};
+}
+
+double median(std::vector<double> values) {
+  if (values.empty()) return 0.0;
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+template <class Messages>
+double medianPeriod(const Messages& messages) {
+  std::vector<double> periods;
+  for (std::size_t k = 1; k < messages.size(); ++k) {
+    periods.push_back(
+        (messages[k].message.header.stamp - messages[k - 1].message.header.stamp).toSec());
+  }
+  return median(periods);
+}
+
+/// "12 to 40 deg, 355 to 359 deg": runs of beams that `is` holds of, at least as wide as told.
+template <class Is>
+std::string arcsOf(const sensor_msgs::LaserScan& scan, double least_deg, const Is& is) {
+  std::string arcs;
+  const std::size_t n = scan.ranges.size();
+  for (std::size_t i = 0; i < n; ++i) {
+    std::size_t end = i;
+    while (end < n && is(end)) ++end;
+    const double width = kDegrees * std::abs(scan.angle_increment) * static_cast<double>(end - i);
+    const auto bearing = [&](std::size_t beam) {
+      return kDegrees * (scan.angle_min + static_cast<double>(beam) * scan.angle_increment);
+    };
+    if (end > i && width >= least_deg) {
+      arcs += (arcs.empty() ? "" : ", ") + text("%.0f to %.0f deg", bearing(i), bearing(end - 1));
+    }
+    if (end > i) i = end;
+  }
+  return arcs;
+}
+
+/// Where line SLAM and the odometry have each scan, in its middle.
+struct Drive {
+  std::vector<Pose2> by_scans, by_wheels;
+  std::vector<ros::Time> middles;
+  double sweep = 0.0;  ///< s, as it has been learned
+};
+
+/// How far the heading goes from one to the next, by rising number.
+std::vector<double> turnsOf(const std::vector<Pose2>& poses) {
+  std::vector<double> turns;
+  for (std::size_t k = 1; k < poses.size(); ++k) {
+    turns.push_back(wrapAngle(poses[k].theta - poses[k - 1].theta));
+  }
+  return turns;
+}
+
+double wayOf(const std::vector<Pose2>& poses) {
+  double way = 0.0;
+  for (std::size_t k = 1; k < poses.size(); ++k) {
+    way += (poses[k].position() - poses[k - 1].position()).norm();
+  }
+  return way;
+}
+
+/// The factor that leads from one to the other, by least squares.
+double scaleOf(const std::vector<double>& from, const std::vector<double>& to) {
+  double product = 0.0, squares = 0.0;
+  for (std::size_t k = 0; k < from.size(); ++k) {
+    product += from[k] * to[k];
+    squares += from[k] * from[k];
+  }
+  return squares > 0.0 ? product / squares : 1.0;
+}
+
+/// s, by how much the odometry's stamps have to be moved to turn when the scans do; nothing where
+/// the robot has turned too evenly to tell.
+std::optional<double> delayOf(const Drive& drive, const Transforms& transforms,
+                              const std::string& odom, const std::string& base) {
+  const std::vector<double> by_scans = turnsOf(drive.by_scans);
+  double least = INFINITY, most = 0.0, best = 0.0;
+  const int steps = static_cast<int>(std::lround(kLongestDelay / kDelayStep));
+  for (int step = -steps; step <= steps; ++step) {
+    const ros::Duration delay(step * kDelayStep);
+    std::vector<Pose2> moved;
+    std::vector<std::size_t> known;
+    for (std::size_t k = 0; k < drive.middles.size(); ++k) {
+      const ros::Time time = drive.middles[k] + delay;
+      const bool has = transforms.has(odom, base, time);
+      moved.push_back(has ? transforms.lookup(odom, base, time).pose : Pose2{});
+      if (has) known.push_back(k);
+    }
+    double sum = 0.0, count = 0.0;
+    const std::vector<double> turns = turnsOf(moved);
+    for (std::size_t i = 1; i < known.size(); ++i) {
+      if (known[i] != known[i - 1] + 1) continue;
+      const double error = turns[known[i] - 1] - by_scans[known[i] - 1];
+      sum += error * error;
+      ++count;
+    }
+    if (count < kLeastScans) continue;
+    most = std::max(most, sum / count);
+    if (sum / count >= least) continue;
+    least = sum / count;
+    best = delay.toSec();
+  }
+  return most > kTelling * least ? std::optional<double>(best) : std::nullopt;
+}
+
+}  // namespace
+
+void RobotCheck::take(const sensor_msgs::LaserScan& scan, const ros::Time& arrival) {
+  scans_.push_back({scan, arrival});
+}
+
+void RobotCheck::take(const nav_msgs::Odometry& odometry, const ros::Time& arrival) {
+  odometry_.push_back({odometry, arrival});
+}
+
+std::vector<Finding> RobotCheck::findings(const Transforms& transforms) const {
+  std::vector<Finding> findings;
+  checkOdometry(findings);
+  checkFrames(transforms, findings);
+  if (scans_.empty()) return findings;
+  checkScans(findings);
+  checkStamps(findings);
+  checkOwnBody(transforms, findings);
+  checkMotion(transforms, findings);
+  return findings;
+}
+
+void RobotCheck::checkScans(std::vector<Finding>& findings) const {
+  std::map<std::string, int> broken;
+  for (const auto& heard : scans_) {
+    try {
+      scanFromMessage(heard.message);
+    } catch (const std::runtime_error& error) {
+      ++broken[error.what()];
+    }
+  }
+  for (const auto& [why, count] : broken) {
+    findings.push_back(
+        fault(text("%d of %zu scans are impossible: %s", count, scans_.size(), why.c_str()),
+              "mend the driver: such scans are dropped"));
+  }
+  const sensor_msgs::LaserScan& scan = scans_.front().message;
+  const double period = medianPeriod(scans_);
+  const std::string what = text("scan: %.1f a second, %zu beams, %.0f to %.0f deg, %.2f to %.2f m",
+                                1.0 / period, scan.ranges.size(), kDegrees * scan.angle_min,
+                                kDegrees * scan.angle_max, scan.range_min, scan.range_max);
+  if (!(period > 0.0)) {
+    findings.push_back(fault("scan: all have one stamp", "mend the driver: it does not tell time"));
+  } else if (period > kSlowLaser) {
+    ScanPeriod heard;
+    for (const auto& one : scans_) heard.add(one.message.header.stamp);
+    findings.push_back(note(what, text("none: the robot is stopped %.2f s after the last scan",
+                                       heard.longestSilence(0.3))));
+  } else {
+    findings.push_back(good(what));
+  }
+}
+
+void RobotCheck::checkStamps(std::vector<Finding>& findings) const {
+  std::vector<double> ages;
+  for (const auto& heard : scans_) {
+    ages.push_back((heard.arrival - heard.message.header.stamp).toSec());
+  }
+  const double age = median(ages), allowed = medianPeriod(scans_) + kLate;
+  if (age < -kClockAhead) {
+    findings.push_back(fault(text("scan: stamped %.2f s ahead of this computer's clock", -age),
+                             "set the clocks by one another (chrony), or use_sim_time"));
+  } else if (age > allowed) {
+    findings.push_back(fault(text("scan: %.2f s old when it comes", age),
+                             "set the clocks by one another (chrony); look for a slow network"));
+  } else {
+    findings.push_back(good(text("scan: %.2f s old when it comes", age)));
+  }
+}
+
+/// Beams that end on the robot, or nowhere.
+void RobotCheck::checkOwnBody(const Transforms& transforms, std::vector<Finding>& findings) const {
+  const sensor_msgs::LaserScan& first = scans_.front().message;
+  const std::size_t n = first.ranges.size();
+  const std::string laser = frameName(first.header.frame_id);
+  Pose2 T_base_laser;
+  if (transforms.has(settings_.base_frame, laser, ros::Time())) {
+    T_base_laser = transforms.lookup(settings_.base_frame, laser, ros::Time()).pose;
+  }
+  std::vector<double> on_robot(n), nothing(n), count(n);
+  for (const auto& heard : scans_) {
+    if (heard.message.ranges.size() != n) continue;
+    for (std::size_t i = 0; i < n; ++i) {
+      const double range = heard.message.ranges[i];
+      const double bearing = first.angle_min + static_cast<double>(i) * first.angle_increment;
+      const bool returns = std::isfinite(range) && range > 0.0 && range < heard.message.range_max;
+      const Eigen::Vector2d p =
+          T_base_laser * Eigen::Vector2d(range * std::cos(bearing), range * std::sin(bearing));
+      ++count[i];
+      nothing[i] += !returns;
+      on_robot[i] += returns && p.norm() < settings_.radius;
+    }
+  }
+  const auto mostly = [&](const std::vector<double>& of) {
+    return [&](std::size_t i) { return of[i] > kMostly * count[i]; };
+  };
+  const std::string own = arcsOf(first, 0.0, mostly(on_robot));
+  if (!own.empty()) {
+    findings.push_back(fault(
+        "scan: meets the robot itself at " + own,
+        text("range_min of the driver above %.2f m, or a laser_filters mask", settings_.radius)));
+  }
+  const std::string blind = arcsOf(first, kBlindArc, mostly(nothing));
+  if (!blind.empty()) {
+    findings.push_back(note("scan: nothing comes back at " + blind,
+                            "none where that is open space; else see what covers the laser"));
+  }
+}
+
+void RobotCheck::checkOdometry(std::vector<Finding>& findings) const {
+  if (odometry_.empty()) return;
+  const nav_msgs::Odometry& first = odometry_.front().message;
+  const double period = medianPeriod(odometry_);
+  if (period > kRarely || !(period > 0.0)) {
+    findings.push_back(fault(text("odom: one message in %.2f s", period),
+                             "20 a second or more: latency and brakes are learned from it"));
+  } else {
+    findings.push_back(good(text("odom: %.0f a second", 1.0 / period)));
+  }
+  const std::string odom = frameName(first.header.frame_id), base = frameName(first.child_frame_id);
+  if (!odom.empty() && odom != settings_.odom_frame) {
+    findings.push_back(
+        fault("odom: its frame is '" + odom + "', not '" + settings_.odom_frame + "'",
+              "odom_frame: " + odom));
+  }
+  if (!base.empty() && base != settings_.base_frame) {
+    findings.push_back(
+        note("odom: it tells of '" + base + "', not of '" + settings_.base_frame + "'",
+             "base_frame: " + base + " (where that is the robot's middle)"));
+  }
+}
+
+void RobotCheck::checkFrames(const Transforms& tf, std::vector<Finding>& findings) const {
+  const auto& [odom, base, map, radius] = settings_;
+  if (tf.has(odom, base, ros::Time())) {
+    findings.push_back(good("tf: " + odom + " -> " + base));
+  } else {
+    findings.push_back(
+        fault("tf: " + tf.whyNot(odom, base), "odom_frame, base_frame: as tf has them"));
+  }
+  findings.push_back(tf.has(map, base, ros::Time())
+                         ? good("tf: somebody tells " + map + " -> " + odom + " (pose: tf)")
+                         : good("tf: nobody tells " + map + " -> " + odom + " (pose: slam)"));
+  if (scans_.empty()) return;
+  const std::string laser = frameName(scans_.front().message.header.frame_id);
+  if (laser == base) return;
+  if (!tf.has(base, laser, ros::Time())) {
+    findings.push_back(
+        fault("tf: " + tf.whyNot(base, laser),
+              "static_transform_publisher X Y Z YAW PITCH ROLL " + base + " " + laser));
+    return;
+  }
+  try {
+    const PlanarPose mount = tf.lookup(base, laser, ros::Time());
+    const Pose2& T = mount.pose;
+    findings.push_back(good(text("tf: the laser is at %.2f, %.2f m, %.0f deg%s", T.x, T.y,
+                                 kDegrees * T.theta, mount.upside_down ? ", upside down" : "")));
+  } catch (const std::runtime_error& error) {
+    findings.push_back(
+        fault(std::string("tf: the laser: ") + error.what(), "scans of a level laser are needed"));
+  }
+}
+
+/// What the scans tell of sweep and wheels, where the robot has moved.
+void RobotCheck::checkMotion(const Transforms& tf, std::vector<Finding>& findings) const {
+  const PlacementFrames frames{settings_.odom_frame, settings_.base_frame, "", std::nullopt, ""};
+  MappingSession::Settings settings;
+  settings.maps_at_the_end = true;
+  MappingSession session(std::make_unique<SlamLocaliser>(), settings);
+  MissingReturns missing_returns;
+  Drive drive;
+  for (const auto& heard : scans_) {
+    const std::string laser = frameName(heard.message.header.frame_id);
+    const ros::Time middle = sweepMiddle(heard.message);
+    if (!hasPlacement(tf, frames, laser, middle)) continue;
+    try {
+      Measurement measurement;
+      measurement.scan = scanFromMessage(heard.message);
+      const ScanPlacement placement = placementOf(tf, frames, laser, middle);
+      placeScan(measurement.scan, placement.T_fixed_sensor);
+      missing_returns.judge(measurement.scan);
+      measurement.T_robot_sensor = placement.T_robot_sensor;
+      measurement.T_odom_robot = placement.T_fixed_robot;
+      measurement.time = middle.toSec();
+      measurement.motion =
+          sweepMotion(tf, frames, laser, middle, halfSweep(measurement.scan.sweep_duration));
+      session.add(measurement);
+      drive.by_wheels.push_back(placement.T_fixed_robot);
+      drive.middles.push_back(middle);
+    } catch (const std::runtime_error&) {  // it has been told above
+      continue;
+    }
+  }
+  if (drive.middles.size() < kLeastScans) return;
+  drive.by_scans = session.trajectory();
+  const std::vector<double> by_scans = turnsOf(drive.by_scans),
+                            by_wheels = turnsOf(drive.by_wheels);
+  double turned = 0.0;
+  for (const double turn : by_scans) turned += std::abs(turn);
+  const double way = wayOf(drive.by_scans);
+  if (turned < kLeastTurn) {
+    findings.push_back(
+        note(text("the robot has turned by %.0f deg and gone %.1f m", kDegrees * turned, way),
+             "drive and turn it by hand meanwhile: scans tell sweep and odometry then"));
+    return;
+  }
+  const double sweep = session.sweepDuration(0);
+  findings.push_back(std::abs(sweep) < kOneInstant
+                         ? good("scan: all beams of one instant")
+                         : good(text("scan: one sweep takes %.3f s, %s beam first; that is undone",
+                                     std::abs(sweep), sweep > 0.0 ? "the first" : "the last")));
+  const double turn_scale = scaleOf(by_wheels, by_scans);
+  const std::string of_turns = text("odom: turns of the scans are %.3f of its own", turn_scale);
+  findings.push_back(std::abs(turn_scale - 1.0) < kWrongScale
+                         ? good(of_turns)
+                         : note(of_turns, "calibrate the wheels' distance; line SLAM learns it"));
+  if (way > kLeastWay) {
+    const double way_scale = way / std::max(1e-3, wayOf(drive.by_wheels));
+    const std::string of_ways = text("odom: ways of the scans are %.3f of its own", way_scale);
+    findings.push_back(std::abs(way_scale - 1.0) < kWrongScale
+                           ? good(of_ways)
+                           : note(of_ways, "calibrate the wheels' radius; line SLAM learns it"));
+  }
+  const auto delay = delayOf(drive, tf, settings_.odom_frame, settings_.base_frame);
+  if (!delay) return;
+  const std::string of_stamps = text("scan: its stamps are %.2f s %s the odometry's",
+                                     std::abs(*delay), *delay > 0.0 ? "before" : "after");
+  findings.push_back(std::abs(*delay) < kLeastDelay
+                         ? good("scan: its stamps are the odometry's")
+                         : fault(of_stamps, text("move the driver's stamps by %+.2f s", *delay)));
+}
+
+}  // namespace cca

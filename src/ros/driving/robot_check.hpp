@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <geometry_msgs/Twist.h>
+#include <nav_msgs/Odometry.h>
+#include <sensor_msgs/LaserScan.h>
+
+#include <string>
+#include <vector>
+
+#include "ros/input/transforms.hpp"
+
+namespace cca {
+
+/// One thing that a robot was asked about.
+struct Finding {
+  enum class Kind { kGood, kNote, kFault } kind;
+  std::string what;    ///< with its figures
+  std::string remedy;  ///< the parameter to set, or what to do; empty where nothing is to be done
+};
+
+/// What a robot sends while it is listened to: whether it is all that exploring or mapping needs.
+/// It asks no master and sends nothing.
+class RobotCheck {
+ public:
+  struct Settings {
+    std::string odom_frame = "odom", base_frame = "base_link", map_frame = "map";
+    double radius = 0.25;  ///< m, of the robot
+  };
+
+  explicit RobotCheck(Settings settings) : settings_(std::move(settings)) {}
+
+  /// @param arrival  in ROS time.
+  void take(const sensor_msgs::LaserScan& scan, const ros::Time& arrival);
+  void take(const nav_msgs::Odometry& odometry, const ros::Time& arrival);
+
+  std::size_t scans() const { return scans_.size(); }
+  bool hasOdometry() const { return !odometry_.empty(); }
+
+  /// All findings, good ones first of each kind of message. Cost: line SLAM over the scans.
+  /// @param transforms  all of tf that has come meanwhile.
+  std::vector<Finding> findings(const Transforms& transforms) const;
+
+ private:
+  template <class Message>
+  struct Heard {
+    Message message;
+    ros::Time arrival;
+  };
+
+  void checkScans(std::vector<Finding>& findings) const;
+  void checkOwnBody(const Transforms& transforms, std::vector<Finding>& findings) const;
+  void checkStamps(std::vector<Finding>& findings) const;
+  void checkFrames(const Transforms& transforms, std::vector<Finding>& findings) const;
+  void checkOdometry(std::vector<Finding>& findings) const;
+  void checkMotion(const Transforms& transforms, std::vector<Finding>& findings) const;
+
+  Settings settings_;
+  std::vector<Heard<sensor_msgs::LaserScan>> scans_;
+  std::vector<Heard<nav_msgs::Odometry>> odometry_;
+};
+
+}  // namespace cca

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "odometry_track.hpp"
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "ros/messages/pose_message.hpp"
+
+namespace cca {
+
+Pose2 poseOf(const nav_msgs::Odometry& message) {
+  geometry_msgs::Transform transform;
+  transform.translation.x = message.pose.pose.position.x;
+  transform.translation.y = message.pose.pose.position.y;
+  transform.rotation = message.pose.pose.orientation;
+  return planarPose(transform).pose;
+}
+
+void OdometryTrack::add(const nav_msgs::Odometry& message) try {
+  if (frames_.base.empty()) {
+    const std::string odom = frameName(message.header.frame_id);
+    const std::string base = frameName(message.child_frame_id);
+    frames_ = {odom.empty() ? "odom" : odom, base.empty() ? "base_link" : base};
+  }
+  const Stamped stamped{message.header.stamp, poseOf(message)};
+  const auto is_later = [](const ros::Time& stamp, const Stamped& s) { return stamp < s.stamp; };
+  const auto after = poses_.empty() || poses_.back().stamp < stamped.stamp
+                         ? poses_.end()
+                         : std::upper_bound(poses_.begin(), poses_.end(), stamped.stamp, is_later);
+  poses_.insert(after, stamped);
+} catch (const std::runtime_error&) {
+}
+
+std::optional<Pose2> OdometryTrack::at(const ros::Time& time) const {
+  const auto is_earlier = [](const Stamped& s, const ros::Time& stamp) { return s.stamp < stamp; };
+  const auto b = std::lower_bound(poses_.begin(), poses_.end(), time, is_earlier);
+  if (b == poses_.end()) return std::nullopt;
+  if (b->stamp == time) return b->pose;
+  if (b == poses_.begin()) return std::nullopt;
+  const auto a = b - 1;
+  const double t = (time - a->stamp).toSec() / (b->stamp - a->stamp).toSec();
+  const Pose2 &p = a->pose, &q = b->pose;
+  return Pose2{p.x + t * (q.x - p.x), p.y + t * (q.y - p.y),
+               wrapAngle(p.theta + t * wrapAngle(q.theta - p.theta))};
+}
+
+}  // namespace cca

@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// rosrun cca_mrpt check_robot: listens to a robot for a while, and says what exploring and mapping
+// with it lack, with the parameter that mends it. It sends nothing: the robot does not move.
+#include <geometry_msgs/Twist.h>
+#include <ros/master.h>
+
+#include <cstdio>
+
+#include "node_main.hpp"
+#include "ros/driving/robot_check.hpp"
+#include "ros/input/scan_feed.hpp"
+#include "ros/input/transform_feed.hpp"
+#include "ros/parameters/private_parameters.hpp"
+
+namespace cca {
+namespace {
+
+constexpr double kShortest = 1.0, kLongest = 600.0;  // s
+
+struct Settings {
+  RobotCheck::Settings check;
+  double seconds = 20.0;
+};
+
+Settings readSettings() {
+  Settings s;
+  PrivateParameters parameters{ros::NodeHandle("~")};
+  parameters.number("seconds", s.seconds, kShortest, kLongest, "s");
+  parameters.text("map_frame", s.check.map_frame);
+  parameters.text("odom_frame", s.check.odom_frame);
+  parameters.text("base_frame", s.check.base_frame);
+  Parameters program;
+  parameters.program(program, {"robot"});
+  parameters.refuseUnknown();
+  s.check.radius = program.robot.radius;
+  return s;
+}
+
+/// Topics of these types that somebody publishes.
+std::string published(const std::vector<std::string>& types) {
+  ros::master::V_TopicInfo topics;
+  ros::master::getTopics(topics);
+  std::string names;
+  for (const ros::master::TopicInfo& topic : topics) {
+    if (std::find(types.begin(), types.end(), topic.datatype) == types.end()) continue;
+    names += " " + topic.name;
+  }
+  return names;
+}
+
+Finding silent(const std::string& topic, const std::vector<std::string>& types) {
+  const std::string others = published(types);
+  const std::string name = ros::names::resolve(topic);
+  return {Finding::Kind::kFault, topic + ": nothing came by " + name,
+          others.empty() ? "start what publishes " + types.front() : topic + ":= one of" + others};
+}
+
+const char* nameOf(Finding::Kind kind) {
+  return kind == Finding::Kind::kGood ? "good " : kind == Finding::Kind::kNote ? "note " : "FAULT";
+}
+
+/// @return  whether there is no fault.
+bool report(const std::vector<Finding>& findings) {
+  int faults = 0;
+  for (const Finding& finding : findings) {
+    std::printf("%s  %s\n", nameOf(finding.kind), finding.what.c_str());
+    if (!finding.remedy.empty()) std::printf("         -> %s\n", finding.remedy.c_str());
+    faults += finding.kind == Finding::Kind::kFault;
+  }
+  std::printf("%d fault(s)\n", faults);
+  std::fflush(stdout);
+  return faults == 0;
+}
+
+/// @return  whether the robot is fit.
+bool check() {
+  const Settings settings = readSettings();
+  RobotCheck check(settings.check);
+  ros::NodeHandle node;
+  const TransformFeed tf(node, [] {});
+  using Event = ros::MessageEvent<const topic_tools::ShapeShifter>;
+  const auto takeScan = [&](const Event& event) {
+    check.take(scanOf(*event.getConstMessage()), event.getReceiptTime());
+  };
+  const auto takeOdometry = [&](const ros::MessageEvent<const nav_msgs::Odometry>& event) {
+    check.take(*event.getConstMessage(), event.getReceiptTime());
+  };
+  const auto scan = node.subscribe<topic_tools::ShapeShifter, const Event&>("scan", 100, takeScan);
+  const auto odometry =
+      node.subscribe<nav_msgs::Odometry, const ros::MessageEvent<const nav_msgs::Odometry>&>(
+          "odom", 100, takeOdometry);
+  const ros::Publisher commands = node.advertise<geometry_msgs::Twist>("cmd_vel", 1);
+  const ros::WallTime begin = ros::WallTime::now();
+  double left = settings.seconds;
+  std::printf("listening for %.0f s; drive and turn the robot by hand, if you can\n", left);
+  std::fflush(stdout);
+  while (left > 0.0 && keepRunning(0.1)) {
+    left = settings.seconds - (ros::WallTime::now() - begin).toSec();
+  }
+  std::vector<Finding> findings = check.findings(tf.transforms());
+  if (check.scans() == 0) {
+    findings.push_back(silent("scan", {"sensor_msgs/LaserScan", "sensor_msgs/MultiEchoLaserScan"}));
+  }
+  if (!check.hasOdometry()) findings.push_back(silent("odom", {"nav_msgs/Odometry"}));
+  if (commands.getNumSubscribers() > 0) {
+    findings.push_back({Finding::Kind::kGood, "cmd_vel: somebody listens", ""});
+  } else {
+    findings.push_back({Finding::Kind::kFault,
+                        "cmd_vel: nobody listens to " + ros::names::resolve("cmd_vel"),
+                        "cmd_vel:= the topic that the base listens to (rostopic list -s)"});
+  }
+  return report(findings);
+}
+
+const NodeDescription kNode{
+    "check_robot",
+    "listens to scan, odom and tf, and says what exploring with this robot\n"
+    "lacks, with the parameter that mends it. It sends nothing. Status 1: there\n"
+    "are faults\n\n"
+    "_name:=value [default]\n"
+    "  seconds [20] of the wall's clock\n"
+    "  map_frame [map], odom_frame [odom], base_frame [base_link]",
+    {"robot"}};
+
+}  // namespace
+}  // namespace cca
+
+int main(int argc, char** argv) {
+  bool is_fit = true;
+  const int status = cca::runNode(argc, argv, cca::kNode, [&] { is_fit = cca::check(); });
+  return status != 0 ? status : is_fit ? 0 : 1;
+}

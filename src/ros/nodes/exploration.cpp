@@ -1,0 +1,260 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "exploration.hpp"
+
+#include <algorithm>
+#include <stdexcept>
+#include <utility>
+
+#include "cca_mrpt/session/earlier_drive.hpp"
+#include "io/files/memory_file.hpp"
+
+namespace cca {
+namespace {
+
+/// The explorer's clock does not count longer gaps between its steps: the robot was held meanwhile,
+/// and standing still was no lack of progress.
+constexpr double kLongestStep = 0.5;           // s
+constexpr double kLongestContradiction = 5.0;  // s
+
+}  // namespace
+
+Exploration::Exploration(ros::NodeHandle& node, ros::NodeHandle& private_node, Settings settings,
+                         const Parameters& program)
+    : settings_(std::move(settings)),
+      program_(program),
+      publisher_(node, settings_.map_frame, program.robot.radius),
+      mode_(settings_.autostart ? Mode::kRunning : Mode::kStopped),
+      saver_(private_node, settings_.out, [this] { return products(); }),
+      plan_(node, private_node, settings_.map_frame, saver_.mutex(),
+            [this] { return products(); }) {
+  services_ = {private_node.advertiseService("start", &Exploration::onStart, this),
+               private_node.advertiseService("stop", &Exploration::onStop, this),
+               private_node.advertiseService("pause", &Exploration::onPause, this),
+               private_node.advertiseService("home", &Exploration::onHome, this)};
+  setMode(mode_);
+}
+
+void Exploration::begin(std::unique_ptr<Localiser> localiser, const std::string& resume,
+                        std::function<void()> on_rebuild) {
+  slam_ = dynamic_cast<SlamLocaliser*>(localiser.get());
+  recorder_.on_restart = std::move(on_rebuild);
+  auto session = std::make_unique<ExplorationSession>(
+      std::move(localiser),
+      ExplorationSession::Settings{program_.mapping, program_.robot, program_.exploration},
+      &recorder_);
+  if (slam_ && !resume.empty()) {
+    rememberDrive(seenFrom({0.0, 0.0}, loadMemory(resume)), *slam_, session->mapping());
+  }
+  if (slam_) saver_.saveMemory([this] { return memoryOf(slam_->slam()); });
+  const std::lock_guard<std::mutex> lock(saver_.mutex());
+  session_ = std::move(session);
+  session_->explorer().pause(mode_ == Mode::kPaused);
+}
+
+Observation Exploration::sense(const Measurement& measurement, const Velocity& velocity) {
+  const std::lock_guard<std::mutex> lock(saver_.mutex());
+  const bool is_idle = !errand_end_ && (mode_ == Mode::kStopped || finished_);
+  if (is_idle && !session_->mapping().localiser().correctsPast()) return {};
+  const Observation observation = session_->sense(measurement, velocity);
+  if (session_->estimate().was_corrected) publisher_.correctWay(session_->mapping());
+  if (slam_) notes_["loops"] = slam_->slam().loops().size();
+  if (slam_ && slam_->remembered() > 0) notes_["found_in_memory"] = slam_->slam().isInMemory();
+  return observation;
+}
+
+Scan Exploration::addSecondary(const Measurement& measurement, std::size_t sensor) {
+  const std::lock_guard<std::mutex> lock(saver_.mutex());
+  if (!errand_end_ && (mode_ == Mode::kStopped || finished_)) return measurement.scan;
+  session_->addSecondary(measurement, sensor);
+  return session_->mapping().scan();
+}
+
+Velocity Exploration::step(Observation observation, const ros::Time& stamp) {
+  const double passed = std::clamp(observation.time - last_time_, 0.0, kLongestStep);
+  own_time_ += passed;
+  last_time_ = observation.time;
+  T_map_goal_.reset();
+  T_map_robot_ = observation.T_map_robot;
+  if (!errand_end_ && (mode_ == Mode::kStopped || finished_)) return {};
+  observation.time = own_time_;
+  const std::lock_guard<std::mutex> lock(saver_.mutex());
+  const Action action = session_->decide(observation);
+  if (action.goal) T_map_goal_ = Pose2{action.goal->x(), action.goal->y(), action.goal_heading};
+  publisher_.show(*session_, *recorder_.grid().grid(), observation.T_map_robot, T_map_goal_, stamp);
+  if (errand_end_) {
+    followErrand(action, passed);
+    return errand_end_ ? action.velocity : Velocity{};
+  }
+  if (session_->mapping().localiser().correctsPast() &&
+      action.status == ExplorationStatus::kFinished) {
+    end_ = action;
+    return {};
+  }
+  // The whole first: who hears "finished" finds the last map and way.
+  if (action.status == ExplorationStatus::kFinished) finish(stamp);
+  failed_ = isContradicted(passed);
+  if (failed_ && !finished_) finish(stamp);
+  tell(action);
+  return finished_ ? Velocity{} : action.velocity;
+}
+
+void Exploration::followErrand(const Action& action, double passed) {
+  if (action.status == ExplorationStatus::kArrived)
+    return endErrand(ErrandOutcome::kReached, "the goal is reached");
+  if (action.status == ExplorationStatus::kUnreachable)
+    return endErrand(ErrandOutcome::kUnreachable, "the goal is unreachable: " + action.reason);
+  if (isContradicted(passed))
+    return endErrand(ErrandOutcome::kCalledOff, "scans contradict the map");
+  tell(action);
+}
+
+void Exploration::endErrand(ErrandOutcome outcome, const std::string& how) {
+  session_->explorer().recall();
+  why_paused_ = how + "; call ~pause with false to go on";
+  state_ = finished_ ? "finished: " + how : "paused: " + why_paused_;
+  publisher_.showStatus(state_);
+  std::exchange(errand_end_, nullptr)(outcome, how);
+}
+
+void Exploration::sendTo(const Pose2& T_map_goal, ErrandEnd end) {
+  recall("another goal was set");
+  if (!session_) return end(ErrandOutcome::kCalledOff, "it is not known yet where the robot is");
+  setMode(Mode::kPaused);
+  const std::lock_guard<std::mutex> lock(saver_.mutex());
+  session_->explorer().sendTo(T_map_goal);
+  errand_end_ = std::move(end);
+  state_ = "driving: to where it was sent";
+  publisher_.showStatus(state_);
+}
+
+void Exploration::recall(const std::string& why) {
+  const std::lock_guard<std::mutex> lock(saver_.mutex());
+  if (errand_end_) endErrand(ErrandOutcome::kCalledOff, why);
+}
+
+void Exploration::conclude(const ros::Time& stamp) {
+  finishPoses();
+  const Action action = *std::exchange(end_, std::nullopt);
+  const std::lock_guard<std::mutex> lock(saver_.mutex());
+  finish(stamp);
+  failed_ = isContradicted(0.0);
+  tell(action);
+}
+
+void Exploration::finishPoses() {
+  const std::lock_guard<std::mutex> lock(saver_.mutex());
+  if (!hasBegun() || !session_->mapping().localiser().correctsPast()) return;
+  session_->finish();
+  if (slam_) notes_["loops"] = slam_->slam().loops().size();
+  publisher_.correctWay(session_->mapping());
+}
+
+void Exploration::note(const std::string& key, const nlohmann::json& value) {
+  const std::lock_guard<std::mutex> lock(saver_.mutex());
+  notes_[key] = value;
+}
+
+bool Exploration::isContradicted(double seconds) {
+  const bool is_poor = agreement().recent() < kPoorAgreement;
+  contradicted_for_ = is_poor ? contradicted_for_ + seconds : 0.0;
+  return contradicted_for_ > kLongestContradiction ||
+         (finished_ && agreement().overall() < kPoorAgreement);
+}
+
+void Exploration::tell(const Action& action) {
+  const bool at_odds = contradicted_for_ > 0.0;
+  if (at_odds) {
+    ROS_WARN_THROTTLE(5.0, "scans contradict the map: %.1f %% of their returns agree with it",
+                      100.0 * agreement().recent());
+  }
+  const bool is_paused = action.status == ExplorationStatus::kPaused;
+  const std::string& reason = is_paused ? why_paused_ : action.reason;
+  state_ = failed_ ? "failed: scans contradict the map; the pose is lost, or the scans are wrong"
+                   : std::string(nameOf(action.status)) + ": " + reason +
+                         (at_odds ? "; scans contradict the map" : "");
+  publisher_.showStatus(state_);
+}
+
+void Exploration::finish(const ros::Time& stamp) {
+  finished_ = true;
+  publisher_.showAll(*session_, *recorder_.grid().grid(), stamp);
+  const Explorer& explorer = session_->explorer();
+  if (explorer.planner().plan().gave_up) ROS_WARN("%s", explorer.planner().plan().reason.c_str());
+  if (explorer.leavesMuch()) {
+    ROS_WARN("%.1f m^2 in view were not reached, though the robot may fit through to them",
+             explorer.planner().plan().passableArea());
+  }
+  if (settings_.save_at_end) saver_.saveSoon();
+}
+
+MapProducts Exploration::products() const {
+  if (!hasBegun()) throw std::runtime_error("there is no map yet");
+  MapProducts products = mapProducts(settings_.title, session_->mapping());
+  products.grid = recorder_.grid().copy();
+  products.summary["finished"] = finished_ && !failed_;
+  products.summary["agreement"] = agreement().overall();
+  products.summary["reason"] = state_;
+  products.summary["unreached_m2"] = session_->explorer().planner().plan().unreachedArea();
+  products.summary.update(notes_);
+  return products;
+}
+
+void Exploration::end() {
+  if (settings_.save_at_end && hasBegun()) saver_.saveOrTell();
+}
+
+void Exploration::setMode(Mode mode) {
+  recall("called off");
+  const std::lock_guard<std::mutex> lock(saver_.mutex());
+  mode_ = mode;
+  if (session_) session_->explorer().pause(mode == Mode::kPaused);
+  why_paused_ = "call ~pause with false to go on";
+  if (finished_) return;
+  state_ = mode == Mode::kStopped  ? "stopped: call ~start to explore"
+           : mode == Mode::kPaused ? "paused: " + why_paused_
+                                   : "waiting: for the first scan";
+  publisher_.showStatus(state_);
+}
+
+bool Exploration::onStart(std_srvs::Trigger::Request& /*request*/,
+                          std_srvs::Trigger::Response& response) {
+  if (failed_) finished_ = failed_ = false;  // somebody has found the robot, or its laser's fault
+  contradicted_for_ = 0.0;
+  response.success = !finished_;
+  response.message = finished_ ? "the exploration has finished" : "exploring";
+  if (response.success) setMode(Mode::kRunning);
+  return true;
+}
+
+bool Exploration::onStop(std_srvs::Trigger::Request& /*request*/,
+                         std_srvs::Trigger::Response& response) {
+  setMode(Mode::kStopped);
+  response.success = true;
+  response.message = "stopped";
+  return true;
+}
+
+bool Exploration::onHome(std_srvs::Trigger::Request& /*request*/,
+                         std_srvs::Trigger::Response& response) {
+  response.success = hasBegun();
+  response.message = response.success ? "returning" : "it has not left yet";
+  if (!response.success) return true;
+  {
+    const std::lock_guard<std::mutex> lock(saver_.mutex());
+    session_->explorer().returnToStart();
+    finished_ = failed_ = false;
+    contradicted_for_ = 0.0;
+  }
+  setMode(Mode::kRunning);
+  return true;
+}
+
+bool Exploration::onPause(std_srvs::SetBool::Request& request,
+                          std_srvs::SetBool::Response& response) {
+  response.success = errand_end_ || (mode_ != Mode::kStopped && !finished_);
+  response.message = response.success ? (request.data ? "paused" : "exploring") : "not exploring";
+  if (response.success) setMode(request.data ? Mode::kPaused : Mode::kRunning);
+  return true;
+}
+
+}  // namespace cca

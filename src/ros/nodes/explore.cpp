@@ -1,0 +1,187 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// rosrun cca_mrpt explore [_world:=FILE.yaml _strategy:=NAME]: explores a simulated world in one
+// process; with `_world:=none`, explores with a robot that has `scan`, tf and `cmd_vel`.
+#include <filesystem>
+
+#include "cca_mrpt/localisation/given_poses.hpp"
+#include "exploration.hpp"
+#include "node_diagnostics.hpp"
+#include "node_localisation.hpp"
+#include "node_main.hpp"
+#include "ros/bags/topic_recorder.hpp"
+#include "ros/driving/goal_server.hpp"
+#include "ros/driving/pace.hpp"
+#include "ros/driving/robot_driver.hpp"
+#include "ros/driving/simulated_robot.hpp"
+#include "ros/parameters/private_parameters.hpp"
+#include "ros/parameters/simulator_parameters.hpp"
+
+namespace cca {
+namespace {
+
+constexpr const char* kNoWorld = "none";  // the robot is out there
+
+struct Settings {
+  SimulatorParameters simulator;
+  RobotDriver::Settings driver;
+  Exploration::Settings exploration;
+  std::string record;  ///< bag to write, of a robot that is out there
+  bool exit_at_end = false;
+  Parameters program;
+};
+
+Settings readSettings() {
+  Settings s;
+  s.simulator.world = "two_rooms";
+  PrivateParameters parameters{ros::NodeHandle("~")};
+  parameters.text("world", s.simulator.world);
+  std::vector<std::string> sections{"mapping", "exploration", "robot"};
+  if (s.simulator.world == kNoWorld) {
+    s.program.robot.latency = RobotParameters::kLatencyOutThere;
+    const auto [shortest, longest] = RobotDriver::kScanTimeouts;
+    parameters.number("scan_timeout", s.driver.scan_timeout, shortest, longest, "s");
+    parameters.text("resume", s.driver.resume);
+    parameters.flag("corrections", s.driver.corrections);
+    parameters.names("scans", s.driver.scans);
+    parameters.text("hazard_points", s.driver.hazard_points);
+    parameters.text("hazard_range", s.driver.hazard_range);
+    parameters.choice("driver", s.driver.driver, {"cmd_vel", "move_base"});
+    parameters.choice("pose", s.driver.pose, {"tf", "slam", "auto", "odometry"});
+    parameters.text("record", s.record);
+    for (const char* simulated : {"start_pose", "speed", "scan_rate", "seed"}) {
+      parameters.withoutEffect(simulated);
+    }
+  } else {
+    readParameters(parameters, s.simulator);
+    sections.insert(sections.end(), {"laser", "odometry"});
+    for (const char* robots : {"scan_timeout", "pose", "resume", "corrections", "scans",
+                               "hazard_points", "hazard_range", "driver"}) {
+      parameters.withoutEffect(robots);
+    }
+  }
+  parameters.text("map_frame", s.driver.frames.map);
+  parameters.text("odom_frame", s.driver.frames.odom);
+  parameters.text("base_frame", s.driver.frames.base);
+  parameters.text("laser_frame", s.driver.frames.laser);
+  parameters.text("out", s.exploration.out);
+  parameters.flag("autostart", s.exploration.autostart);
+  parameters.flag("save_at_end", s.exploration.save_at_end);
+  parameters.flag("exit_at_end", s.exit_at_end);
+  parameters.program(s.program, sections);
+  parameters.refuseUnknown();
+  s.driver.robot = s.program.robot;
+  s.exploration.map_frame = s.driver.frames.map;
+  if (s.simulator.world != kNoWorld) {
+    s.exploration.title = std::filesystem::path(s.simulator.world).stem().string();
+  }
+  return s;
+}
+
+void exploreSimulated(const Settings& settings, ros::NodeHandle& node,
+                      ros::NodeHandle& private_node) {
+  SimulatedRobot robot(
+      node, makeSimulation(settings.simulator, settings.program),
+      {settings.driver.frames, settings.simulator.scan_rate, settings.simulator.record, true});
+  Exploration exploration(node, private_node, settings.exploration, settings.program);
+  exploration.begin(std::make_unique<GivenPoses>());
+  const GoalServer goals(node, private_node, settings.driver.frames.map, exploration);
+  const std::map<std::string, long> none_dropped;
+  NodeDiagnostics diagnostics(
+      node, private_node, [&]() -> const auto& { return none_dropped; });
+  Pace pace(settings.simulator.speed);
+  Velocity velocity;
+  while (pace.wait(robot.simulation().time())) {
+    robot.skip(pace.forgive(robot.simulation().time()));
+    if (robot.scanIsDue()) {
+      const ros::WallTime begin = ros::WallTime::now();
+      const Observation seen = robot.scan();
+      const Measurement measurement = measurementOf(seen, robot.simulation().scanned().T_odom_robot,
+                                                    robot.simulation().sweepMotion());
+      velocity = exploration.step(exploration.sense(measurement, seen.velocity), robot.now());
+      diagnostics.scanUsed((ros::WallTime::now() - begin).toSec(), exploration.agreement());
+      diagnostics.setState(exploration.state());
+    }
+    robot.tick(exploration.drives() ? velocity : Velocity{});
+    if (exploration.finished() && settings.exit_at_end) break;
+  }
+  exploration.end();
+}
+
+/// What `auto` comes to, see choosePose().
+std::string chosenPose(const RobotDriver::Settings& settings, ros::NodeHandle& node,
+                       Exploration& exploration) {
+  if (settings.pose != "auto") return settings.pose;
+  const std::string pose =
+      choosePose(node, settings.frames, [&](const std::string& what) { exploration.wait(what); });
+  if (pose == "tf") ROS_INFO("tf tells where the robot is: _pose:=tf");
+  if (pose == "slam") ROS_INFO("nobody tells where the robot is: _pose:=slam");
+  return pose;
+}
+
+void exploreWithRobot(const Settings& settings, ros::NodeHandle& node,
+                      ros::NodeHandle& private_node) {
+  std::set<std::string> topics = topicsOfRobot(settings.driver.scans);
+  topics.insert({settings.driver.hazard_points, settings.driver.hazard_range});
+  const TopicRecorder recorder(node, settings.record, topics);
+  Exploration exploration(node, private_node, settings.exploration, settings.program);
+  std::optional<GoalServer> goals;  // where move_base drives, it takes them itself
+  if (settings.driver.driver != "move_base") {
+    goals.emplace(node, private_node, settings.driver.frames.map, exploration);
+  }
+  RobotDriver::Settings driver_settings = settings.driver;
+  driver_settings.pose = chosenPose(settings.driver, node, exploration);
+  if (!driver_settings.pose.empty()) {
+    RobotDriver driver(node, private_node, driver_settings, settings.program.mapping, exploration);
+    while (keepRunning(0.1)) {
+      if (exploration.finished() && settings.exit_at_end) break;
+    }
+  }
+  exploration.end();
+}
+
+void explore() {
+  ros::NodeHandle node, private_node("~");
+  const Settings settings = readSettings();
+  if (settings.simulator.world == kNoWorld) {
+    exploreWithRobot(settings, node, private_node);
+  } else {
+    exploreSimulated(settings, node, private_node);
+  }
+}
+
+const NodeDescription kNode{
+    "explore",
+    "explores a simulated world, or with a robot that is out there (_world:=none)\n\n"
+    "_name:=value [default]\n"
+    "  world [two_rooms] map_server YAML file, or the name of one in maps/; none: the robot's\n"
+    "  config [] .ini file, read first\n"
+    "  autostart [true] false: waits for the service ~start\n"
+    "  out [cca_map] folder for the map\n"
+    "  save_at_end [true], exit_at_end [false]\n"
+    "  map_frame [map], odom_frame [odom], base_frame [base_link], laser_frame [laser]\n"
+    "with a robot\n"
+    "  pose [tf] tf: somebody gives map -> odom; slam: this node does, by line SLAM; odometry:\n"
+    "    this node does, and trusts the wheels; auto: slam where nobody gives it for 5 s, else tf\n"
+    "  driver [cmd_vel] who drives; move_base: its action is sent the explorer's goals\n"
+    "  robot/latency [0.15] s, from a command to where the base acts on it; 0 in a simulated "
+    "world\n"
+    "  resume [] folder of an earlier map with map.slam: slam goes on with it\n"
+    "  corrections [true] the past is placed anew where tf's map -> odom leaps, or by "
+    "corrected_path\n"
+    "  scans [[scan]] topics of its lasers; it drives by the first, and not into what any sees\n"
+    "  hazard_points [] topic, PointCloud2: what bumpers and the like have met\n"
+    "  hazard_range [] topic, Range: the same of distance sensors\n"
+    "  scan_timeout [0.3] s without a usable scan until the robot is stopped\n"
+    "in a simulated world\n"
+    "  start_pose [the world's] X,Y,DEG\n"
+    "  speed [1] simulated seconds a second; other than 1 needs /use_sim_time\n"
+    "  scan_rate [10] Hz\n"
+    "  seed [1] of all that is random\n"
+    "  record [] bag to write",
+    {"mapping", "exploration", "robot", "laser", "odometry"}};
+
+}  // namespace
+}  // namespace cca
+
+int main(int argc, char** argv) { return cca::runNode(argc, argv, cca::kNode, cca::explore); }

@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: BSD-3-Clause
+//
+// rosrun cca_mrpt simulator _world:=FILE.yaml: a robot in MRPT's world. It takes `cmd_vel`, and
+// gives `scan`, `odom`, tf and, with simulated time, `/clock`.
+#include <geometry_msgs/Twist.h>
+
+#include <cmath>
+
+#include "cca_mrpt/simulation/laser_models.hpp"
+#include "node_main.hpp"
+#include "ros/driving/pace.hpp"
+#include "ros/driving/simulated_robot.hpp"
+#include "ros/parameters/private_parameters.hpp"
+#include "ros/parameters/simulator_parameters.hpp"
+
+namespace cca {
+namespace {
+
+constexpr double kCommandHolds = 0.5;  // s; a base that hears nothing for longer stops
+
+struct Settings {
+  SimulatorParameters simulator;
+  FrameNames frames;
+  bool localisation = true;
+  Parameters program;
+};
+
+Settings readSettings() {
+  Settings s;
+  PrivateParameters parameters{ros::NodeHandle("~")};
+  parameters.text("world", s.simulator.world);
+  std::string model = laserModels().front().name;
+  parameters.text("laser_model", model);
+  s.program.laser = laserModel(model).laser;
+  s.simulator.scan_rate = laserModel(model).rate;
+  readParameters(parameters, s.simulator);
+  parameters.flag("localisation", s.localisation);
+  parameters.text("map_frame", s.frames.map);
+  parameters.text("odom_frame", s.frames.odom);
+  parameters.text("base_frame", s.frames.base);
+  parameters.text("laser_frame", s.frames.laser);
+  parameters.program(s.program, {"robot", "laser", "odometry"});
+  parameters.refuseUnknown();
+  return s;
+}
+
+void simulate() {
+  const Settings settings = readSettings();
+  ros::NodeHandle node;
+  SimulatedRobot robot(node, makeSimulation(settings.simulator, settings.program),
+                       {settings.frames, settings.simulator.scan_rate, settings.simulator.record,
+                        settings.localisation});
+  Velocity command;
+  double commanded_at = -kCommandHolds;
+  const auto take = [&](const geometry_msgs::Twist::ConstPtr& twist) {
+    if (!std::isfinite(twist->linear.x) || !std::isfinite(twist->angular.z)) {
+      ROS_WARN_THROTTLE(5.0, "cmd_vel that is not finite: ignored");
+      return;
+    }
+    command = {twist->linear.x, twist->angular.z};
+    commanded_at = robot.simulation().time();
+  };
+  const ros::Subscriber commands = node.subscribe<geometry_msgs::Twist>(
+      "cmd_vel", 1, take, ros::VoidConstPtr(), ros::TransportHints().tcpNoDelay());
+  Pace pace(settings.simulator.speed);
+  int collisions = 0;
+  while (pace.wait(robot.simulation().time() + robot.tickPeriod())) {
+    robot.skip(pace.forgive(robot.simulation().time()));
+    const bool heard = robot.simulation().time() - commanded_at < kCommandHolds;
+    robot.tick(heard ? command : Velocity{});
+    if (robot.scanIsDue()) robot.scan();
+    if (robot.simulation().collisions() > collisions) {
+      collisions = robot.simulation().collisions();
+      ROS_ERROR("collision number %d at %.2f, %.2f", collisions, robot.simulation().T_map_robot().x,
+                robot.simulation().T_map_robot().y);
+    }
+  }
+}
+
+const NodeDescription kNode{
+    "simulator",
+    "a robot in a simulated world: cmd_vel in; scan, odom, tf out\n\n"
+    "_name:=value [default]\n"
+    "  world map_server YAML file, or the name of one in maps/; must be given\n"
+    "  config [] .ini file, read first\n"
+    "  start_pose [the world's] X,Y,DEG\n"
+    "  speed [1] simulated seconds a second; other than 1 needs /use_sim_time\n"
+    "  laser_model [ideal] a laser by name: rplidar_a1, urg_04lx, utm_30lx, lds_01, tim_571\n"
+    "  scan_rate [10, or the laser's own] Hz\n"
+    "  seed [1] of all that is random\n"
+    "  record [] bag to write\n"
+    "  localisation [true] tells map -> odom, which is the truth; false: nobody here does\n"
+    "  map_frame [map], odom_frame [odom], base_frame [base_link], laser_frame [laser]",
+    {"robot", "laser", "odometry"}};
+
+}  // namespace
+}  // namespace cca
+
+int main(int argc, char** argv) { return cca::runNode(argc, argv, cca::kNode, cca::simulate); }

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "line_publisher.hpp"
+
+#include "ros/messages/line_messages.hpp"
+
+namespace cca {
+
+LinePublisher::LinePublisher(ros::NodeHandle& node, std::string frame)
+    : frame_(std::move(frame)),
+      lines_(node.advertise<cca_mrpt::LineMap>("lines", 2, true)),
+      markers_(node.advertise<visualization_msgs::MarkerArray>("line_markers", 2, true)) {}
+
+void LinePublisher::publish(const std::vector<MapLine>& lines, const ros::Time& stamp) {
+  std_msgs::Header header;
+  header.frame_id = frame_;
+  header.stamp = stamp;
+  lines_.publish(lineMapMessage(lines, header));
+  markers_.publish(lineMarkers(lines, header));
+}
+
+}  // namespace cca
