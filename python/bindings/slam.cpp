@@ -135,7 +135,7 @@ Raises:
           "From the next scan on the robot may be anywhere: a second log of the same place.")
       .def_prop_ro(
           "is_placed",
-          [](SharedSlam& slam) { return slam.with([](Slam& own) { return own.isPlaced(); }); },
+          [](SharedSlam& slam) { return slam.with([](Slam& own) { return own.isLocalised(); }); },
           nb::sig("def is_placed(self) -> list[bool]"),
           "Of each scan so far, whether its place in the map is known.")
       .def_prop_ro(

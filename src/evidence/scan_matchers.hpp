@@ -12,7 +12,7 @@ namespace cca::evidence {
 struct ScanMatcher {
   std::string name;
   std::string source;
-  Slam::Matcher match;
+  cca::ScanMatcher match;
 };
 
 /// Ours, PL-ICP, and those that the paper's introduction names: IDC [6] and weighted matching [9].

@@ -73,6 +73,16 @@ std::set<std::pair<int, int>> pairsInView(const KeyFrames& frames) {
 
 }  // namespace
 
+double wayWithTurns(const Pose2& step) {
+  return step.position().norm() + kFrameDistance / kFrameTurn * std::abs(step.theta);
+}
+
+bool isKeyFrameDue(const Pose2& T_last_now, const ScanSurface& surface) {
+  if (surface.points.empty()) return false;
+  return T_last_now.position().norm() >= kFrameDistance ||
+         (std::abs(T_last_now.theta) >= kFrameTurn && !surface.is_full_turn);
+}
+
 std::vector<PlacedSurface> KeyFrames::placed(const std::vector<int>& numbers) const {
   std::vector<PlacedSurface> surfaces_placed;
   for (const int k : numbers) surfaces_placed.push_back(placed(k));

@@ -40,7 +40,7 @@ Localised localise(const std::filesystem::path& path) {
   }
   slam.finish();
   localised.trajectory = slam.trajectory();
-  localised.is_placed = slam.isPlaced();
+  localised.is_placed = slam.isLocalised();
   localised.is_set_aside = slam.isSetAside();
   return localised;
 }

@@ -274,7 +274,7 @@ TEST(Slam, OneScanThatAgreesElsewhereTurnsNothing) {
       EXPECT_LT(std::abs(wrapAngle(pose.T_map_robot.theta - drive.way[k].theta)), 0.3);
     }
   }
-  EXPECT_FALSE(slam.isPlaced()[bumped]);
+  EXPECT_FALSE(slam.isLocalised()[bumped]);
   slam.finish();
   EXPECT_LT(worstError(slam.trajectory(), drive.way), 0.3);
 }
@@ -343,7 +343,7 @@ TEST(Slam, ARobotCarriedInsideItsOwnMapIsLostAndFindsItselfThere) {
     // From two metres on one jump takes it there, from farther off the map has to be searched.
     EXPECT_TRUE(lost > 0 || carried < 3.0) << "else nothing is shown";
     EXPECT_LT(lost, 50u) << carried;
-    const std::vector<bool> is_placed = slam.isPlaced();
+    const std::vector<bool> is_placed = slam.isLocalised();
     EXPECT_LE(std::count(is_placed.begin(), is_placed.end(), false), 12) << carried;
     const std::vector<Pose2> poses = slam.trajectory();
     for (std::size_t k = 0; k < way.size(); ++k) {
@@ -421,7 +421,7 @@ TEST(Slam, ADriveThroughAnotherBuildingIsNotInTheMap) {
   slam.startAnywhere();
   goOn(slam, other, 0);
   slam.finish();
-  const std::vector<bool> placed = slam.isPlaced();
+  const std::vector<bool> placed = slam.isLocalised();
   const auto in_map = std::count(placed.begin(), placed.end(), true);
   EXPECT_TRUE(in_map == static_cast<std::ptrdiff_t>(known.way.size()) ||
               in_map == static_cast<std::ptrdiff_t>(other.way.size()))
@@ -444,7 +444,7 @@ TEST(Slam, ADriveGoesOnWithTheMapOfAnEarlierOneAndInItsFrame) {
   ASSERT_GT(remembered, 10u);
   EXPECT_FALSE(slam.step(again.scans[first], {}, Pose2{}).is_lost) << "its own drive is the map";
   EXPECT_FALSE(slam.isInMemory());
-  const std::vector<bool> placed = slam.isPlaced();
+  const std::vector<bool> placed = slam.isLocalised();
   EXPECT_EQ(std::count(placed.begin(), placed.end(), true), 1);
   goOn(slam, again, first);
   EXPECT_TRUE(slam.isInMemory());
@@ -464,7 +464,7 @@ TEST(Slam, TheMemoryOfAnotherBuildingIsNoPartOfTheMap) {
   for (std::size_t k = 0; k < other.way.size(); ++k) slam.step(other.scans[k], {}, other.wheels[k]);
   slam.finish();
   EXPECT_FALSE(slam.isInMemory());
-  const std::vector<bool> placed = slam.isPlaced();
+  const std::vector<bool> placed = slam.isLocalised();
   EXPECT_EQ(std::count(placed.begin(), placed.begin() + slam.remembered(), true), 0);
   EXPECT_EQ(std::count(placed.begin() + slam.remembered(), placed.end(), true),
             static_cast<std::ptrdiff_t>(other.way.size()));

@@ -24,6 +24,17 @@ struct KeyFrames {
   std::vector<PlacedSurface> placed(const std::vector<int>& frames) const;
 };
 
+/// m, rad; a new key frame after so much way, or turn of a laser that does not see all round: a
+/// doorway is passed in two, and of 180 degrees nine tenths are common to neighbours.
+inline constexpr double kFrameDistance = 0.5, kFrameTurn = 0.35;
+/// Key frames in view of a pose that are compared with what is seen from it: five metres of way.
+inline constexpr int kViewFrames = 10;
+
+/// Length of a step [m], a turn of kFrameTurn counted as a way of kFrameDistance.
+double wayWithTurns(const Pose2& step);
+/// Whether a scan is to become a key frame, by what the sensor has moved since the last one.
+bool isKeyFrameDue(const Pose2& T_last_now, const ScanSurface& surface);
+
 /// Frames whose pose is known to within this [m] of another's are one place: they match by walking
 /// downhill.
 inline constexpr double kTiedSigma = 0.15;

@@ -13,7 +13,7 @@ class SlamLocaliser : public Localiser {
   bool correctsPast() const override { return true; }
   void finish(const DoAll& do_all) override { slam_.finish(do_all); }
   std::vector<Pose2> trajectory() const override { return slam_.trajectory(); }
-  std::vector<bool> isLocalised() const override { return slam_.isPlaced(); }
+  std::vector<bool> isLocalised() const override { return slam_.isLocalised(); }
   std::size_t remembered() const override { return static_cast<std::size_t>(slam_.remembered()); }
   std::unique_ptr<Localiser> snapshot() const override {
     return std::make_unique<SlamLocaliser>(*this);

@@ -52,7 +52,7 @@ Locate scanByScan(PoseSource source) {
   };
 }
 
-Locate byGraph(Slam::Matcher match) {
+Locate byGraph(ScanMatcher match) {
   return [match](const Log& log) {
     Slam slam(startOf(log), match);
     for (const LogRecord& record : log) {

@@ -19,7 +19,7 @@ namespace fs = std::filesystem;
 
 constexpr const char* kFormat = "cca_mrpt memory 1";
 /// A day of driving is a tenth of this.
-constexpr std::size_t kLargest = std::size_t{1} << 30;
+constexpr std::size_t kLargestSize = std::size_t{1} << 30;
 constexpr std::size_t kMostCompressed = 1100;    // times, by deflate
 constexpr std::size_t kMostRemembered = 100000;  // beams of a scan
 
@@ -131,7 +131,7 @@ StoredMemory loadMemory(const std::string& path) {
     throw std::runtime_error(file + ": is not there; runs with --pose slam leave it");
   }
   const std::size_t size = lengthInGzipTrailer(file);
-  const bool is_likely = size <= kLargest && size <= kMostCompressed * fs::file_size(file);
+  const bool is_likely = size <= kLargestSize && size <= kMostCompressed * fs::file_size(file);
   // A byte more: what is behind the last one is looked at, and gzip's sum of all.
   const std::string bytes = is_likely ? fileHead(file, size + 1) : "";
   if (bytes.size() != size) throw std::runtime_error(file + ": is damaged, or no map.slam");

@@ -19,7 +19,8 @@ constexpr std::array<const char*, 9> kColumns = {
     "x1", "y1", "x2", "y2", "id", "support", "sigma_offset", "sigma_angle_deg", "share"};
 constexpr const char* kDotted = "dotted";
 constexpr std::size_t kNeeded = 4;
-constexpr double kLargest = 1e16;  // in whatever column: what is read must fit a row when written
+constexpr double kLargestValue =
+    1e16;  // in whatever column: what is read must fit a row when written
 constexpr double kLargestSigma = 1e8;  // m or deg; its square keeps its digits
 
 double sigma(double variance) { return std::sqrt(std::max(0.0, variance)); }
@@ -51,7 +52,7 @@ double number(const std::string& cell, const std::string& where) {
   double value = 0.0;
   const char* const end = cell.data() + cell.size();
   const auto result = std::from_chars(cell.data(), end, value);
-  if (result.ec != std::errc() || result.ptr != end || !(std::abs(value) <= kLargest)) {
+  if (result.ec != std::errc() || result.ptr != end || !(std::abs(value) <= kLargestValue)) {
     throw std::runtime_error(where + ": '" + cell + "' must be a number in [-1e16, 1e16]");
   }
   return value;

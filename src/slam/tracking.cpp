@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "cca_mrpt/slam/tracking.hpp"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+
+#include "cca_mrpt/slam/likelihood_pyramid.hpp"
+
+namespace cca {
+namespace {
+
+/// Key frames that a scan which becomes no key frame is matched with: the nearest of those in view.
+constexpr std::size_t kMatched = 5;
+constexpr std::size_t kJudges = 3;  // frames that say how well a scan agrees with them
+constexpr double kAgree = 0.2;      // m, within which rays do
+/// m; of a search around the pose: cells of half the least reach of a match, returns two cells
+/// apart, none beyond 12 m, where beams of a degree are farther apart than these.
+constexpr double kSearchCell = 0.05, kSearchSpacing = 0.1, kSearchReach = 12.0;
+/// Coarsest cells of 0.4 m for a window of one metre. All round of 1.6 m, which nearly spans the
+/// window: one bound a direction.
+constexpr int kSearchLevels = 3, kLevelsAllRound = 5;
+/// 99.7 % of the prior lies within the window.
+constexpr double kSearchSigmas = 3.0;
+/// m, rad; a wider window finds the next door as well, which is for loop closing to tell apart. A
+/// narrower one than the least is what a match reaches by itself.
+constexpr double kWidestWindowHere = 1.0, kWidestTurn = 1.0;
+constexpr double kLeastSearch = 0.2, kLeastTurn = 0.2;
+constexpr double kSearchArm = 3.0;  // m, a usual distance of walls
+/// Share of the prior's information that is left where it is not to decide: a scan that sees
+/// nothing stays where the prior has it all the same.
+constexpr double kVague = 1e-3;
+
+struct Sigmas {
+  double position, turn;  // m, rad
+};
+
+Sigmas sigmasOf(const PoseBelief& prior) {
+  const Eigen::Matrix3d covariance = prior.information.inverse();
+  return {std::sqrt(0.5 * covariance.topLeftCorner<2, 2>().trace()), std::sqrt(covariance(2, 2))};
+}
+
+/// How far off [m] the prior may put what is seen kSearchArm away.
+double spanOf(const PoseBelief& prior) {
+  const Sigmas sigmas = sigmasOf(prior);
+  return kSearchSigmas * (sigmas.position + kSearchArm * sigmas.turn);
+}
+
+SearchWindow windowOf(const PoseBelief& prior) {
+  const Sigmas sigmas = sigmasOf(prior);
+  SearchWindow window;
+  window.centre = prior.mean;
+  window.half_width = std::clamp(kSearchSigmas * sigmas.position, kLeastSearch, kWidestWindowHere);
+  window.half_turn = std::clamp(kSearchSigmas * sigmas.turn, kLeastTurn, kWidestTurn);
+  window.prior_information = prior.information.diagonal();
+  return window;
+}
+
+}  // namespace
+
+SightCount mutualSights(const ScanSurface& reference, const ScanSurface& query,
+                        const Pose2& T_reference_query) {
+  SightCount sights = compareSights(reference, query, T_reference_query, kAgree);
+  if (query.points.empty()) return sights;  // nothing at all says nothing
+  sights += compareSights(query, reference, T_reference_query.inverse(), kAgree);
+  return sights;
+}
+
+void removeMovers(KeyFrames& frames, int frame, const std::vector<int>& view) {
+  std::vector<int> around{frame};
+  for (std::size_t i = 0; i < view.size() && i < kJudges; ++i) around.push_back(view[i]);
+  for (const int seen : around) {
+    std::vector<PlacedSurface> others;
+    for (const int other : around) {
+      if (other != seen) others.push_back(frames.placed(other));
+    }
+    forgetWhatMoved(frames.surfaces[static_cast<std::size_t>(seen)], frames.graph.pose(seen),
+                    others, kAgree);
+  }
+}
+
+PoseBelief withoutOdometry(PoseBelief prior) {
+  prior.information *= kVague;
+  return prior;
+}
+
+void ScanTracker::lookAround(const KeyFrames& frames, int anchor, const Pose2& T_map_sensor) {
+  view_ = framesInView(frames, anchor, T_map_sensor, kViewFrames);
+}
+
+Pose2 ScanTracker::correlativeSearch(const KeyFrames& frames, const ScanSurface& surface,
+                                     SearchWindow window) const {
+  std::vector<SurfacePoint> points, query;
+  for (const PlacedSurface& placed : frames.placed(view_)) {
+    for (const auto& point : placed.surface->points) {
+      points.push_back({placed.T_map_sensor * point.position});
+    }
+  }
+  for (const auto& point : surface.points) {
+    if (point.position.norm() < kSearchReach) query.push_back({point.position});
+  }
+  query = thinned(query, kSearchSpacing);
+  if (query.empty()) return window.centre;
+  window.prior_weight = 1.0 / (kIndependent * 3.0 * static_cast<double>(query.size()));
+  const int levels = window.half_turn > kWidestTurn ? kLevelsAllRound : kSearchLevels;
+  const LikelihoodPyramid pyramid(points, window.centre.position(),
+                                  kSearchReach + window.half_width, levels, kSearchCell);
+  const auto found = searchPose(query, pyramid, window, 0.2);
+  return found ? found->T_map_query : window.centre;
+}
+
+LocalMatch ScanTracker::matchLocally(const KeyFrames& frames, const ScanSurface& surface,
+                                     const PoseBelief& prior, const Pose2& start,
+                                     double reach) const {
+  std::vector<PlacedSurface> references = frames.placed(view_);
+  if (references.size() > kMatched) references.resize(kMatched);
+  LocalMatch found;
+  found.match = matcher_(surface, start, prior, references, reach);
+  SightCount sights;
+  for (std::size_t i = 0; i < references.size() && i < kJudges; ++i) {
+    sights += mutualSights(*references[i].surface, surface,
+                           references[i].T_map_sensor.inverse() * found.match.T_map_query);
+  }
+  found.agreement = sights.agreement();
+  found.in_common = 0.5 * (sights.agree + sights.contradict);
+  return found;
+}
+
+LocalMatch ScanTracker::localise(const KeyFrames& frames, const ScanSurface& surface,
+                                 const PoseBelief& prior) const {
+  const SearchWindow window = windowOf(prior);
+  LocalMatch found;
+  if (window.half_width <= kLeastSearch && window.half_turn <= kLeastTurn) {
+    const double reach = std::min(kFirstMatchReach, spanOf(prior));
+    found = matchLocally(frames, surface, prior, prior.mean, reach);
+  }
+  if (found.agreement >= kGoodAgreement) return found;
+  const Pose2 start = correlativeSearch(frames, surface, window);
+  return matchLocally(frames, surface, prior, start, kFirstMatchReach);
+}
+
+LocalMatch ScanTracker::searchAllDirections(const KeyFrames& frames, const ScanSurface& surface,
+                                            const PoseBelief& prior) const {
+  SearchWindow window;
+  window.centre = prior.mean;
+  window.half_width = kWidestWindowHere;
+  window.half_turn = M_PI;
+  const Pose2 start = correlativeSearch(frames, surface, window);
+  return matchLocally(frames, surface, withoutOdometry(prior), start, kFirstMatchReach);
+}
+
+}  // namespace cca
