@@ -78,8 +78,9 @@ void KnownMap::place(const Pose2& T_map_robot, const Eigen::Matrix3d& covariance
   told_ = Told{T_map_robot, covariance};
 }
 
-Estimate KnownMap::update(const Measurement& measurement, const PastScans& /*past*/) {
-  const ScanSurface surface = scanSurface(measurement.scan);
+Estimate KnownMap::update(const Measurement& measurement, const AnalysedScan& analysed,
+                          const PastScans& /*past*/) {
+  const ScanSurface surface = scanSurface(analysed);
   std::optional<Pose2> odom_sensor, wheel_step;
   if (measurement.T_odom_robot && isFinite(*measurement.T_odom_robot)) {
     odom_sensor = *measurement.T_odom_robot * measurement.T_robot_sensor;

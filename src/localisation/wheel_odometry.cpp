@@ -8,7 +8,8 @@ Pose2 startOf(const Measurement& first) {
   return first.T_odom_robot.value_or(Pose2{});
 }
 
-Estimate WheelOdometry::update(const Measurement& measurement, const PastScans& /*past*/) {
+Estimate WheelOdometry::update(const Measurement& measurement, const AnalysedScan& /*analysed*/,
+                               const PastScans& /*past*/) {
   if (!T_map_odom_) {
     const Pose2 T_odom_robot = measurement.T_odom_robot.value_or(Pose2{});
     T_map_odom_ = startOf(measurement) * T_odom_robot.inverse();

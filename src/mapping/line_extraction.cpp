@@ -49,12 +49,16 @@ struct ClusteredScan {
   }
 };
 
-/// Clusters a scan again and again, until no two runs are alike and every corner is in its place.
-ClusteredScan cluster(const Scan& scan, const CcaParameters& parameters) {
-  const Ablation& without = parameters.without;
+PointNoise noiseOf(const Scan& scan, const CcaParameters& parameters) {
   PointNoise noise = rangeNoise(scan);
   noise.straightness = parameters.straightness;
-  if (without(Part::kScanNoise)) noise.range_sigma = kSetSigma;
+  if (parameters.without(Part::kScanNoise)) noise.range_sigma = kSetSigma;
+  return noise;
+}
+
+/// Clusters a scan again and again, until no two runs are alike and every corner is in its place.
+ClusteredScan cluster(const Scan& scan, const PointNoise& noise, const CcaParameters& parameters) {
+  const Ablation& without = parameters.without;
   const ScanPoints points = scanPoints(scan, std::max(noise.range_sigma, noise.straightness));
   const RunFitter fitter(points.positions, noise, parameters.vertex_price);
   ClusteredScan s{noise, points, fitter, pointClusters(points, fitter, without)};
@@ -158,11 +162,17 @@ std::vector<Arc> arcsOfScan(const ScanPoints& points, const Runs& runs, PointNoi
 }  // namespace
 
 std::vector<LineSegment> extractLines(const Scan& scan, const CcaParameters& parameters) {
-  return linesOf(cluster(scan, parameters), parameters);
+  return linesOf(cluster(scan, noiseOf(scan, parameters), parameters), parameters);
+}
+
+AnalysedScan analyse(Scan scan, const CcaParameters& parameters) {
+  const PointNoise noise = noiseOf(scan, parameters);
+  std::vector<LineSegment> lines = linesOf(cluster(scan, noise, parameters), parameters);
+  return {std::move(scan), noise, std::move(lines)};
 }
 
 ScanFeatures extractFeatures(const Scan& scan, const CcaParameters& parameters) {
-  ClusteredScan clustered = cluster(scan, parameters);
+  ClusteredScan clustered = cluster(scan, noiseOf(scan, parameters), parameters);
   ScanFeatures features;
   features.lines = linesOf(clustered, parameters);
   beginBehindBreak(&clustered);

@@ -32,14 +32,14 @@ bool keep(std::vector<PastScans::Kept>& kept, const PastScans::Kept& candidate) 
 
 }  // namespace
 
-bool PastScans::add(const Scan& scan, const Pose2& T_map_robot, bool is_placed) {
+bool PastScans::add(const AnalysedScan& seen, const Pose2& T_map_robot, bool is_placed) {
   const std::size_t step = steps_++;
-  return keep(is_placed ? kept_ : unplaced_, {step, scan, T_map_robot, T_map_robot, is_placed});
+  return keep(is_placed ? kept_ : unplaced_, {step, seen, T_map_robot, T_map_robot, is_placed});
 }
 
-bool PastScans::addBeside(std::size_t step, const Scan& scan, const Pose2& T_map_robot,
+bool PastScans::addBeside(std::size_t step, const AnalysedScan& seen, const Pose2& T_map_robot,
                           std::size_t sensor) {
-  return keep(kept_, {step, scan, T_map_robot, T_map_robot, true, sensor});
+  return keep(kept_, {step, seen, T_map_robot, T_map_robot, true, sensor});
 }
 
 void PastScans::correct(const std::vector<Pose2>& T_map_robot, const std::vector<bool>& is_placed) {
@@ -51,10 +51,10 @@ void PastScans::correct(const std::vector<Pose2>& T_map_robot, const std::vector
   kept_.clear();
   unplaced_.clear();
   for (Kept& kept : all) {
-    const Pose2 T_robot_sensor = kept.T_map_robot.inverse() * kept.scan.T_map_sensor;
+    const Pose2 T_robot_sensor = kept.T_map_robot.inverse() * kept.seen.scan.T_map_sensor;
     kept.T_was_robot = kept.T_map_robot;
     kept.T_map_robot = T_map_robot[kept.step];
-    kept.scan.T_map_sensor = kept.T_map_robot * T_robot_sensor;
+    kept.seen.scan.T_map_sensor = kept.T_map_robot * T_robot_sensor;
     (is_placed[kept.step] ? kept_ : unplaced_).push_back(std::move(kept));
   }
 }

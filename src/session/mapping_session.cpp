@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "cca_mrpt/mapping/line_extraction.hpp"
+
 namespace cca {
 
 void doNow(std::function<void()> work) { work(); }
@@ -70,7 +72,7 @@ SweepMotion MappingSession::motionOf(const Measurement& measurement, std::size_t
 bool MappingSession::undistort(const Measurement& measurement, std::size_t sensor) {
   MotionCompensation& compensation = compensationOf(sensor);
   const int version = compensation.version(), lasers = compensation.lasers();
-  scan_ = compensation.undistort(measurement.scan, motionOf(measurement, sensor));
+  analyseScan(compensation.undistort(measurement.scan, motionOf(measurement, sensor)));
   if (lesson_is_due_ || compensation.lasers() != lasers) beginLesson();
   if (!lesson_) return false;
   lesson_->taken.push_back({measurement, sensor});
@@ -105,7 +107,7 @@ Estimate MappingSession::repeat() {
   Estimate estimate;
   for (const Taken& taken : lesson_->taken) {
     const SweepMotion motion = motionOf(taken.measurement, taken.sensor);
-    scan_ = compensationOf(taken.sensor).undistort(taken.measurement.scan, motion);
+    analyseScan(compensationOf(taken.sensor).undistort(taken.measurement.scan, motion));
     estimate = localise(taken.measurement, taken.sensor);
   }
   for (auto& [sensor, compensation] : compensations_) compensation.learnOn();
@@ -123,12 +125,14 @@ Estimate MappingSession::repeat() {
   return estimate;
 }
 
-/// @pre  scan_ is that of the measurement, undistorted.
+void MappingSession::analyseScan(Scan scan) {
+  analysed_ = analyse(std::move(scan), settings_.mapping);
+}
+
+/// @pre  analysed_ is the scan of the measurement, undistorted.
 Estimate MappingSession::localise(const Measurement& measurement, std::size_t sensor) {
   if (sensor != 0) return localiseSecondary(measurement, sensor);
-  Measurement still = measurement;
-  still.scan = scan_;
-  state_.last = localiser_->update(still, state_.past);
+  state_.last = localiser_->update(measurement, analysed_, state_.past);
   const Estimate& now = state_.last;
   state_.trajectory.push_back(now.T_map_robot);
   state_.times.push_back(measurement.time);
@@ -144,10 +148,10 @@ Estimate MappingSession::localise(const Measurement& measurement, std::size_t se
   if (!measurement.motion.middle && !measurement.T_odom_robot) {
     compensationOf(0).amend(now.T_map_sensor);
   }
-  scan_.T_map_sensor = now.T_map_sensor;
+  analysed_.scan.T_map_sensor = now.T_map_sensor;
   const bool corrects = localiser_->correctsPast();
-  const bool is_kept = corrects && state_.past.add(scan_, now.T_map_robot, now.is_known);
-  if (now.is_known && (is_kept || !corrects)) insert(scan_, now.T_map_robot, 0);
+  const bool is_kept = corrects && state_.past.add(analysed_, now.T_map_robot, now.is_known);
+  if (now.is_known && (is_kept || !corrects)) insert(analysed_, now.T_map_robot, 0);
   return now;
 }
 
@@ -163,18 +167,18 @@ Estimate MappingSession::localiseSecondary(const Measurement& measurement, std::
     estimate.T_map_robot = *state_.T_map_odom * *measurement.T_odom_robot;
     estimate.T_map_sensor = estimate.T_map_robot * measurement.T_robot_sensor;
   }
-  scan_.T_map_sensor = estimate.T_map_sensor;
+  analysed_.scan.T_map_sensor = estimate.T_map_sensor;
   const bool corrects = localiser_->correctsPast();
   PastScans& past = state_.past;
   const bool is_kept =
-      corrects && past.addBeside(past.size() - 1, scan_, state_.last.T_map_robot, sensor);
-  if (is_kept || !corrects) insert(scan_, estimate.T_map_robot, sensor);
+      corrects && past.addBeside(past.size() - 1, analysed_, state_.last.T_map_robot, sensor);
+  if (is_kept || !corrects) insert(analysed_, estimate.T_map_robot, sensor);
   return estimate;
 }
 
 void MappingSession::remember(Scan scan, const Pose2& T_map_robot, const Pose2& T_map_sensor) {
   scan.T_map_sensor = T_map_sensor;
-  state_.past.add(scan, T_map_robot, false);
+  state_.past.add(analyse(std::move(scan), settings_.mapping), T_map_robot, false);
 }
 
 void MappingSession::finish(const DoAll& do_all) {
@@ -208,23 +212,23 @@ void MappingSession::rebuild() {
     for (const PastScans::Kept& one : kept) {
       const bool is_earlier = one.step < earlier;
       const std::size_t number = is_earlier ? one.step : one.step - earlier;
-      insertNow({number, one.sensor, is_earlier, one.T_map_robot, one.scan});
+      insertNow({number, one.sensor, is_earlier, one.T_map_robot, one.seen.scan}, one.seen.lines);
     }
     line_map_.lookBack();
   });
 }
 
-void MappingSession::insert(Scan scan, const Pose2& T_map_robot, std::size_t sensor) {
+void MappingSession::insert(AnalysedScan analysed, const Pose2& T_map_robot, std::size_t sensor) {
   if (localiser_->correctsPast() && settings_.maps_at_the_end) return;
-  execute_(
-      [this, number = state_.trajectory.size() - 1, sensor, T_map_robot, scan = std::move(scan)] {
-        insertNow({number, sensor, false, T_map_robot, scan});
-      });
+  execute_([this, number = state_.trajectory.size() - 1, sensor, T_map_robot,
+            analysed = std::move(analysed)] {
+    insertNow({number, sensor, false, T_map_robot, analysed.scan}, analysed.lines);
+  });
 }
 
-void MappingSession::insertNow(const MappedScan& mapped) {
+void MappingSession::insertNow(const MappedScan& mapped, const std::vector<LineSegment>& lines) {
   agreement_.add(compareWithMap(mapped.scan, line_map_.walls()));
-  line_map_.insert(mapped.scan);
+  line_map_.insert(mapped.scan, lines);
   if (recorder_) recorder_->record(mapped, line_map_);
 }
 

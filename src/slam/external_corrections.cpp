@@ -35,12 +35,13 @@ double wayOf(const Pose2& step) { return step.position().norm() + kTurnWay * std
 
 }  // namespace
 
-Estimate ExternalCorrections::update(const Measurement& measurement, const PastScans& past) {
+Estimate ExternalCorrections::update(const Measurement& measurement, const AnalysedScan& analysed,
+                                     const PastScans& past) {
   Estimate estimate;
   estimate.is_known = measurement.T_map_robot.has_value();
   if (estimate.is_known) {
     estimate.T_map_robot = *measurement.T_map_robot;
-    estimate.T_map_sensor = measurement.scan.T_map_sensor;
+    estimate.T_map_sensor = analysed.scan.T_map_sensor;
   }
   const Pose2 T_map_odom_before = steps_.empty() ? Pose2{} : steps_.back().T_map_odom;
   const Pose2 T_odom_robot =
@@ -51,7 +52,7 @@ Estimate ExternalCorrections::update(const Measurement& measurement, const PastS
     now.way = steps_.back().way + wayOf(steps_.back().T_odom_robot.inverse() * T_odom_robot);
     const bool has_leapt = hasLeapt(now);
     if (is_told_ ? is_path_new_ || has_leapt : has_leapt) {
-      const auto corrected = is_told_ ? afterPath(now) : afterLeap(now, measurement.scan, past);
+      const auto corrected = is_told_ ? afterPath(now) : afterLeap(now, analysed.scan, past);
       estimate.was_corrected = corrected.has_value();
       for (std::size_t k = 0; corrected && k < steps_.size(); ++k) {
         steps_[k].T_map_odom = (*corrected)[k];
@@ -173,12 +174,12 @@ int ExternalCorrections::agreement(const Odometries& T_map_odom, const Scan& sca
   LineMap map(mapping_);
   int contradicted = 0;
   for (std::size_t k = 0; k < kept.size(); k += every) {
-    Scan placed = kept[k].scan;
+    Scan placed = kept[k].seen.scan;
     const Pose2 T_robot_sensor = kept[k].T_map_robot.inverse() * placed.T_map_sensor;
     const std::size_t step = kept[k].step;
     placed.T_map_sensor = T_map_odom[step] * steps_[step].T_odom_robot * T_robot_sensor;
     contradicted += compareWithMap(placed, map.walls()).contradicted;
-    map.insert(placed);
+    map.insert(placed, kept[k].seen.lines);
   }
   const ScanVerdict verdict = compareWithMap(scan, map.walls());
   return verdict.confirmed - verdict.contradicted - contradicted;

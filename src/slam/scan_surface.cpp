@@ -102,7 +102,8 @@ void ScanSurface::pack() {
   }
 }
 
-ScanSurface scanSurface(const Scan& scan, const CcaParameters& parameters) {
+ScanSurface scanSurface(const AnalysedScan& analysed) {
+  const Scan& scan = analysed.scan;
   ScanSurface surface;
   const std::size_t beams = scan.size();
   if (beams < 3 || !std::isfinite(scan.angle_increment) || scan.angle_increment == 0.0 ||
@@ -112,7 +113,7 @@ ScanSurface scanSurface(const Scan& scan, const CcaParameters& parameters) {
   const bool clockwise = scan.angle_increment < 0.0;
   surface.spacing = std::abs(scan.angle_increment);
   surface.first_bearing = wrapAngle(clockwise ? scan.bearing(beams - 1) : scan.angle_min);
-  surface.range_sigma = rangeNoise(scan).range_sigma;
+  surface.range_sigma = analysed.noise.range_sigma;
   surface.is_full_turn = (static_cast<double>(beams) + 0.5) * surface.spacing > 2.0 * M_PI;
   surface.point_of_beam.assign(beams, -1);
   surface.free_range.assign(beams, 0.0);
@@ -126,11 +127,13 @@ ScanSurface scanSurface(const Scan& scan, const CcaParameters& parameters) {
     surface.points.push_back({range * Eigen::Vector2d(std::cos(bearing), std::sin(bearing)),
                               Eigen::Vector2d::Zero(), static_cast<int>(k)});
   }
-  takeNormalsOfLines(extractLines(scan, parameters), parameters.straightness, surface);
+  takeNormalsOfLines(analysed.lines, analysed.noise.straightness, surface);
   takeNormalsOfNeighbours(surface);
   takeFreeRangesOfThree(surface);
   surface.pack();
   return surface;
 }
+
+ScanSurface scanSurface(const Scan& scan) { return scanSurface(analyse(scan)); }
 
 }  // namespace cca

@@ -20,10 +20,11 @@ constexpr double kLeastNoise = 0.1;
 
 }  // namespace
 
-SlamPose Slam::step(const Scan& scan, const Pose2& T_robot_sensor,
+SlamPose Slam::step(const AnalysedScan& analysed, const Pose2& T_robot_sensor,
                     const std::optional<Pose2>& T_odom_robot) {
   back_end_.restartCount();
-  ScanSurface surface = scanSurface(scan);
+  const Scan& scan = analysed.scan;
+  ScanSurface surface = scanSurface(analysed);
   std::optional<Pose2> T_odom_sensor;
   if (T_odom_robot && isFinite(*T_odom_robot)) T_odom_sensor = *T_odom_robot * T_robot_sensor;
   const std::optional<Pose2> odometry_step = odometry_.stepTo(T_odom_sensor);

@@ -5,11 +5,11 @@
 
 namespace cca {
 
-Estimate SlamLocaliser::update(const Measurement& measurement, const PastScans& /*past*/) {
+Estimate SlamLocaliser::update(const Measurement& measurement, const AnalysedScan& analysed,
+                               const PastScans& /*past*/) {
   if (!has_started_) slam_.startAt(startOf(measurement));
   has_started_ = true;
-  const SlamPose pose =
-      slam_.step(measurement.scan, measurement.T_robot_sensor, measurement.T_odom_robot);
+  const SlamPose pose = slam_.step(analysed, measurement.T_robot_sensor, measurement.T_odom_robot);
   Estimate estimate;
   estimate.T_map_robot = pose.T_map_robot;
   estimate.T_map_sensor = pose.T_map_robot * measurement.T_robot_sensor;

@@ -151,9 +151,8 @@ inline Errors errorsOf(const Drive& drive, KnownMap& localiser,
                        const std::optional<Pose2>& start = {}) {
   Errors errors;
   if (start) localiser.place(*start, Eigen::Vector3d(0.04, 0.04, 0.01).asDiagonal());
-  const PastScans none;
   for (std::size_t k = 0; k < drive.truth.size(); ++k) {
-    const Estimate estimate = localiser.update(drive.measurements[k], none);
+    const Estimate estimate = localiser.localise(drive.measurements[k]);
     if (!estimate.is_known) {
       ++errors.unknown;
       continue;
@@ -196,7 +195,6 @@ struct Starts {
 inline Starts startsOn(const Drive& drive, const std::vector<PlanLine>& plan, int count) {
   const LocalisationEffort at_once{std::numeric_limits<int>::max(),
                                    std::numeric_limits<int>::max()};
-  const PastScans none;
   Starts starts;
   for (int k = 0; k < count; ++k) {
     const auto first = static_cast<std::size_t>((k + 0.5) * 0.95 / count *
@@ -204,7 +202,7 @@ inline Starts startsOn(const Drive& drive, const std::vector<PlanLine>& plan, in
     KnownMap localiser(plan, at_once);
     ++starts.all;
     for (std::size_t i = first; i < drive.truth.size() && drive.wayBetween(first, i) <= 3.0; ++i) {
-      const Estimate estimate = localiser.update(drive.measurements[i], none);
+      const Estimate estimate = localiser.localise(drive.measurements[i]);
       if (!estimate.is_known) continue;
       const bool is_right = isRight(estimate.T_map_robot, drive.truth[i]);
       if (i == first) ++(is_right ? starts.right_at_once : starts.wrong_at_once);
@@ -228,7 +226,6 @@ struct Kidnaps {
 };
 
 inline Kidnaps kidnapsOn(const Drive& drive, const std::vector<PlanLine>& plan, int count) {
-  const PastScans none;
   Kidnaps kidnaps;
   const std::size_t scans = drive.truth.size();
   for (int k = 0; k < count; ++k) {
@@ -242,7 +239,7 @@ inline Kidnaps kidnapsOn(const Drive& drive, const std::vector<PlanLine>& plan, 
     ++kidnaps.all;
     double noticed = -1.0, found = -1.0, way = 0.0;
     for (std::size_t i = begin; i < carried.truth.size(); ++i) {
-      const Estimate estimate = localiser.update(carried.measurements[i], none);
+      const Estimate estimate = localiser.localise(carried.measurements[i]);
       if (i <= from) continue;
       if (i > from + 1) {
         way += (carried.truth[i].position() - carried.truth[i - 1].position()).norm();

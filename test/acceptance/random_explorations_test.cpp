@@ -101,7 +101,7 @@ class Corrections {
 
   void note(const Observation& observation) {
     if (period_ == 0.0) return;
-    past_.add(observation.scan, observation.T_map_robot);
+    past_.add({observation.scan, {}, {}}, observation.T_map_robot);
     truth_.push_back(observation.T_map_robot);
   }
   void tell(double time, Explorer& explorer) {

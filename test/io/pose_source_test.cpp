@@ -44,7 +44,8 @@ std::vector<Pose2> localised(PoseSource source, const std::vector<LogRecord>& lo
   const std::unique_ptr<Localiser> localiser = makeLocaliser(source);
   std::vector<Pose2> poses;
   for (const LogRecord& record : log) {
-    poses.push_back(localiser->update(measurementOf(record, source), {}).T_map_robot);
+    const Measurement measurement = measurementOf(record, source);
+    poses.push_back(localiser->update(measurement, {measurement.scan, {}, {}}, {}).T_map_robot);
   }
   return poses;
 }
@@ -81,8 +82,9 @@ TEST(PoseSource, TheLogsOwnPosesAreBelievedToTheBit) {
   LogRecord record = onCircle(7);
   record.T_robot_sensor = {0.123, -0.045, 0.6};
   record.scan.T_map_sensor = {1.0 / 3.0, 2.0 / 7.0, 0.1};
+  const Measurement measurement = measurementOf(record, PoseSource::kLog);
   const Estimate estimate =
-      makeLocaliser(PoseSource::kLog)->update(measurementOf(record, PoseSource::kLog), {});
+      makeLocaliser(PoseSource::kLog)->update(measurement, {measurement.scan, {}, {}}, {});
   EXPECT_EQ(estimate.T_map_sensor.x, record.scan.T_map_sensor.x);
   EXPECT_EQ(estimate.T_map_sensor.y, record.scan.T_map_sensor.y);
   EXPECT_EQ(estimate.T_map_sensor.theta, record.scan.T_map_sensor.theta);

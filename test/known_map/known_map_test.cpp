@@ -32,9 +32,8 @@ struct Followed {
 Followed drive(KnownMap& localiser, test::WalledWorld& world, const std::vector<Pose2>& way) {
   Followed run;
   const std::vector<Pose2> wheels = test::wheelsOf(way, world);
-  const PastScans none;
   for (std::size_t k = 0; k < way.size(); ++k) {
-    run.estimates.push_back(localiser.update(test::measurementAt(world, way[k], wheels[k]), none));
+    run.estimates.push_back(localiser.localise(test::measurementAt(world, way[k], wheels[k])));
     run.truth.push_back(way[k]);
   }
   return run;
@@ -82,12 +81,11 @@ TEST(KnownMap, ItsCovarianceIsThatOfItsErrorsInAPlanWhoseLinesAreOff) {
 TEST(KnownMap, AScanWithoutAPoseToldIsFoundAnywhereAndSaysSo) {
   PlannedWorld room = test::roomWithNiche();
   KnownMap localiser(room.plan);
-  const PastScans none;
   const Pose2 truth{2.5, 2.0, 0.7};
   Estimate estimate;
   estimate.is_known = false;
   for (int k = 0; k < 30 && !estimate.is_known; ++k) {
-    estimate = localiser.update(test::measurementAt(room.world, truth, {}), none);
+    estimate = localiser.localise(test::measurementAt(room.world, truth, {}));
   }
   ASSERT_TRUE(estimate.is_known);
   EXPECT_LT((estimate.T_map_robot.position() - truth.position()).norm(), 0.03);
@@ -100,9 +98,8 @@ TEST(KnownMap, NoticesWithinAMetreThatItWasCarriedAndFindsItself) {
   localiser.place(way[0], kAbout);
   const std::size_t carried = 60, carried_to = 260;
   const std::vector<Pose2> wheels = test::wheelsOf(way, place.world);
-  const PastScans none;
   for (std::size_t k = 0; k < carried; ++k) {
-    localiser.update(test::measurementAt(place.world, way[k], wheels[k]), none);
+    localiser.localise(test::measurementAt(place.world, way[k], wheels[k]));
   }
   double noticed = -1.0, found = -1.0, driven = 0.0;
   Estimate estimate;
@@ -110,7 +107,7 @@ TEST(KnownMap, NoticesWithinAMetreThatItWasCarriedAndFindsItself) {
     driven += (way[k].position() - way[k - 1].position()).norm();
     // The wheels go on as if nothing had been.
     const Pose2 told = wheels[carried] * wheels[carried_to].inverse() * wheels[k];
-    estimate = localiser.update(test::measurementAt(place.world, way[k], told), none);
+    estimate = localiser.localise(test::measurementAt(place.world, way[k], told));
     if (noticed < 0.0 && !estimate.is_known) noticed = driven;
     if (noticed >= 0.0 && found < 0.0 && estimate.is_known) {
       found = driven;
@@ -130,11 +127,10 @@ TEST(KnownMap, IsLostWhereThePlanDoesNotGoOn) {
   other.addBox(-6.0, -2.0, 12.0, 14.0);
   KnownMap localiser(room.plan);
   localiser.place({2.5, 2.0, 0.0}, kAbout);
-  const PastScans none;
   Estimate estimate;
   for (int k = 0; k < 30; ++k) {
     const Pose2 pose{2.5 + 0.05 * k, 2.0, 0.0};
-    estimate = localiser.update(test::measurementAt(other, pose, pose), none);
+    estimate = localiser.localise(test::measurementAt(other, pose, pose));
   }
   EXPECT_FALSE(estimate.is_known);
 }
@@ -142,13 +138,12 @@ TEST(KnownMap, IsLostWhereThePlanDoesNotGoOn) {
 TEST(KnownMap, EmptyPlansAndEmptyScansLocaliseNothing) {
   PlannedWorld room = test::roomWithNiche();
   KnownMap nowhere({});
-  const PastScans none;
-  EXPECT_FALSE(nowhere.update(test::measurementAt(room.world, {2.5, 2.0, 0.7}, {}), none).is_known);
+  EXPECT_FALSE(nowhere.localise(test::measurementAt(room.world, {2.5, 2.0, 0.7}, {})).is_known);
   KnownMap blind(room.plan);
   Measurement dark;
   dark.scan.ranges.assign(360, HUGE_VAL);
   dark.scan.angle_increment = 2.0 * M_PI / 360.0;
-  EXPECT_FALSE(blind.update(dark, none).is_known);
+  EXPECT_FALSE(blind.localise(dark).is_known);
 }
 
 TEST(KnownMap, TheSameScansGiveTheSamePosesToTheBit) {

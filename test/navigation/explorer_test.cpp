@@ -199,7 +199,7 @@ struct StrayingDriver {
     T_map_true = T_map_true * Pose2{stray, 0.5 * stray, 0.2 * stray};
     scan.T_map_sensor = T_map_true * T_map_robot;
     const Action action = explorer.step({scan, scan.T_map_sensor, velocity, time});
-    past.add(scan, scan.T_map_sensor);
+    past.add({scan, {}, {}}, scan.T_map_sensor);
     truth.push_back(T_map_robot);
     velocity = action.velocity;
     constexpr double kPeriod = 0.1;

@@ -419,7 +419,7 @@ TEST(GlobalPlanner, AsksAllPlacesAgainWhereThePastWasCorrected) {
   ASSERT_TRUE(drive(planner, kTwoRooms, {1.0, 1.0}).last.isFinished());
   const std::size_t all = planner.place().grid().revealed();
   PastScans past;
-  past.add(kTwoRooms.scanFrom({1.0, 1.0, 0.0}, 4.0), {1.0, 1.0, 0.0});
+  past.add({kTwoRooms.scanFrom({1.0, 1.0, 0.0}, 4.0), {}, {}}, {1.0, 1.0, 0.0});
   past.correct({{1.0, 1.0, 0.0}}, {true});
   planner.correct(past);
   ASSERT_LT(planner.place().grid().revealed(), all / 2);

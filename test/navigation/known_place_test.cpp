@@ -59,7 +59,7 @@ TEST(KnownPlace, WhatWasDeclaredScannedIsSoWhereACorrectionMovesIt) {
   Scan scan = scanOf(90.0, 0.0);
   scan.T_map_sensor = T_was_robot;
   place.observe(scan, T_was_robot.position());
-  past.add(scan, T_was_robot);
+  past.add({scan, {}, {}}, T_was_robot);
   place.noteScanned(place.grid().cellOf(T_was_robot.position()));
   past.correct({T_map_robot}, {true});
   place.correct(past);

@@ -17,7 +17,7 @@ PastScans metre() {
     const Pose2 T_map_robot{0.05 * k, 0.0, 0.0};
     Scan scan;
     scan.T_map_sensor = T_map_robot * Pose2{0.1, 0.0, 0.0};
-    past.add(scan, T_map_robot);
+    past.add({scan, {}, {}}, T_map_robot);
   }
   return past;
 }
@@ -40,8 +40,8 @@ TEST(PastScans, TakeTheirSensorsAlongWhereTheyAreCorrected) {
   past.correct(std::vector<Pose2>(past.size(), {3.0, 1.0, M_PI / 2}),
                std::vector<bool>(past.size(), true));
   for (const auto& kept : past.kept()) {
-    EXPECT_NEAR(kept.scan.T_map_sensor.x, 3.0, kTiny);
-    EXPECT_NEAR(kept.scan.T_map_sensor.y, 1.1, kTiny);
+    EXPECT_NEAR(kept.seen.scan.T_map_sensor.x, 3.0, kTiny);
+    EXPECT_NEAR(kept.seen.scan.T_map_sensor.y, 1.1, kTiny);
   }
 }
 
@@ -51,7 +51,7 @@ TEST(PastScans, ScansOfAnotherLaserGoWithTheirStep) {
     const Pose2 T_map_robot{0.05 * k, 0.0, 0.0};
     Scan rear;
     rear.T_map_sensor = T_map_robot * Pose2{-0.1, 0.0, M_PI};
-    past.addBeside(past.size(), rear, T_map_robot, 1);  // comes first
+    past.addBeside(past.size(), {rear, {}, {}}, T_map_robot, 1);  // comes first
     past.add({}, T_map_robot);
   }
   EXPECT_EQ(past.size(), 21u);
@@ -59,7 +59,7 @@ TEST(PastScans, ScansOfAnotherLaserGoWithTheirStep) {
   past.correct(std::vector<Pose2>(21, {3.0, 1.0, M_PI / 2}), std::vector<bool>(21, true));
   for (const auto& kept : past.kept()) {
     if (kept.sensor == 0) continue;
-    EXPECT_NEAR(kept.scan.T_map_sensor.y, 0.9, kTiny);
+    EXPECT_NEAR(kept.seen.scan.T_map_sensor.y, 0.9, kTiny);
   }
 }
 
@@ -76,8 +76,8 @@ TEST(PastScans, MoveAPlaceWithTheScanNearestToIt) {
 
 TEST(PastScans, APlaceIsNotMovedWithScansThatWereElsewhereThen) {
   PastScans past;
-  past.add(Scan{}, {0.0, 0.0, 0.0}, false);  // of another frame
-  past.add(Scan{}, {0.5, 0.0, 0.0});
+  past.add({}, {0.0, 0.0, 0.0}, false);  // of another frame
+  past.add({}, {0.5, 0.0, 0.0});
   past.correct({{7.0, 7.0, 0.0}, {0.5, 1.0, 0.0}}, {true, true});
   const Eigen::Vector2d p(0.0, 0.0);
   EXPECT_LT((past.correctionAt(p) * p - Eigen::Vector2d(0.0, 1.0)).norm(), kTiny);
@@ -86,7 +86,7 @@ TEST(PastScans, APlaceIsNotMovedWithScansThatWereElsewhereThen) {
 TEST(PastScans, AreNotThoseWhosePlaceIsUnknownUntilItIsKnown) {
   PastScans past = metre();
   const std::size_t placed = past.kept().size();
-  past.add(Scan{}, {9.0, 9.0, 0.0}, false);
+  past.add({}, {9.0, 9.0, 0.0}, false);
   EXPECT_EQ(past.kept().size(), placed);
   past.correct(std::vector<Pose2>(past.size(), {3.0, 1.0, 0.0}),
                std::vector<bool>(past.size(), true));

@@ -63,7 +63,8 @@ std::vector<double> numbersOf(const LineMap& map) {
 class MovingPoses : public Localiser {
  public:
   MovingPoses(int corrected_at, int found) : corrected_at_(corrected_at), found_(found) {}
-  Estimate update(const Measurement& measurement, const PastScans& /*past*/) override {
+  Estimate update(const Measurement& measurement, const AnalysedScan& /*analysed*/,
+                  const PastScans& /*past*/) override {
     told_.push_back(*measurement.T_map_robot);
     const int k = static_cast<int>(told_.size()) - 1;
     Estimate estimate;

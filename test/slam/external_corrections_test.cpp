@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "../navigation/known_world.hpp"
+#include "cca_mrpt/mapping/line_extraction.hpp"
 #include "cca_mrpt/mapping/line_map.hpp"
 
 namespace cca {
@@ -61,13 +62,13 @@ struct Mapper {
     measurement.T_map_robot = T_map_robot;
     measurement.T_odom_robot = T_odom_robot;
     measurement.time = time += 0.1;
-    if (corrections.update(measurement, past).was_corrected) {
+    if (corrections.update(measurement, {measurement.scan, {}, {}}, past).was_corrected) {
       ++corrected;
       past.correct(corrections.trajectory(), corrections.isLocalised());
       map = LineMap(CcaParameters{});
-      for (const auto& kept : past.kept()) map.insert(kept.scan);
+      for (const auto& kept : past.kept()) map.insert(kept.seen.scan, kept.seen.lines);
     }
-    past.add(measurement.scan, T_map_robot);
+    past.add(analyse(measurement.scan), T_map_robot);
     map.insert(measurement.scan);
   }
   double error(const std::vector<Pose2>& truth) const {

@@ -50,7 +50,8 @@ class IcpLocaliser : public Localiser {
   explicit IcpLocaliser(const IcpParameters& parameters = {});
   ~IcpLocaliser() override;
 
-  Estimate update(const Measurement& measurement, const PastScans& past) override;
+  Estimate update(const Measurement& measurement, const AnalysedScan& analysed,
+                  const PastScans& past) override;
 
  private:
   std::optional<Pose2> T_map_start_;

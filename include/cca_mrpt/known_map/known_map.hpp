@@ -6,6 +6,7 @@
 
 #include "cca_mrpt/known_map/global_localisation.hpp"
 #include "cca_mrpt/localisation/localiser.hpp"
+#include "cca_mrpt/mapping/line_extraction.hpp"
 #include "cca_mrpt/slam/motion_prior.hpp"
 
 namespace cca {
@@ -30,7 +31,12 @@ class KnownMap : public Localiser {
 
   /// @return  is_known: whether the robot is localised; where it is not, the pose is a guess, and
   ///          the covariance zero.
-  Estimate update(const Measurement& measurement, const PastScans& past) override;
+  Estimate update(const Measurement& measurement, const AnalysedScan& analysed,
+                  const PastScans& past) override;
+  /// The same for a scan of one instant that nobody has analysed yet.
+  Estimate localise(const Measurement& measurement) {
+    return update(measurement, analyse(measurement.scan), {});
+  }
 
   int timesLost() const { return times_lost_; }
   /// Of the last scan.

@@ -9,7 +9,8 @@ namespace cca {
 /// T_map_sensor of its scan. The robot is lost where there is none.
 class GivenPoses : public Localiser {
  public:
-  Estimate update(const Measurement& measurement, const PastScans& past) override;
+  Estimate update(const Measurement& measurement, const AnalysedScan& analysed,
+                  const PastScans& past) override;
   std::unique_ptr<Localiser> snapshot() const override {
     return std::make_unique<GivenPoses>(*this);
   }

@@ -7,6 +7,7 @@
 #include <optional>
 #include <vector>
 
+#include "cca_mrpt/sensing/analysed_scan.hpp"
 #include "cca_mrpt/sensing/motion_compensation.hpp"
 #include "cca_mrpt/sensing/past_scans.hpp"
 #include "cca_mrpt/sensing/scan.hpp"
@@ -48,9 +49,11 @@ class Localiser {
  public:
   virtual ~Localiser() = default;
 
-  /// @param measurement  the next scan.
+  /// @param measurement  the next scan, as the driver gave it.
+  /// @param analysed     the same, brought to one instant.
   /// @param past         the scans kept so far, without this one, at the poses believed now.
-  virtual Estimate update(const Measurement& measurement, const PastScans& past) = 0;
+  virtual Estimate update(const Measurement& measurement, const AnalysedScan& analysed,
+                          const PastScans& past) = 0;
 
   /// Whether the poses of the past may be corrected: then trajectory() and isLocalised() tell how.
   virtual bool correctsPast() const { return false; }

@@ -13,7 +13,8 @@ Pose2 startOf(const Measurement& first);
 /// were.
 class WheelOdometry : public Localiser {
  public:
-  Estimate update(const Measurement& measurement, const PastScans& past) override;
+  Estimate update(const Measurement& measurement, const AnalysedScan& analysed,
+                  const PastScans& past) override;
   std::unique_ptr<Localiser> snapshot() const override {
     return std::make_unique<WheelOdometry>(*this);
   }

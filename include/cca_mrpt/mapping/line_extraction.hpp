@@ -6,6 +6,7 @@
 #include "cca_mrpt/geometry/arc.hpp"
 #include "cca_mrpt/geometry/line_segment.hpp"
 #include "cca_mrpt/mapping/parameters.hpp"
+#include "cca_mrpt/sensing/analysed_scan.hpp"
 #include "cca_mrpt/sensing/scan.hpp"
 
 namespace cca {
@@ -24,6 +25,9 @@ namespace cca {
 ///              positive length.
 /// Cost: O(N) for N beams, plus O(n^2) for n lines.
 std::vector<LineSegment> extractLines(const Scan& scan, const CcaParameters& parameters = {});
+
+/// The noise of a scan and the lines of extractLines(), together.
+AnalysedScan analyse(Scan scan, const CcaParameters& parameters = {});
 
 /// What a scan shows, sensor frame. An arc stands for lines that are there as well, its chords.
 struct ScanFeatures {

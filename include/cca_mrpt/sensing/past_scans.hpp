@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "cca_mrpt/sensing/scan.hpp"
+#include "cca_mrpt/sensing/analysed_scan.hpp"
 
 namespace cca {
 
@@ -15,7 +15,7 @@ class PastScans {
  public:
   struct Kept {
     std::size_t step;         ///< its number among all scans
-    Scan scan;                ///< at T_map_sensor as believed now
+    AnalysedScan seen;        ///< at T_map_sensor as believed now
     Pose2 T_map_robot;        ///< as believed now
     Pose2 T_was_robot{};      ///< as believed before the last correction
     bool was_placed = false;  ///< whether that was known
@@ -26,13 +26,14 @@ class PastScans {
   /// one that was kept.
   /// @param is_placed  whether the pose is known: otherwise it is kept until a correction tells it.
   /// @return  whether it was kept.
-  bool add(const Scan& scan, const Pose2& T_map_robot, bool is_placed = true);
+  bool add(const AnalysedScan& seen, const Pose2& T_map_robot, bool is_placed = true);
 
   /// Takes a scan of another laser (1, 2, ...) from about the time of the scan with the number
   /// `step`, with which it goes where that is corrected; kept by the same rule.
   /// @param step  not below that of any scan taken before. @param T_map_robot  at that step.
   /// @return  whether it was kept.
-  bool addBeside(std::size_t step, const Scan& scan, const Pose2& T_map_robot, std::size_t sensor);
+  bool addBeside(std::size_t step, const AnalysedScan& seen, const Pose2& T_map_robot,
+                 std::size_t sensor);
 
   /// @param T_map_robot  of all scans taken so far, in their order, as believed now.
   /// @param is_placed    of each of them, whether that is known.

@@ -93,7 +93,9 @@ class MappingSession {
   void mapAsItIs();
 
   /// The last scan, of whichever laser, of one instant, at its T_map_sensor where that is known.
-  const Scan& scan() const { return scan_; }
+  const Scan& scan() const { return analysed_.scan; }
+  /// The lines of that scan, sensor frame.
+  const std::vector<LineSegment>& scanLines() const { return analysed_.lines; }
   /// s, with its sign: what the last scan of a laser was undistorted by.
   double sweepDuration(std::size_t sensor) const;
   Localiser& localiser() { return *localiser_; }
@@ -142,15 +144,16 @@ class MappingSession {
   LineMap emptyMap() const;
   void takeCorrection();
   void rebuild();
-  void insert(Scan scan, const Pose2& T_map_robot, std::size_t sensor);
-  void insertNow(const MappedScan& mapped);
+  void analyseScan(Scan scan);
+  void insert(AnalysedScan analysed, const Pose2& T_map_robot, std::size_t sensor);
+  void insertNow(const MappedScan& mapped, const std::vector<LineSegment>& lines);
 
   std::unique_ptr<Localiser> localiser_;
   Settings settings_;
   MapRecorder* recorder_;
   Executor execute_;
   State state_;
-  Scan scan_;
+  AnalysedScan analysed_;                                    ///< the last one
   std::map<std::size_t, MotionCompensation> compensations_;  ///< of each laser
   std::optional<Lesson> lesson_;
   bool lesson_is_due_ = true;

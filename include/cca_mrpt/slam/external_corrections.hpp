@@ -29,7 +29,8 @@ class ExternalCorrections : public Localiser {
   /// Takes the next scan at its T_map_robot. Without odometry map -> odom has stayed as it was.
   /// Cost: O(1); where map -> odom leapt, that of five maps of the scans kept, the first four of
   /// which take 150 scans at most.
-  Estimate update(const Measurement& measurement, const PastScans& past) override;
+  Estimate update(const Measurement& measurement, const AnalysedScan& analysed,
+                  const PastScans& past) override;
   bool correctsPast() const override { return true; }
   std::vector<Pose2> trajectory() const override;
   std::vector<bool> isLocalised() const override;

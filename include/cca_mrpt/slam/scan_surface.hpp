@@ -6,8 +6,7 @@
 #include <cmath>
 #include <vector>
 
-#include "cca_mrpt/mapping/parameters.hpp"
-#include "cca_mrpt/sensing/scan.hpp"
+#include "cca_mrpt/sensing/analysed_scan.hpp"
 
 namespace cca {
 
@@ -71,12 +70,14 @@ inline int ScanSurface::beamTowards(const Eigen::Vector2d& p_sensor) const {
 /// Farther than this [m] a beam says more of the laser's angle than of the surface.
 inline constexpr double kFarthestSurface = 30.0;
 
-/// The surface that a scan saw. Normals are those of the scan's lines (extractLines()); a return on
+/// The surface that a scan saw. Normals are those of the scan's lines; a return on
 /// no line has that of its nearest neighbours, where these lie on a line.
 ///
 /// @param scan  any; T_map_sensor is not used.
 /// @return      no points for a scan without returns or with a useless spacing.
-/// Cost: that of extractLines(), and O(N) more.
-ScanSurface scanSurface(const Scan& scan, const CcaParameters& parameters = {});
+/// Cost: O(N).
+ScanSurface scanSurface(const AnalysedScan& analysed);
+/// The same of a scan that nobody has analysed yet. Cost: that of analyse().
+ScanSurface scanSurface(const Scan& scan);
 
 }  // namespace cca

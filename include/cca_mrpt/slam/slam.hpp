@@ -4,6 +4,7 @@
 #include <optional>
 #include <vector>
 
+#include "cca_mrpt/mapping/line_extraction.hpp"
 #include "cca_mrpt/slam/contradiction_monitor.hpp"
 #include "cca_mrpt/slam/correction_count.hpp"
 #include "cca_mrpt/slam/graph_back_end.hpp"
@@ -56,10 +57,15 @@ class Slam {
   /// Lets the map begin with the robot there. To be called before the first scan.
   void startAt(const Pose2& T_map_start) { T_map_start_ = T_map_start; }
 
-  /// @param scan            T_map_sensor is not used.
+  /// @param analysed        T_map_sensor of its scan is not used.
   /// @param T_odom_robot    in any frame that stays; nothing: the robot goes on as it went.
-  SlamPose step(const Scan& scan, const Pose2& T_robot_sensor,
+  SlamPose step(const AnalysedScan& analysed, const Pose2& T_robot_sensor,
                 const std::optional<Pose2>& T_odom_robot);
+  /// The same with a scan that nobody has analysed yet.
+  SlamPose step(const Scan& scan, const Pose2& T_robot_sensor,
+                const std::optional<Pose2>& T_odom_robot) {
+    return step(analyse(scan), T_robot_sensor, T_odom_robot);
+  }
 
   /// Takes what was left by earlier drives, each a part of its own, before the first scan. The
   /// robot may be anywhere in it or elsewhere: its own drive is the map, until it has found itself

@@ -9,7 +9,8 @@ namespace cca {
 /// Line SLAM as a localiser: the map begins at startOf() the first measurement.
 class SlamLocaliser : public Localiser {
  public:
-  Estimate update(const Measurement& measurement, const PastScans& past) override;
+  Estimate update(const Measurement& measurement, const AnalysedScan& analysed,
+                  const PastScans& past) override;
   bool correctsPast() const override { return true; }
   void finish(const DoAll& do_all) override { slam_.finish(do_all); }
   std::vector<Pose2> trajectory() const override { return slam_.trajectory(); }

@@ -46,7 +46,9 @@ Locate scanByScan(PoseSource source) {
     const std::unique_ptr<Localiser> localiser = makeLocaliser(source);
     std::vector<Pose2> trajectory;
     for (const LogRecord& record : log) {
-      trajectory.push_back(localiser->update(measurementOf(record, source), {}).T_map_robot);
+      const Measurement measurement = measurementOf(record, source);
+      trajectory.push_back(
+          localiser->update(measurement, {measurement.scan, {}, {}}, {}).T_map_robot);
     }
     return trajectory;
   };

@@ -23,11 +23,10 @@ LocalizedLog::LocalizedLog(const std::vector<PlanLine>& plan, const std::optiona
 
 void LocalizedLog::take(LogReader& log, const Interruption& interruption) {
   Progress progress("localise");
-  const PastScans none;
   while (!interrupted_) {
     const std::optional<LogRecord> record = log.next();
     if (!record) break;
-    const Estimate estimate = localiser_.update(measurementOf(*record, PoseSource::kSlam), none);
+    const Estimate estimate = localiser_.localise(measurementOf(*record, PoseSource::kSlam));
     note(estimate, *record);
     ++scans_;
     progress.show(log.progress(), std::to_string(scans_) + " scans, " +

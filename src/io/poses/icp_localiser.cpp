@@ -15,12 +15,12 @@ IcpLocaliser::IcpLocaliser(const IcpParameters& parameters) {
 
 IcpLocaliser::~IcpLocaliser() = default;
 
-Estimate IcpLocaliser::update(const Measurement& measurement, const PastScans& /*past*/) {
+Estimate IcpLocaliser::update(const Measurement& measurement, const AnalysedScan& analysed,
+                              const PastScans& /*past*/) {
   if (!T_map_start_) T_map_start_ = startOf(measurement);
   Estimate estimate;
-  estimate.T_map_robot =
-      *T_map_start_ *
-      matcher_->locate(measurement.scan, measurement.T_robot_sensor, measurement.T_odom_robot);
+  estimate.T_map_robot = *T_map_start_ * matcher_->locate(analysed.scan, measurement.T_robot_sensor,
+                                                          measurement.T_odom_robot);
   estimate.T_map_sensor = estimate.T_map_robot * measurement.T_robot_sensor;
   return estimate;
 }

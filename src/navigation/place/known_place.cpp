@@ -74,7 +74,7 @@ void KnownPlace::noteScanned(Cell c) {
 
 CellMove KnownPlace::correct(const PastScans& past) {
   KnownPlace anew(space_.clearance());
-  for (const auto& kept : past.kept()) anew.observe(kept.scan, kept.T_map_robot.position());
+  for (const auto& kept : past.kept()) anew.observe(kept.seen.scan, kept.T_map_robot.position());
   const CellMove moved = [&past, grid = ExplorationGrid(grid_.resolution())](Cell c) {
     const Eigen::Vector2d p_was = grid.centreOf(c);
     return grid.cellOf(past.correctionAt(p_was) * p_was);

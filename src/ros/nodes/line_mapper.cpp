@@ -6,7 +6,6 @@
 
 #include <stdexcept>
 
-#include "cca_mrpt/mapping/line_extraction.hpp"
 #include "cca_mrpt/session/earlier_drive.hpp"
 #include "io/files/memory_file.hpp"
 #include "io/maps/grid_recorder.hpp"
@@ -168,7 +167,7 @@ class LineMapper {
   /// Of the session's last scan.
   void showLinesOf(const PlacedScan& scan) {
     std::vector<MapLine> numbered;
-    for (const LineSegment& line : extractLines(session_->scan(), parameters_.program.mapping)) {
+    for (const LineSegment& line : session_->scanLines()) {
       numbered.push_back({numbered.size(), line, line.moments.weight});
     }
     std_msgs::Header header;

@@ -80,7 +80,7 @@ class Localizer {
     const ros::WallTime start = ros::WallTime::now();
     Measurement measurement = measurementOf(scan, true);
     measurement.scan = compensation_.undistort(measurement.scan, measurement.motion);
-    const Estimate estimate = localiser_.update(measurement, no_past_);
+    const Estimate estimate = localiser_.localise(measurement);
     tell(estimate.is_known);
     // Nobody is told a guess: map -> odom grows old, and who drives by it stops.
     if (estimate.is_known) pose_.publish(estimate, *measurement.T_odom_robot, scan.stamp);
@@ -133,7 +133,6 @@ class Localizer {
   PlanFile plan_;
   KnownMap localiser_;
   MotionCompensation compensation_;
-  PastScans no_past_;
   ScanAgreement agreement_;
   bool was_localised_ = false;
   LinePublisher lines_;
