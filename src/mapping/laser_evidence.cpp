@@ -20,8 +20,6 @@ constexpr double kClear = 0.1;            // m, two bins: the least that counts 
 constexpr double kBlind = 0.05;           // m, before the sensor
 constexpr double kStep = 0.4;             // m, along a ray: the index names a wall 0.3 m around it
 
-bool isUsable(double range) { return isReturn(range) && range <= kLongestReturn; }
-
 /// The wall of the new line that each return lies on; -1 where there is none. The lines may come in
 /// any order: those of a full turn begin at a corner, not at the first beam.
 std::vector<Slot> wallsOfReturns(const Scan& scan, const std::vector<Eigen::Vector2d>& beams,
@@ -36,7 +34,7 @@ std::vector<Slot> wallsOfReturns(const Scan& scan, const std::vector<Eigen::Vect
     for (const BeamRange& range :
          beamsTowards(scan, line.segment.start, line.segment.end, on_line)) {
       for (std::size_t beam = range.first; beam < range.last; ++beam) {
-        if (!isUsable(scan.ranges[beam])) continue;
+        if (!isUsableReturn(scan.ranges[beam])) continue;
         const Eigen::Vector2d v = viewpoint + scan.ranges[beam] * beams[beam] - line.segment.start;
         const double t = u.dot(v), d = std::abs(cross(u, v));
         if (t < -1e-6 || t > length + 1e-6 || d >= off[beam]) continue;
@@ -125,6 +123,8 @@ bool passThrough(const Scan& scan, const Rays& rays, const std::vector<Eigen::Ve
 
 }  // namespace
 
+bool isUsableReturn(double range) { return isReturn(range) && range <= kLongestReturn; }
+
 std::vector<Eigen::Vector2d> beamDirections(const Scan& scan) {
   std::vector<Eigen::Vector2d> beams;
   beams.reserve(scan.size());
@@ -168,7 +168,7 @@ void depositReturns(const Scan& scan, const std::vector<Eigen::Vector2d>& beams,
   const std::vector<Slot> walls_of_lines = wallsOfReturns(scan, beams, lines, noise);
   const double on_wall = kGates * noise.lateralSigma();
   for (std::size_t beam = 0; beam < scan.size(); ++beam) {
-    if (!isUsable(scan.ranges[beam])) continue;
+    if (!isUsableReturn(scan.ranges[beam])) continue;
     const Eigen::Vector2d p = viewpoint + scan.ranges[beam] * beams[beam];
     Slot slot = walls_of_lines[beam];
     // A wall grows only where no other wall stands.

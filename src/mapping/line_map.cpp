@@ -10,6 +10,7 @@
 #include "cca_mrpt/mapping/line_covariance.hpp"
 #include "cca_mrpt/mapping/line_extraction.hpp"
 #include "cca_mrpt/mapping/wall_upkeep.hpp"
+#include "hindsight.hpp"
 
 namespace cca {
 namespace {
@@ -65,7 +66,11 @@ bool LineMap::insert(const Scan& scan, const std::vector<LineSegment>& lines) {
   return true;
 }
 
-void LineMap::lookBack() {
+void LineMap::lookBack(const std::vector<PastScans::Kept>& scans) {
+  if (!scans.empty() && !parameters_.without(Part::kHindsight)) {
+    reassignEvidence(scans, noise_, !parameters_.without(Part::kRays), walls_);
+    seeToTouched(walls_, noise_, parameters_, next_id_);
+  }
   if (poses_ == Poses::kOwn) network_.settle(noise_, walls_);
   const std::vector<MapLine> before = std::exchange(dotted_, {});
   for (MapLine line : loose_.dottedWalls(pieces(), noise_)) {

@@ -7,9 +7,11 @@
 namespace cca {
 namespace {
 
-constexpr int kWindow = 2;            // bins on either side that speak for a place
-constexpr double kFewestRays = 2.0;   // that can refute a place
-constexpr double kRaysPerHit = 0.5;   // from which on a place is free
+constexpr int kWindow = 2;           // bins on either side that speak for a place
+constexpr double kFewestRays = 2.0;  // that can refute a place
+/// From which on a place is free. While a map grows, the rays that passed before the wall was
+/// founded are not counted; in hindsight all are, and the greater number decides.
+constexpr double kRaysPerHit = 0.5, kRaysPerHitInHindsight = 1.0;
 constexpr double kPartingRays = 2.0;  // that keep a gap open
 
 /// The mean point of a bin that holds hits, of its weight.
@@ -93,7 +95,7 @@ bool SupportProfile::pass(double t, double rays) {
   for (int k = std::max(first(), i - kWindow); k < std::min(last(), i + kWindow + 1); ++k) {
     if (bin(k).hits() <= 0.0) continue;
     const Counts now = countsAround(k);
-    if (now.stand() != Counts{now.hits, now.passed - bin(i).passed + before}.stand()) return true;
+    if (stand(now) != stand({now.hits, now.passed - bin(i).passed + before})) return true;
   }
   return false;
 }
@@ -107,8 +109,9 @@ SupportProfile::Counts SupportProfile::countsAround(int i) const {
   return counts;
 }
 
-bool SupportProfile::Counts::stand() const {
-  return passed < kFewestRays || passed < kRaysPerHit * hits;
+bool SupportProfile::stand(const Counts& counts) const {
+  const double rays_per_hit = in_hindsight_ ? kRaysPerHitInHindsight : kRaysPerHit;
+  return counts.passed < kFewestRays || counts.passed < rays_per_hit * counts.hits;
 }
 
 void SupportProfile::add(const SupportBin& other) {
@@ -126,6 +129,12 @@ void SupportProfile::add(const SupportBin& other) {
   if (share < 1.0) at(j).add(other.part(1.0 - share, border, other.last));
 }
 
+void SupportProfile::forget() {
+  added_up_ = false;
+  in_hindsight_ = true;
+  bins_.assign(bins_.size(), SupportBin{});
+}
+
 SupportBin SupportProfile::take(int i) {
   added_up_ = false;
   return std::exchange(at(i), SupportBin{});
@@ -134,6 +143,7 @@ SupportBin SupportProfile::take(int i) {
 SupportProfile SupportProfile::cutFrom(int from) {
   added_up_ = false;
   SupportProfile tail;
+  tail.in_hindsight_ = in_hindsight_;
   const auto begin = bins_.begin() + (from - first_);
   tail.first_ = from;
   tail.bins_.assign(begin, bins_.end());
@@ -158,9 +168,7 @@ std::vector<int> SupportProfile::prune() {
   return refuted;
 }
 
-bool SupportProfile::occupied(int i) const {
-  return bin(i).hits() > 0.0 && countsAround(i).stand();
-}
+bool SupportProfile::occupied(int i) const { return bin(i).hits() > 0.0 && stand(countsAround(i)); }
 
 std::vector<Stretch> SupportProfile::stretches() const {
   std::vector<Stretch> found;

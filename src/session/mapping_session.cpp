@@ -150,7 +150,7 @@ Estimate MappingSession::localise(const Measurement& measurement, std::size_t se
   }
   analysed_.scan.T_map_sensor = now.T_map_sensor;
   const bool corrects = localiser_->correctsPast();
-  const bool is_kept = corrects && state_.past.add(analysed_, now.T_map_robot, now.is_known);
+  const bool is_kept = state_.past.add(analysed_, now.T_map_robot, now.is_known);
   if (now.is_known && (is_kept || !corrects)) insert(analysed_, now.T_map_robot, 0);
   return now;
 }
@@ -170,8 +170,7 @@ Estimate MappingSession::localiseSecondary(const Measurement& measurement, std::
   analysed_.scan.T_map_sensor = estimate.T_map_sensor;
   const bool corrects = localiser_->correctsPast();
   PastScans& past = state_.past;
-  const bool is_kept =
-      corrects && past.addBeside(past.size() - 1, analysed_, state_.last.T_map_robot, sensor);
+  const bool is_kept = past.addBeside(past.size() - 1, analysed_, state_.last.T_map_robot, sensor);
   if (is_kept || !corrects) insert(analysed_, estimate.T_map_robot, sensor);
   return estimate;
 }
@@ -188,7 +187,7 @@ void MappingSession::finish(const DoAll& do_all) {
 
 void MappingSession::mapAsItIs() {
   if (!localiser_->correctsPast()) {
-    execute_([this] { line_map_.lookBack(); });
+    execute_([this, kept = state_.past.kept()] { line_map_.lookBack(kept); });
     return;
   }
   takeCorrection();
@@ -214,7 +213,7 @@ void MappingSession::rebuild() {
       const std::size_t number = is_earlier ? one.step : one.step - earlier;
       insertNow({number, one.sensor, is_earlier, one.T_map_robot, one.seen.scan}, one.seen.lines);
     }
-    line_map_.lookBack();
+    line_map_.lookBack(kept);
   });
 }
 

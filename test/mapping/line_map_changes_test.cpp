@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "mapped_world.hpp"
 
 namespace cca {
@@ -40,6 +42,32 @@ TEST(LineMap, NothingIsLeftOfMoversAndNoWallIsLost) {
   for (const Eigen::Vector2d& p : pointsOn(map.lines())) {
     EXPECT_LT(room().distance(p), 0.05) << p.transpose();
   }
+  EXPECT_GT(recall(room(), map.lines(), 0.02), 0.99);
+}
+
+/// A robot sees free floor for thirty scans, and a crate on it for ten.
+TEST(LineMap, InHindsightRaysRefuteWhatCameAfterThem) {
+  SegmentWorld with_crate = room();
+  with_crate.box(1.5, 0.5, 2.1, 1.1);
+  LineMap map;
+  PastScans past;
+  std::mt19937 random(8);
+  for (int i = 0; i < 40; ++i) {
+    const Pose2 pose{-2.5 + 0.06 * i, -1.0, 0.1 * i};
+    const Scan scan = (i < 30 ? room() : with_crate).scan(pose, 0.01, random);
+    past.add({scan, {}, {}}, pose);
+    map.insert(scan);
+  }
+  const auto farthestFromAWall = [&map] {
+    double farthest = 0.0;
+    for (const Eigen::Vector2d& p : pointsOn(map.lines())) {
+      farthest = std::max(farthest, room().distance(p));
+    }
+    return farthest;
+  };
+  EXPECT_GT(farthestFromAWall(), 0.5) << "the crate is in the map while the robot stands before it";
+  map.lookBack(past.kept());
+  EXPECT_LT(farthestFromAWall(), 0.05);
   EXPECT_GT(recall(room(), map.lines(), 0.02), 0.99);
 }
 

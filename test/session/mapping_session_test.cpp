@@ -103,6 +103,7 @@ TEST(MappingSession, MapsEachScanAtGivenPoses) {
   const LineMap map = mapOf(session);
   LineMap expected;
   for (const Measurement& measurement : drive()) expected.insert(measurement.scan);
+  expected.lookBack(session.past().kept());
   EXPECT_EQ(numbersOf(map), numbersOf(expected));
   EXPECT_EQ(recorder.numbers.size(), drive().size());
   EXPECT_EQ(recorder.restarts, 0);

@@ -26,6 +26,7 @@ enum class Part : std::uint8_t {
   kYielding,      ///< stretches side by side stay with both walls
   kBends,         ///< walls are not cut
   kRays,          ///< rays that went through say nothing
+  kHindsight,     ///< the evidence of all scans is not assigned anew at the end
 };
 
 /// The parts that are left out: none.

@@ -13,6 +13,9 @@ namespace cca {
 /// Unit vectors of a scan's beams in the map frame.
 std::vector<Eigen::Vector2d> beamDirections(const Scan& scan);
 
+/// Whether a range is that of a return, and no farther than an indoor wall may be: 100 m.
+bool isUsableReturn(double range);
+
 /// Half-open range of beams.
 struct BeamRange {
   std::size_t first = 0, last = 0;

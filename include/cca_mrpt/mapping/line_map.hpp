@@ -13,6 +13,7 @@
 #include "cca_mrpt/mapping/parameters.hpp"
 #include "cca_mrpt/mapping/wall_network.hpp"
 #include "cca_mrpt/mapping/walls.hpp"
+#include "cca_mrpt/sensing/past_scans.hpp"
 #include "cca_mrpt/sensing/scan.hpp"
 
 namespace cca {
@@ -35,10 +36,13 @@ class LineMap {
   /// The same with lines (sensor frame, in any order) that were extracted elsewhere.
   bool insert(const Scan& scan, const std::vector<LineSegment>& lines);
 
-  /// A last look at the whole map: dotted walls among what is left over, and what all lines owe to
-  /// the poses, where these are the map's own. lines() holds both from now on.
-  /// Cost: see LooseReturns::dottedWalls() and WallNetwork::settle().
-  void lookBack();
+  /// A last look at the whole map: the evidence of its scans assigned anew (reassignEvidence()),
+  /// dotted walls among what is left over, and what all lines owe to the poses, where these are the
+  /// map's own. lines() holds all this from now on.
+  /// @param scans  those of the map, or as many of them as were kept; none: no evidence moves.
+  /// Cost: about that of an insertion for each scan; see LooseReturns::dottedWalls() and
+  /// WallNetwork::settle().
+  void lookBack(const std::vector<PastScans::Kept>& scans = {});
 
   /// The lines as they stand, by rising id; ends that meet share their corner. Dotted walls last.
   /// Cost: O(n log n) for n lines, of which none is fitted anew.

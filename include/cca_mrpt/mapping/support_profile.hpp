@@ -78,6 +78,8 @@ class SupportProfile {
   bool pass(double t, double rays = 1.0);
   /// Another profile's bin, already in this frame.
   void add(const SupportBin& bin);
+  /// Empties all bins, to be filled from all scans in hindsight; where they are stays.
+  void forget();
   /// Empties a bin and returns what it held.
   SupportBin take(int i);
   /// Cuts [from, last()) off and returns it.
@@ -108,13 +110,14 @@ class SupportProfile {
   /// What decides whether a place is occupied.
   struct Counts {
     double hits = 0.0, passed = 0.0;
-    bool stand() const;
   };
+  bool stand(const Counts& counts) const;
   Counts countsAround(int i) const;
   SupportBin& at(int i) { return bins_[static_cast<std::size_t>(i - first_)]; }
 
   int first_ = 0;
   std::vector<SupportBin> bins_;
+  bool in_hindsight_ = false;      ///< its returns and rays are those of all scans
   mutable bool added_up_ = false;  ///< tally_ holds
   mutable BinTally tally_;
 };

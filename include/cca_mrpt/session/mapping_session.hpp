@@ -49,7 +49,8 @@ void doNow(std::function<void()> work);
 ///
 /// Which scans make the map: where the localiser corrects the past, those that PastScans keeps, one
 /// every 10 cm or 5 degrees, so that a map can be made anew in time, and so that it depends on
-/// the poses alone, not on when they became known. Where poses are final, every scan.
+/// the poses alone, not on when they became known. Where poses are final, every scan; those that
+/// PastScans keeps assign its evidence at the end, see LineMap::lookBack().
 class MappingSession {
  public:
   struct Settings {
@@ -103,7 +104,7 @@ class MappingSession {
   const LineMap& lineMap() const { return line_map_; }
   /// How far the scans of the map agree with the map that the earlier ones made.
   const ScanAgreement& agreement() const { return agreement_; }
-  /// The scans kept, where the localiser corrects the past; else none.
+  /// The scans kept.
   const PastScans& past() const { return state_.past; }
   /// T_map_robot of each scan of this drive, as believed now, and its time [s].
   const std::vector<Pose2>& trajectory() const { return state_.trajectory; }

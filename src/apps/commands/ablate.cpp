@@ -12,7 +12,8 @@
 #include "apps/logs/log_warnings.hpp"
 #include "apps/runs/progress.hpp"
 #include "cca_mrpt/io/log_reader.hpp"
-#include "cca_mrpt/mapping/line_map.hpp"
+#include "cca_mrpt/localisation/given_poses.hpp"
+#include "cca_mrpt/session/mapping_session.hpp"
 #include "cca_mrpt/simulation/random.hpp"
 #include "commands.hpp"
 #include "evaluation/log_score.hpp"
@@ -48,6 +49,7 @@ constexpr LeftOut kParts[] = {
     {Part::kYielding, "yielding, side by side"},
     {Part::kBends, "cuts at bends"},
     {Part::kRays, "rays that went through"},
+    {Part::kHindsight, "evidence assigned anew at the end"},
 };
 
 struct AblationOptions {
@@ -111,10 +113,16 @@ void studyWorlds(const AblationOptions& options, Progress& progress, Study& stud
 constexpr int kMostPoints = 60000;
 
 double scoreOfMap(const std::vector<Scan>& scans, const CcaParameters& parameters) {
-  LineMap map(parameters);
-  for (const Scan& scan : scans) map.insert(scan);
+  MappingSession session(std::make_unique<GivenPoses>(), {parameters, false, 0.0});
+  for (const Scan& scan : scans) {
+    Measurement measurement;
+    measurement.scan = scan;
+    measurement.T_map_robot = scan.T_map_sensor;
+    session.add(measurement);
+  }
+  session.finish();
   std::vector<Segment2> segments;
-  for (const MapLine& line : map.lines()) {
+  for (const MapLine& line : session.lineMap().lines()) {
     segments.push_back({line.segment.start, line.segment.end});
   }
   LogScoreParameters fewer;
