@@ -234,13 +234,10 @@ FloorPlan floorPlan(const OccupancyRaster& whole, const std::vector<MapLine>& ma
       linesWithin({grid.origin - beyond, grid.origin + size + beyond}, map_lines);
   const Structure structure = tellStructure(grid, all_lines, tuning.structure);
   const std::vector<MapLine> lines = facesOf(structure.solid, all_lines);
-  Mask space = structure.open;
-  for (std::size_t k = 0; k < space.values.size(); ++k)
-    space.values[k] = space.values[k] || structure.furniture.values[k];
   const Raster<float> clearance = distanceTransform(structure.solid);
   RoomRegions regions = partitionIntoRooms(
-      space, clearance, candidatePassages(structure, clearance, lines, tuning.passages),
-      tuning.rooms);
+      spaceForRooms(structure, clearance, tuning.structure), clearance,
+      candidatePassages(structure, clearance, lines, tuning.passages), tuning.rooms);
   for (RoomBorder& border : regions.borders)
     border.passage = withJambsOfLines(border.passage, lines);
   plan.openings = openingsOf(regions);

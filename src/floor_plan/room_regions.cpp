@@ -120,18 +120,26 @@ double depthBeside(const Passage& passage, double resolution, bool left, IsOpen&
 }
 
 /// Relative width up to which a passage may be a door.
-double widestDoor(PassageEvidence evidence, const RoomTuning& tuning) {
-  switch (evidence) {
+double widestDoor(const Passage& passage, const RoomTuning& tuning) {
+  switch (passage.evidence) {
     case PassageEvidence::kNarrowing:
     case PassageEvidence::kAtCorner:
       return tuning.widest_narrowing;
     case PassageEvidence::kAbutting:
       return tuning.widest_abutting;
     case PassageEvidence::kCollinear:
+      if (passage.width() > tuning.door_leaf) return tuning.widest_abutting;
+      break;
     case PassageEvidence::kBetweenEnds:
       break;
   }
   return tuning.widest_collinear;
+}
+
+/// Relative width, on the other side, up to which a passage may be a corridor's mouth.
+double widestMouth(const Passage& passage, const RoomTuning& tuning) {
+  return passage.evidence == PassageEvidence::kBetweenEnds ? tuning.widest_front
+                                                           : tuning.widest_mouth;
 }
 
 /// Whether one can go through a passage: from one side to the other, somewhere along it. A line
@@ -159,9 +167,9 @@ std::vector<Passage> plausible(const Mask& space, const std::vector<Passage>& pa
     if (!leadsThrough(space, passage)) continue;
     const double q0 = passage.width() / widthBeside(passage, space.resolution, false, isOpen);
     const double q1 = passage.width() / widthBeside(passage, space.resolution, true, isOpen);
-    const bool is_door = std::max(q0, q1) <= widestDoor(passage.evidence, tuning);
-    const bool is_mouth =
-        passage.evidence != PassageEvidence::kNarrowing && std::min(q0, q1) <= tuning.widest_mouth;
+    const bool is_door = std::max(q0, q1) <= widestDoor(passage, tuning);
+    const bool is_mouth = passage.evidence != PassageEvidence::kNarrowing &&
+                          std::min(q0, q1) <= widestMouth(passage, tuning);
     if (is_door || is_mouth) kept.push_back(passage);
   }
   return kept;
@@ -235,7 +243,7 @@ class RegionGraph {
     };
     const double q0 = width / besideOf(0), q1 = width / besideOf(1);  // relative width
     const double as_door =
-        std::max(std::max(q0, q1) / widestDoor(border.passage.evidence, tuning_),
+        std::max(std::max(q0, q1) / widestDoor(border.passage, tuning_),
                  (width + tuning_.least_step) / std::min(besideOf(0), besideOf(1)));
     if (border.passage.evidence == PassageEvidence::kNarrowing) return as_door;
     // A corridor's mouth.
@@ -243,7 +251,7 @@ class RegionGraph {
     const double arm_area = area_[at(arm)];
     const double other = width / depth_[k][q0 > q1 ? 1 : 0];
     const bool is_front = border.passage.evidence == PassageEvidence::kBetweenEnds;
-    double as_mouth = std::max(std::min(q0, q1) / tuning_.widest_mouth,
+    double as_mouth = std::max(std::min(q0, q1) / widestMouth(border.passage, tuning_),
                                is_front ? 0.0 : other / tuning_.shallowest_mouth);
     // A niche joins last: it may be a piece of a corridor still.
     if (arm_area < tuning_.mouth_area * width * width) as_mouth = std::max(as_mouth, kNiche);

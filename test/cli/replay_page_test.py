@@ -172,8 +172,9 @@ def small_run():
         'coverage': {'distance': column(500 * k for k in range(moments)), 'share': column(1000 * k for k in range(moments))}}
 
 
-def with_run(page, run):
-    packed = base64.b64encode(zlib.compress(json.dumps(run).encode())).decode()
+def with_run(page, run, rooms=None):
+    packed = '.'.join(base64.b64encode(zlib.compress(json.dumps(part).encode())).decode()
+                      for part in (run, rooms) if part is not None)
     return RUN.sub(lambda found: found[1] + packed + found[3], page, count=1)
 
 
@@ -249,6 +250,41 @@ def test_small_run(browser, page, keep):
     check(browser.run('player.time') == 4, 'seeks the distance')
     check(abs(browser.run('player.maps[0].run.poseErrors()[10]') - 0.1) < 1e-9, 'pose error')
     check(browser.run('player.charts.length') == 2, 'two charts')
+
+
+def test_rooms(browser, page, path):
+    """Rooms are those of the finished map; a name is shown as it is written; lines keep the mouse."""
+    rooms = [{'id': 1, 'name': '<b>hall</b>', 'area': 23.04,
+              'rings': [[0, 0, 4000, 0, 4000, 6000, 0, 6000], [1000, 4000, 1000, 5000, 2000, 5000, 2000, 4000]]},
+             {'id': 2, 'name': '', 'area': 24, 'rings': [[4000, 0, 8000, 0, 8000, 6000, 4000, 6000]]}]
+    with open(page, encoding='utf-8') as file:
+        text = with_run(file.read(), small_run(), rooms)
+    with open(path, 'w', encoding='utf-8') as file:
+        file.write(text)
+    browser.open(path)
+
+    def told_at(*places):
+        for place in places:  # as a hand would
+            browser.mouse('mouseMoved', *place_of(browser, *place))
+            time.sleep(0.1)
+        return browser.run("document.querySelector('.leaflet-tooltip')?.innerText ?? ''")
+
+    drawn = lambda: browser.run('player.maps[0].layers.rooms.getLayers().length')
+    check(drawn() == 2, f'{drawn()} rooms')
+    check(told_at((3, 1.4), (3, 1.5)) == '<b>hall</b>, 23.0 m\u00b2', f'in the hall: {told_at((3, 1.5))!r}')
+    check(told_at((5, 1.4), (5, 1.5)) == 'room 2, 24.0 m\u00b2', f'in room 2: {told_at((5, 1.5))!r}')
+    check(told_at((1.4, 4.5), (1.5, 4.5)) == '', f'in the hole: {told_at((1.5, 4.5))!r}')
+    check('line 2' in told_at((7.9, 3), (8, 3)), f'on the wall: {told_at((8, 3))!r}')
+    for _ in range(2):  # hides the rooms and shows them again: under the lines, as before
+        browser.run("document.querySelector('#layers input[name=rooms]').click()")
+    check('line 2' in told_at((7.9, 2), (8, 2)), f'on the wall, later: {told_at((8, 2))!r}')
+    browser.run('player.show(5)')
+    check(drawn() == 0, 'rooms of the finished map stand in one that is not finished')
+    browser.run('player.show(10)')
+    check(drawn() == 2, 'rooms are back at the end')
+    browser.open(page)
+    boxes = browser.run("Array.from(document.querySelectorAll('#layers input'), (box) => box.name)")
+    check('rooms' not in boxes, f'boxes of a run without plan: {boxes}')
 
 
 SIZES = {'desk': (1000, 800), 'phone': (360, 740), 'phone lying': (740, 360)}
@@ -329,7 +365,7 @@ def test_contrast(browser, page):
             for ground in 'ground', 'control':
                 ratio = contrast(of(text), of(ground))
                 check(ratio >= 4.5, f'dark {dark}: {text} on {ground}: {ratio:.2f}')
-        for name in 'line', 'scan', 'frontier', 'way', 'path', 'truth', 'robot':
+        for name in 'line', 'room', 'scan', 'frontier', 'way', 'path', 'truth', 'robot':
             for ground in 'floor', 'unknown':
                 ratio = contrast(of(name), of(ground))
                 check(ratio >= 3, f'dark {dark}: {name} on {ground}: {ratio:.2f}')
@@ -393,6 +429,7 @@ def test_exploration(browser, page, keep):
     drawn = browser.run('performance.getEntriesByType("paint").map((e) => e.startTime)')
     print(f'two_rooms: {os.path.getsize(page)} bytes, first paint after {drawn} ms, ready in {time.time() - begin:.2f} s')
     check(browser.run('player.maps[0].drawn.size') > 5, 'lines')
+    check(browser.run('player.maps[0].run.rooms.length') == 2, 'two rooms')
     check(browser.run('player.charts.length') == 2, 'coverage and pose error')
     check(abs(browser.run('player.maps[0].run.coverage.share.at(-1)') - 1) < 0.02, 'coverage at the end')
 
@@ -465,6 +502,7 @@ def main():
         browser = Browser(chromium, work + '/profile')
         try:
             test_small_run(browser, small, keep)
+            test_rooms(browser, small, work + '/rooms.html')
             test_keys_after_a_click(browser, small)
             test_sizes(browser, page, keep)
             test_contrast(browser, small)

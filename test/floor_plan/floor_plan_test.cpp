@@ -102,6 +102,35 @@ TEST_P(FloorPlanAt, PartsACorridorFromAHallWhoseWallIsTheCorridorsToo) {
   EXPECT_NEAR(plan.openings[0].width(), 1.2, 0.05);
 }
 
+TEST_P(FloorPlanAt, KeepsACorridorWithAnAlcoveWhole) {
+  const DrawnMap map =
+      drawMap({{{0, 0}, {16, 0}, {16, 1.6}, {10, 1.6}, {10, 3.1}, {5, 3.1}, {5, 1.6}, {0, 1.6}}},
+              GetParam());
+  const FloorPlan plan = floorPlan(map.grid, map.lines);
+  ASSERT_EQ(plan.rooms.size(), 1u);
+  EXPECT_NEAR(plan.rooms[0].area, 33.1, 0.34);
+}
+
+TEST_P(FloorPlanAt, PartsRoomsAtAPillarBetweenTwoOpenings) {
+  // 3.9 m from wall to wall, more than any opening: the pillar makes two of 1.7 m.
+  const Polygon hall{{0, 0}, {4, 0},    {4, 1.05},    {4.15, 1.05}, {4.15, 0}, {8, 0},
+                     {8, 6}, {4.15, 6}, {4.15, 4.95}, {4, 4.95},    {4, 6},    {0, 6}};
+  const Polygon pillar{{3.85, 2.75}, {3.85, 3.25}, {4.3, 3.25}, {4.3, 2.75}};
+  const DrawnMap map = drawMap({hall, pillar}, GetParam());
+  const FloorPlan plan = floorPlan(map.grid, map.lines);
+  EXPECT_EQ(plan.rooms.size(), 2u);
+  ASSERT_EQ(plan.openings.size(), 2u);
+  for (const PlanOpening& opening : plan.openings) EXPECT_NEAR(opening.width(), 1.7, 0.1);
+}
+
+TEST_P(FloorPlanAt, LeavesOutWhatBeamsThroughAWindowShow) {
+  const DrawnMap map = drawMap(
+      {{{0, 0}, {4, 0}, {4, 1.9}, {12, 1.9}, {12, 2.1}, {4, 2.1}, {4, 4}, {0, 4}}}, GetParam());
+  const FloorPlan plan = floorPlan(map.grid, map.lines);
+  ASSERT_EQ(plan.rooms.size(), 1u);
+  EXPECT_NEAR(plan.rooms[0].area, 16.0, 0.16);
+}
+
 TEST_P(FloorPlanAt, KeepsAnLShapedRoomWhole) {
   const DrawnMap map = drawMap({{{0, 0}, {6, 0}, {6, 3}, {3, 3}, {3, 6}, {0, 6}}}, GetParam());
   const FloorPlan plan = floorPlan(map.grid, map.lines);

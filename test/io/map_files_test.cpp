@@ -439,6 +439,35 @@ TEST(Picture, ShowsTheWallsWhereTheyAre) {
   EXPECT_GT(brightness(2.0, 2.5), 200);  // nothing
 }
 
+TEST(Picture, TintsRoomsUnderTheLinesAndNotTheirHoles) {
+  const TemporaryFolder folder;
+  PictureOptions options;
+  options.longest_side = 400;
+  options.caption = options.trajectory = false;
+  options.view = Eigen::AlignedBox2d(Eigen::Vector2d(-4, -4), Eigen::Vector2d(6, 6));
+  options.rooms.resize(1);
+  options.rooms[0].outline = {{0, 0}, {4, 0}, {4, 5}, {0, 5}};
+  options.rooms[0].holes = {{{1, 1}, {1, 2}, {2, 2}, {2, 1}}};
+  writePicture(folder / "rooms.png", corner(), options);
+  options.rooms.clear();
+  writePicture(folder / "none.png", corner(), options);
+  const auto colourAt = [&](const char* name, double x, double y) {
+    mrpt::img::CImage image;
+    if (!image.loadFromFile(folder / name)) ADD_FAILURE() << name;
+    const auto* bgr = image.ptr<std::uint8_t>(static_cast<unsigned>(40.0 * (x + 4.0)),
+                                              static_cast<unsigned>(40.0 * (6.0 - y)));
+    return std::array<int, 3>{bgr[0], bgr[1], bgr[2]};
+  };
+  EXPECT_NE(colourAt("rooms.png", 3, 3.5), colourAt("none.png", 3, 3.5));
+  for (int k : {0, 1, 2}) {  // lightly
+    EXPECT_NEAR(colourAt("rooms.png", 3, 3.5)[static_cast<std::size_t>(k)],
+                colourAt("none.png", 3, 3.5)[static_cast<std::size_t>(k)], 26);
+  }
+  EXPECT_EQ(colourAt("rooms.png", 1.5, 1.5), colourAt("none.png", 1.5, 1.5));  // a hole
+  EXPECT_EQ(colourAt("rooms.png", 5, 3), colourAt("none.png", 5, 3));          // outside
+  EXPECT_EQ(colourAt("rooms.png", 2.0, 0.0), colourAt("none.png", 2.0, 0.0));  // a wall lies above
+}
+
 TEST(WholeView, ShowsAllLinesAndPoses) {
   MapProducts products = corner();
   products.lines.push_back(line(8, 150, 0, 150, 1));  // no pose near it, but no wide gap either

@@ -136,6 +136,28 @@ TEST(ReplayPage, HoldsItsRuns) {
   EXPECT_THAT(page, testing::Not(testing::HasSubstr("<link")));
 }
 
+TEST(ReplayPage, KeepsTheRoomsOfARun) {
+  PlanRoom room;
+  room.id = 3;
+  room.name = "caf\xC3\xA9 \"</script>\"";
+  room.area = 15.0;
+  room.outline = {{0, 0}, {4, 0}, {4, 4.0004}, {0, 4}};
+  room.holes = {{{1, 1}, {1, 2}, {2, 2}}};
+  const std::string packed = drive(10).packed(), run = withRooms(packed, {room});
+  EXPECT_EQ(withRooms(packed, {room}), run);
+  EXPECT_EQ(withRooms(packed, {}), packed);
+  const std::vector<std::string> runs{run, packed};
+  EXPECT_EQ(runsOfReplayPage(replayPage(runs), "page"), runs);
+  ASSERT_EQ(run.compare(0, packed.size() + 1, packed + '.'), 0);
+  const nlohmann::json rooms = unpacked(run.substr(packed.size() + 1));
+  ASSERT_EQ(rooms.size(), 1U);
+  EXPECT_EQ(rooms[0]["id"], 3);
+  EXPECT_EQ(rooms[0]["name"], room.name);
+  EXPECT_EQ(rooms[0]["area"], 15.0);
+  EXPECT_EQ(rooms[0]["rings"], nlohmann::json({{0, 0, 4000, 0, 4000, 4000, 0, 4000},
+                                               {1000, 1000, 1000, 2000, 2000, 2000}}));
+}
+
 TEST(ReplayPage, OfSomethingElseIsToldApart) {
   EXPECT_THROW(runsOfReplayPage("<html></html>", "page"), std::runtime_error);
 }

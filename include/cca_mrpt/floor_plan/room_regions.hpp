@@ -13,12 +13,15 @@ namespace cca {
 /// both regions, which is twice the greatest clearance in it.
 struct RoomTuning {
   double widest_narrowing = 0.55;  ///< relative width; of kNarrowing and kAtCorner
-  double widest_abutting = 0.85;   ///< the same of kAbutting
+  double widest_abutting = 0.85;   ///< the same of kAbutting, and of wide kCollinear
   double widest_collinear = 0.9;   ///< the same of kCollinear and kBetweenEnds
+  double door_leaf = 1.4;          ///< m; a gap in a wall's line that is wider holds no door
   double least_step = 0.16;  ///< m, three cells; a door is that much narrower than the space beside
   /// The mouth of a corridor is as wide as that. Its relative width on the other side is at most
-  double widest_mouth = 0.6;
-  double shallowest_mouth = 0.7;  ///< its width over the depth of the other side: no crossing
+  /// that; a corridor with an alcove is twice as wide there, and one space still.
+  double widest_mouth = 0.45;
+  double widest_front = 0.6;      ///< the same between two wall ends
+  double shallowest_mouth = 0.6;  ///< its width over the depth of the other side: no crossing
   double mouth_area = 2.5;        ///< squares of its width that a corridor has at least: no niche
   double smallest_room = 1.0;     ///< m^2
   double least_clearance = 0.15;  ///< m to the next wall; with less a gap is none to pass through

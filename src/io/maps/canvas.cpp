@@ -60,6 +60,20 @@ void Canvas::polyline(const std::vector<Eigen::Vector2d>& points_map, double wid
   cairo_stroke(cairo_.get());
 }
 
+void Canvas::area(const std::vector<std::vector<Eigen::Vector2d>>& rings_map, const Colour& with) {
+  for (const auto& ring : rings_map) {
+    cairo_new_sub_path(cairo_.get());
+    for (const auto& p_map : ring) {
+      const Eigen::Vector2d p = pixel(p_map);
+      cairo_line_to(cairo_.get(), p.x(), p.y());
+    }
+    cairo_close_path(cairo_.get());
+  }
+  colour(with);
+  cairo_set_fill_rule(cairo_.get(), CAIRO_FILL_RULE_EVEN_ODD);
+  cairo_fill(cairo_.get());
+}
+
 void Canvas::disc(const Eigen::Vector2d& centre_map, double radius, const Colour& with, double rim,
                   const Colour& rim_colour) {
   const Eigen::Vector2d centre = pixel(centre_map);

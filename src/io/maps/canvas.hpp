@@ -27,6 +27,8 @@ class Canvas {
 
   void fill(const Colour& colour);
   void polyline(const std::vector<Eigen::Vector2d>& points_map, double width, const Colour& colour);
+  /// Fills what lies inside of an odd number of rings.
+  void area(const std::vector<std::vector<Eigen::Vector2d>>& rings_map, const Colour& colour);
   void disc(const Eigen::Vector2d& centre_map, double radius, const Colour& colour,
             double rim = 0.0, const Colour& rim_colour = {1, 1, 1});
   /// An image whose lower left corner lies at a point of the map. @param argb  rows from the top.

@@ -21,7 +21,8 @@ using Box = Eigen::AlignedBox2d;
 constexpr double kMargin = 1.0;        // m around the map
 constexpr double kSmallestView = 2.0;  // m
 constexpr int kHeader = 64;            // pixels of a sheet of 1600
-constexpr double kThinnest = 0.5;      // of the strokes on a sheet of 1600 pixels
+constexpr double kRoomOpacity = 0.1;
+constexpr double kThinnest = 0.5;  // of the strokes on a sheet of 1600 pixels
 
 constexpr Colour kUnknown{0.906, 0.922, 0.933}, kFree{1.0, 1.0, 1.0}, kHit{0.55, 0.62, 0.67};
 constexpr Colour kInk{0.13, 0.17, 0.21}, kSoftInk{0.38, 0.44, 0.49}, kPaper{1.0, 1.0, 1.0};
@@ -70,6 +71,18 @@ void drawBackground(Canvas& canvas, const mrpt::maps::COccupancyGridMap2D& grid,
   const double size = grid.getResolution();
   canvas.image(argb, columns, rows, {grid.getXMin() + left * size, grid.getYMin() + low * size},
                size);
+}
+
+/// So lightly that cells and lines are seen as before.
+void drawRooms(Canvas& canvas, const std::vector<PlanRoom>& rooms) {
+  std::size_t next = 0;
+  for (const PlanRoom& room : rooms) {
+    std::vector<Polygon> rings{room.outline};
+    rings.insert(rings.end(), room.holes.begin(), room.holes.end());
+    Colour colour = kPalette[next++ % kPalette.size()];
+    colour.alpha = kRoomOpacity;
+    canvas.area(rings, colour);
+  }
 }
 
 void drawLines(Canvas& canvas, const MapProducts& products, double unit) {
@@ -207,6 +220,7 @@ void writePicture(const std::string& png_path, const MapProducts& products,
   Canvas canvas(view, side, options.caption ? static_cast<int>(kHeader * unit) : 0);
   canvas.fill(kUnknown);
   if (options.background && products.grid) drawBackground(canvas, *products.grid, view);
+  drawRooms(canvas, options.rooms);
   if (options.trajectory) drawTrajectory(canvas, products.trajectory, unit);
   drawLines(canvas, products, unit);
   if (options.trajectory) drawEnds(canvas, products.trajectory, unit);

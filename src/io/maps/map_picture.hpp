@@ -4,7 +4,9 @@
 #include <Eigen/Geometry>
 #include <optional>
 #include <string>
+#include <vector>
 
+#include "cca_mrpt/floor_plan/floor_plan.hpp"
 #include "cca_mrpt/io/map_products.hpp"
 
 namespace cca {
@@ -15,6 +17,8 @@ struct PictureOptions {
   bool background = true;   ///< the occupancy grid, where there is one
   bool trajectory = true;
   bool caption = true;  ///< title and numbers
+  /// Of the floor plan, in the products' frame: drawn lightly under the lines.
+  std::vector<PlanRoom> rooms;
   /// m, map frame: what to show; nothing: the whole map.
   std::optional<Eigen::AlignedBox2d> view;
 };
@@ -22,9 +26,9 @@ struct PictureOptions {
 constexpr int kSmallestPicture = 64, kLargestPicture = 16384;
 
 /// Draws a map as people would show it, anti-aliased, without a display: unknown space grey, free
-/// space white, the scans' end points as a soft background; each poly-line in a colour of its own
-/// with its vertices, single lines dark; the trajectory with start and end; a scale bar.
-/// An empty map gives an empty sheet with its scale bar.
+/// space white, the scans' end points as a soft background, rooms tinted; each poly-line in a
+/// colour of its own with its vertices, single lines dark; the trajectory with start and end; a
+/// scale bar. An empty map gives an empty sheet with its scale bar.
 /// @throws std::runtime_error naming the file where it cannot be written.
 void writePicture(const std::string& png_path, const MapProducts& products,
                   const PictureOptions& options = {});

@@ -54,10 +54,10 @@ nlohmann::ordered_json summarize(const MapProducts& products) {
 
 /// Writes the floor plan beside the map, and its numbers into the summary. A map is a map without a
 /// plan, too: what goes wrong with it goes into the summary. @param p_grid  where the grid's frame
-/// lies in the map's. @return  whether the plan was written.
-bool addPlan(const std::string& folder, const MapProducts& map, const Eigen::Vector2d& p_grid,
-             nlohmann::ordered_json& summary) {
-  if (!map.grid) return false;
+/// lies in the map's. @return  the plan, if it was written.
+std::optional<FloorPlan> addPlan(const std::string& folder, const MapProducts& map,
+                                 const Eigen::Vector2d& p_grid, nlohmann::ordered_json& summary) {
+  if (!map.grid) return std::nullopt;
   try {
     const FloorPlan plan = planOfMap(map.lines, *map.grid, p_grid);
     writePlanFiles(folder, plan, map.title, true);
@@ -65,11 +65,23 @@ bool addPlan(const std::string& folder, const MapProducts& map, const Eigen::Vec
     for (const PlanRoom& room : plan.rooms) area += room.area;
     summary["plan"] = {
         {"rooms", plan.rooms.size()}, {"openings", plan.openings.size()}, {"floor_m2", area}};
-    return true;
+    return plan;
   } catch (const std::exception& error) {
     summary["plan"] = {{"error", error.what()}};
-    return false;
+    return std::nullopt;
   }
+}
+
+/// Rooms in the frame that lies at p_frame in theirs.
+std::vector<PlanRoom> seenFrom(const Eigen::Vector2d& p_frame, std::vector<PlanRoom> rooms) {
+  for (PlanRoom& room : rooms) {
+    for (Eigen::Vector2d& p : room.outline) p -= p_frame;
+    for (Polygon& hole : room.holes) {
+      for (Eigen::Vector2d& p : hole) p -= p_frame;
+    }
+    room.label -= p_frame;
+  }
+  return rooms;
 }
 
 std::vector<StampedPose> stamped(const std::vector<double>& times,
@@ -167,7 +179,12 @@ void writeMapFolder(const std::string& folder, const MapProducts& products) {
     writeGridMap(inFolder(folder, "map.gridmap.gz"), *products.grid);
     written.insert(written.end(), {"map.pgm", "map.yaml", "map.gridmap.gz"});
   }
-  writePicture(inFolder(folder, "map.png"), products);
+  auto summary = summarize(products);
+  const std::optional<FloorPlan> plan = addPlan(folder, map, products.origin, summary);
+  if (plan) written.insert(written.end(), kPlanFiles.begin(), kPlanFiles.end());
+  PictureOptions picture;
+  if (plan) picture.rooms = seenFrom(products.origin, plan->rooms);
+  writePicture(inFolder(folder, "map.png"), products, picture);
   writeScene(inFolder(folder, "scene.3Dscene"), products);
   if (!map.times.empty()) {
     const std::vector<StampedPose> poses = stamped(map.times, trajectory);
@@ -176,10 +193,7 @@ void writeMapFolder(const std::string& folder, const MapProducts& products) {
   }
   if (map.graph.size() > 0) put("graph.g2o", graphG2o(map.graph));
   if (!map.memory.empty()) put(kMemoryFile, map.memory);
-  if (!map.replay.empty()) put("replay.html", replayPage({map.replay}));
-  auto summary = summarize(products);
-  if (addPlan(folder, map, products.origin, summary))
-    written.insert(written.end(), kPlanFiles.begin(), kPlanFiles.end());
+  if (!map.replay.empty()) put("replay.html", replayPage({withRooms(map.replay, picture.rooms)}));
   // What an earlier run left would be taken for this one's.
   const auto removeOld = [&](const char* name) {
     std::error_code none_there;

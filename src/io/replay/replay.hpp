@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "cca_mrpt/floor_plan/floor_plan.hpp"
 #include "cca_mrpt/mapping/line_map.hpp"
 #include "cca_mrpt/sensing/scan.hpp"
 #include "cca_mrpt/simulation/world.hpp"
@@ -139,7 +140,12 @@ class Replay {
   std::vector<std::int64_t> coverage_distance_, coverage_share_;
 };
 
-/// The page: one file that asks nothing of any network. @param runs  packed(), one or two.
+/// The same run, with the rooms that its finished map has. @param packed  Replay::packed().
+/// @param rooms  of the floor plan, m, in the frame of packed().
+std::string withRooms(const std::string& packed, const std::vector<PlanRoom>& rooms);
+
+/// The page: one file that asks nothing of any network. @param runs  one or two, of packed() or
+/// withRooms().
 std::string replayPage(const std::vector<std::string>& runs);
 
 /// The same page without a run: it asks the server that it comes from for one that goes on.

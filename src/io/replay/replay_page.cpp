@@ -2,6 +2,7 @@
 #include <mrpt/system/string_utils.h>
 #include <zlib.h>
 
+#include <cmath>
 #include <cstdint>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
@@ -17,6 +18,8 @@ using Json = nlohmann::ordered_json;
 constexpr const char* kRunsHere = "<!-- runs -->";
 constexpr const char* kRunBegin = "<script type=\"application/octet-stream\" class=\"run\">";
 constexpr const char* kRunEnd = "</script>\n";
+
+constexpr char kRoomsFollow = '.';  // in a run, after what packed() gives; no sign of base64
 
 constexpr std::int64_t kMomentWithoutTime = 100;  // ms, from one to the next
 
@@ -56,7 +59,29 @@ std::string packedText(const std::string& text) {
   return base64;
 }
 
+/// x, y, x, y, ... in mm
+Json ringOf(const Polygon& polygon) {
+  Json numbers = Json::array();
+  for (const Eigen::Vector2d& p : polygon) {
+    numbers.push_back(std::llround(1e3 * p.x()));
+    numbers.push_back(std::llround(1e3 * p.y()));
+  }
+  return numbers;
+}
+
 }  // namespace
+
+std::string withRooms(const std::string& packed, const std::vector<PlanRoom>& rooms) {
+  if (rooms.empty()) return packed;
+  Json all = Json::array();
+  for (const PlanRoom& room : rooms) {
+    Json rings = Json::array({ringOf(room.outline)});
+    for (const Polygon& hole : room.holes) rings.push_back(ringOf(hole));
+    all.push_back({{"id", room.id}, {"name", room.name}, {"area", room.area}, {"rings", rings}});
+  }
+  return packed + kRoomsFollow +
+         packedText(all.dump(-1, ' ', false, Json::error_handler_t::replace));
+}
 
 /// The obstacles as lengths of runs: free, not free, free, ..., row by row from the lowest y.
 void Replay::setWorld(const World& world) {
@@ -180,7 +205,7 @@ std::vector<std::string> runsOfReplayPage(const std::string& page, const std::st
     at += begin.size();
     runs.push_back(page.substr(
         at, page.find_first_not_of("ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz"
-                                   "0123456789+/=\r\n",
+                                   "0123456789+/=.\r\n",
                                    at) -
                 at));
   }

@@ -6,6 +6,7 @@
 const kLayers = [
   ['lines', 'line'], ['seen floor', 'floor'], ['true world', 'world'], ['scan', 'scan'], ['frontier', 'frontier'],
   ['goal and way', 'way'], ['believed path', 'path'], ['true path', 'truth'], ['robot', 'robot'],
+  ['rooms', 'room'],
 ];
 /** What is hidden until somebody asks for it: the walls come first. */
 const kHiddenAtFirst = ['believed path', 'true path'];
@@ -148,6 +149,7 @@ class RunMap {
     }, () => this.blocks.clear());
     this.moment = -1;
     this.tracePaths();
+    this.rooms = run.rooms.map((room) => this.makeRoom(room));
     this.bounds = this.findBounds();
     this.layFloor(0.1);
     this.paint();
@@ -222,6 +224,7 @@ class RunMap {
     this.way.setStyle(fill('way'));
     this.goal.setStyle(fill('way'));
     this.robot.setStyle(fill('robot'));
+    for (const room of this.rooms) room.setStyle(fill('room'));
     for (const line of this.drawn.values()) line.setStyle({ color: colour('line') });
     this.floor.paint();
     if (this.moment >= 0) this.floor.show(this.moment);
@@ -248,8 +251,28 @@ class RunMap {
     this.drawDecision(decision);
     if (this.frontierChanges.goTo(moment)) this.drawFrontier();
     if (this.lineChanges.goTo(moment)) this.drawLines();
+    this.drawRooms(moment === run.size - 1);
     this.moment = moment;
     return decision;
+  }
+
+  /** A room, lightly: lines are seen through it, and feel the mouse before it does. */
+  makeRoom({ id, name, area, rings }) {
+    const ring = (numbers) => Array.from({ length: numbers.length / 2 }, (_, i) => [1e-3 * numbers[2 * i + 1], 1e-3 * numbers[2 * i]]);
+    const room = L.polygon(rings.map(ring), { renderer: this.lineRenderer, weight: 1, opacity: 0.5, fillOpacity: 0.1, bubblingMouseEvents: true });
+    const told = document.createElement('span');
+    told.textContent = `${name || 'room ' + id}, ${area.toFixed(1)} m²`;
+    room.bindTooltip(told, { sticky: true });
+    room.on('add', () => room.bringToBack());
+    return room.on('mouseover', () => room.setStyle({ fillOpacity: 0.25 })).on('mouseout', () => room.setStyle({ fillOpacity: 0.1 }));
+  }
+
+  /** Rooms are those of the finished map: earlier there are none. */
+  drawRooms(areThere) {
+    for (const room of this.rooms) {
+      if (!areThere) this.layers.rooms.removeLayer(room);
+      else if (!this.layers.rooms.hasLayer(room)) this.layers.rooms.addLayer(room);
+    }
   }
 
   drawRobot({ x, y, theta }) {

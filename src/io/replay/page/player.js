@@ -81,6 +81,7 @@ class Player {
   makeLayerBoxes() {
     const isThere = ({ run }, name) => {
       if (name === 'true world') return !!run.world;
+      if (name === 'rooms') return run.rooms.length > 0;
       if (name === 'true path') return !!run.truth;
       if (name === 'frontier') return run.frontier.x.length > 0;
       return name !== 'goal and way' || run.decisions.some((d) => d.goal || d.way.length);

@@ -29,7 +29,12 @@ function lastUpTo(sorted, value) {
 
 class Run {
   /** @param goesOn  whether append() is to follow. */
-  static async read(base64, goesOn = false) { return new Run(JSON.parse(await unpack(base64)), goesOn); }
+  static async read(text, goesOn = false) {
+    const [packed, rooms] = text.split('.');
+    const run = new Run(JSON.parse(await unpack(packed)), goesOn);
+    if (rooms) run.rooms = JSON.parse(await unpack(rooms));
+    return run;
+  }
 
   constructor(data, goesOn) {
     this.title = data.title;
@@ -37,6 +42,7 @@ class Run {
     this.robotRadius = data.robot_radius;
     this.block = data.frontier_block;
     this.world = data.world;
+    this.rooms = [];  // of the finished map
     const columns = (...names) => Object.fromEntries(names.map((name) => [name, []]));
     Object.assign(this, columns('time', 'distance', 'laserOf', 'ranges', 'rangesBegin', 'decisions', 'decisionFrames'));
     this.pose = columns('x', 'y', 'theta');
