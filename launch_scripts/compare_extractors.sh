@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# Regenerates docs/comparison.md and its tables in docs/log/: compare_extractors.sh [LOG...]
+# Regenerates docs/comparison.md and writes the tables of all figures to out/comparison/comparison_tables.md:
+# compare_extractors.sh [LOG...]
 # Without logs: the one that mrpt-common installs, and CARMEN logs in $CCA_SHARED_DATA/logs.
 set -eu
 cd "$(dirname "$0")/.."
@@ -16,9 +17,7 @@ if [ ${#logs[@]} -eq 0 ]; then
     [ -f "$log" ] && logs+=("$log")
   done
 fi
-out=$(mktemp -d)
-trap 'rm -rf "$out"' EXIT
+out=out/comparison
 "$program" compare-extractors "${worlds[@]}" ${logs[@]+"${logs[@]}"} --scans 20 --polygons 60 \
   --noise 0,0.01,0.03,0.1 --out "$out"
-/usr/bin/python3 launch_scripts/comparison_report.py "$out" docs/comparison.md \
-  docs/log/comparison_tables.md docs/images
+/usr/bin/python3 launch_scripts/comparison_report.py "$out" docs/comparison.md docs/images

@@ -2,11 +2,11 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Tables and plots of `cca-mrpt compare-extractors`.
 
-usage: comparison_report.py DIR DOCUMENT.md TABLES.md IMAGES
+usage: comparison_report.py DIR DOCUMENT.md IMAGES
 
-Reads DIR/comparison.csv, draws IMAGES/comparison_*.png, and puts verdicts, losses and
-tables between the lines `<!-- begin NAME -->` and `<!-- end NAME -->` of the document and of the page of
-tables.
+Reads DIR/comparison.csv, writes the tables of all figures to DIR/comparison_tables.md, draws
+IMAGES/comparison_*.png, and puts verdicts and losses between the lines `<!-- begin NAME -->` and
+`<!-- end NAME -->` of the document.
 """
 import collections
 import csv
@@ -170,6 +170,12 @@ def sweep(results, path):
     figure.savefig(path, dpi=80)
 
 
+def write(path, text):
+    with open(path + ".part", "w", encoding="utf-8") as file:
+        file.write(text)
+    os.replace(path + ".part", path)
+
+
 def replace(document, name, lines):
     with open(document, encoding="utf-8") as file:
         text = file.read()
@@ -179,24 +185,22 @@ def replace(document, name, lines):
         raise SystemExit("%s: has no '%s'" % (document, begin))
     block = begin + "\n" + "\n".join(lines) + "\n" + end
     text = pattern.sub(lambda _: block, text)
-    with open(document + ".part", "w", encoding="utf-8") as file:
-        file.write(text)
-    os.replace(document + ".part", document)
+    write(document, text)
 
 
 def main():
-    if len(sys.argv) != 5:
+    if len(sys.argv) != 4:
         raise SystemExit(__doc__)
-    folder, document, all_tables, images = sys.argv[1:]
+    folder, document, images = sys.argv[1:]
     results, scans = read(os.path.join(folder, "comparison.csv"))
     os.makedirs(images, exist_ok=True)
     forest(results, scans, os.path.join(images, "comparison_ranks.png"))
     if sum(g[0] == "simulated" for g in results) > 1:
         sweep(results, os.path.join(images, "comparison_noise.png"))
-    tables = []
+    tables = ["# Classical line extractors and CCA: all figures"]
     for group, table in results.items():
-        tables += ["", "### " + title(group, scans[group]), ""] + markdown(table)
-    replace(all_tables, "tables", tables)
+        tables += ["", "## " + title(group, scans[group]), ""] + markdown(table)
+    write(os.path.join(folder, "comparison_tables.md"), "\n".join(tables) + "\n")
     paired = [line for g, table in results.items() for line in verdicts(g, table, scans[g])]
     replace(document, "verdicts", [""] + paired + [""])
     lost = [line for group, table in results.items() for line in losses(group, table, scans[group])]

@@ -5,7 +5,7 @@
 usage: experiments.py [NAME...] [--worlds WORLD,...]
 
 NAME: static, dynamic, noise, complexity; default all. Worlds are named as in maps/; default all.
-Installs and builds what is needed first. Runs are deterministic but for the times.
+Installs and builds what is needed first. Runs are deterministic but for the times of "complexity".
 """
 import argparse
 import json
@@ -52,17 +52,17 @@ def number(value, decimals=3):
 
 
 HEAD = ["| run | finished | seen % | driven m | collisions | lines | map F1 | precision | recall | "
-        "lateral mm | µs/scan |", "|" + "---|" * 11]
+        "lateral mm |", "|" + "---|" * 10]
 
 
 def row(name, r):
     if r is None:
-        return "| %s | no map |%s" % (name, " |" * 9)
+        return "| %s | no map |%s" % (name, " |" * 8)
     lateral = r.get("lateral_rms_m")
     cells = [name, "yes" if r["finished"] else "**no**", number(100 * (r["coverage"] or 0), 1),
              number(r["distance_m"], 0), str(r["collisions"]), str(r["map_lines"]),
              number(r.get("f1")), number(r.get("precision")), number(r.get("recall")),
-             number(None if lateral is None else 1e3 * lateral, 1), number(r["scan_us_median"], 0)]
+             number(None if lateral is None else 1e3 * lateral, 1)]
     return "| " + " | ".join(cells) + " |"
 
 
