@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "hindsight.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "cca_mrpt/mapping/laser_evidence.hpp"
@@ -25,6 +26,34 @@ void depositOnStanding(const Scan& scan, const std::vector<Eigen::Vector2d>& bea
   }
 }
 
+/// Whether returns lie on another wall beside a point.
+bool isTakenOver(Walls::Slot slot, const Eigen::Vector2d& p, double gate, const Walls& walls) {
+  const std::vector<Walls::Slot>& near = walls.at(WallIndex::cellOf(p));
+  return std::any_of(near.begin(), near.end(), [&](Walls::Slot other) {
+    const Wall& wall = walls[other];
+    return other != slot && wall.hitNear(p) && std::abs(wall.offLine(wall.toWall(p))) <= gate;
+  });
+}
+
+/// What only scans that were not kept have seen stays, where no ray of those kept went through.
+void keepUnconfirmed(const Walls& standing, double gate, Walls& walls) {
+  const auto slots = static_cast<Walls::Slot>(standing.all().size());
+  for (Walls::Slot slot = 0; slot < slots; ++slot) {
+    const Wall& before = standing[slot];
+    if (!before.alive) continue;
+    Wall& wall = walls[slot];
+    for (int i = before.profile.first(); i < before.profile.last(); ++i) {
+      SupportBin seen = before.profile.bin(i);
+      const SupportBin& now = wall.profile.bin(i);
+      if (seen.hits() <= 0.0 || now.hits() > 0.0 || now.passed > 0.0) continue;
+      if (isTakenOver(slot, before.toMap(seen.mean()), gate, walls)) continue;
+      seen.passed = 0.0;
+      wall.profile.add(seen);
+      wall.hits += seen.hits();
+    }
+  }
+}
+
 }  // namespace
 
 void reassignEvidence(const std::vector<PastScans::Kept>& scans, const MapNoise& noise,
@@ -45,6 +74,7 @@ void reassignEvidence(const std::vector<PastScans::Kept>& scans, const MapNoise&
     depositOnStanding(scan, beams, gate, standing, walls);
     if (uses_rays) passRays(scan, beams, noise, walls);
   }
+  keepUnconfirmed(standing, gate, walls);
 }
 
 }  // namespace cca

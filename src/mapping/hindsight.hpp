@@ -13,7 +13,8 @@ namespace cca {
 /// on which it lies now, each ray to the walls that it goes through now.
 ///
 /// While a map grows, a ray says nothing of a wall that is founded later, and a return counts for
-/// the wall that was known when it came.
+/// the wall that was known when it came. What only scans that were not kept have seen stays, where
+/// no ray of those kept went through.
 ///
 /// @param uses_rays  false: rays say nothing, see Part::kRays.
 /// @param walls  all of them are touched, and are compared with their neighbours when they are

@@ -45,9 +45,8 @@ Estimate ExplorationSession::addSecondary(const Measurement& measurement, std::s
 }
 
 void ExplorationSession::finish(const DoAll& do_all) {
-  if (!mapping_.localiser().correctsPast()) return;
   mapping_.finish(do_all);
-  explorer_.correct(mapping_.past());
+  if (mapping_.localiser().correctsPast()) explorer_.correct(mapping_.past());
 }
 
 }  // namespace cca

@@ -176,6 +176,8 @@ void Exploration::tell(const Action& action) {
 }
 
 void Exploration::finish(const ros::Time& stamp) {
+  // Where the past is corrected, finishPoses() has done so.
+  if (!session_->mapping().localiser().correctsPast()) session_->finish();
   finished_ = true;
   publisher_.showAll(*session_, *recorder_.grid().grid(), stamp);
   const Explorer& explorer = session_->explorer();
