@@ -15,31 +15,31 @@ namespace {
 // as close as much again of memory and of the time to make a map anew.
 constexpr double kEveryDistance = 0.1, kEveryTurn = M_PI / 36.0;
 
-bool keep(std::vector<PastScans::Kept>& kept, const PastScans::Kept& candidate) {
-  const auto last = std::find_if(kept.rbegin(), kept.rend(), [&candidate](const auto& other) {
-    return other.sensor == candidate.sensor;
-  });
-  if (last != kept.rend()) {
-    const Pose2 &here = candidate.T_map_robot, &there = last->T_map_robot;
-    if ((here.position() - there.position()).norm() < kEveryDistance &&
-        std::abs(wrapAngle(here.theta - there.theta)) < kEveryTurn) {
-      return false;
-    }
-  }
-  kept.push_back(candidate);
-  return true;
+/// Whether the robot has moved far enough since the last scan of this sensor that was kept.
+bool isDue(const std::vector<PastScans::Kept>& kept, const Pose2& here, std::size_t sensor) {
+  const auto last = std::find_if(kept.rbegin(), kept.rend(),
+                                 [sensor](const auto& other) { return other.sensor == sensor; });
+  if (last == kept.rend()) return true;
+  const Pose2& there = last->T_map_robot;
+  return !((here.position() - there.position()).norm() < kEveryDistance &&
+           std::abs(wrapAngle(here.theta - there.theta)) < kEveryTurn);
 }
 
 }  // namespace
 
 bool PastScans::add(const AnalysedScan& seen, const Pose2& T_map_robot, bool is_placed) {
   const std::size_t step = steps_++;
-  return keep(is_placed ? kept_ : unplaced_, {step, seen, T_map_robot, T_map_robot, is_placed});
+  std::vector<Kept>& kept = is_placed ? kept_ : unplaced_;
+  if (!isDue(kept, T_map_robot, 0)) return false;
+  kept.push_back({step, seen, T_map_robot, T_map_robot, is_placed});
+  return true;
 }
 
 bool PastScans::addBeside(std::size_t step, const AnalysedScan& seen, const Pose2& T_map_robot,
                           std::size_t sensor) {
-  return keep(kept_, {step, seen, T_map_robot, T_map_robot, true, sensor});
+  if (!isDue(kept_, T_map_robot, sensor)) return false;
+  kept_.push_back({step, seen, T_map_robot, T_map_robot, true, sensor});
+  return true;
 }
 
 void PastScans::correct(const std::vector<Pose2>& T_map_robot, const std::vector<bool>& is_placed) {

@@ -71,6 +71,23 @@ TEST(LineMap, InHindsightRaysRefuteWhatCameAfterThem) {
   EXPECT_GT(recall(room(), map.lines(), 0.02), 0.99);
 }
 
+/// The scans kept have lost all beams to one side.
+TEST(LineMap, InHindsightWhatOnlyScansThatWereNotKeptHaveSeenStays) {
+  LineMap map;
+  PastScans past;
+  std::mt19937 random(9);
+  for (int i = 0; i < 40; ++i) {
+    const Pose2 pose{-2.0 + 0.06 * i, -0.5, 0.0};
+    Scan scan = room().scan(pose, 0.01, random);
+    map.insert(scan);
+    std::fill_n(scan.ranges.begin(), scan.size() / 2, 0.0);
+    past.add({scan, {}, {}}, pose);
+  }
+  ASSERT_GT(past.kept().size(), 10U);
+  map.lookBack(past.kept());
+  EXPECT_GT(recall(room(), map.lines(), 0.02), 0.99);
+}
+
 TEST(LineMap, IdsStayWhileTheWallIsSeenAgain) {
   LineMap map;
   std::mt19937 random(6);
