@@ -8,10 +8,7 @@ namespace cca {
 namespace {
 
 constexpr int kWindow = 2;           // bins on either side that speak for a place
-constexpr double kFewestRays = 2.0;  // that can refute a place
-/// From which on a place is free. While a map grows, the rays that passed before the wall was
-/// founded are not counted; in hindsight all are, and the greater number decides.
-constexpr double kRaysPerHit = 0.5, kRaysPerHitInHindsight = 1.0;
+constexpr double kFewestRays = 2.0;  // that can refute a place, where they are no fewer than hits
 constexpr double kPartingRays = 2.0;  // that keep a gap open
 
 /// The mean point of a bin that holds hits, of its weight.
@@ -110,8 +107,7 @@ SupportProfile::Counts SupportProfile::countsAround(int i) const {
 }
 
 bool SupportProfile::stand(const Counts& counts) const {
-  const double rays_per_hit = in_hindsight_ ? kRaysPerHitInHindsight : kRaysPerHit;
-  return counts.passed < kFewestRays || counts.passed < rays_per_hit * counts.hits;
+  return counts.passed < std::max(kFewestRays, counts.hits);
 }
 
 void SupportProfile::add(const SupportBin& other) {
@@ -131,7 +127,6 @@ void SupportProfile::add(const SupportBin& other) {
 
 void SupportProfile::forget() {
   added_up_ = false;
-  in_hindsight_ = true;
   bins_.assign(bins_.size(), SupportBin{});
 }
 
@@ -143,7 +138,6 @@ SupportBin SupportProfile::take(int i) {
 SupportProfile SupportProfile::cutFrom(int from) {
   added_up_ = false;
   SupportProfile tail;
-  tail.in_hindsight_ = in_hindsight_;
   const auto begin = bins_.begin() + (from - first_);
   tail.first_ = from;
   tail.bins_.assign(begin, bins_.end());
@@ -189,6 +183,15 @@ std::vector<Stretch> SupportProfile::stretches() const {
     s.tally = whole ? tally() : tally(s.range);
   }
   return found;
+}
+
+bool SupportProfile::spans(int i) const {
+  if (!contains(i)) return false;
+  const auto is_empty = [&](int k) { return contains(k) && bin(k).hits() <= 0.0; };
+  int before = i, after = i;
+  while (is_empty(before) && i - before < kBridgedBins) --before;
+  while (is_empty(after) && after - before <= kBridgedBins) ++after;
+  return contains(before) && contains(after) && !is_empty(before) && !is_empty(after);
 }
 
 const BinTally& SupportProfile::tally() const {

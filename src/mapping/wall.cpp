@@ -29,10 +29,8 @@ struct FrameChange {
   }
 };
 
-constexpr double kDrift = 0.1;        // m, of the line from its frame; the index reaches 0.3 m
-constexpr double kSameDoor = 0.2;     // m, between the lines of a doorway before and after a join
-constexpr double kLoosest = 1.2;      // deviations of a return
-constexpr double kLooseShare = 0.08;  // of its length: broader is a heap
+constexpr double kDrift = 0.1;     // m, of the line from its frame; the index reaches 0.3 m
+constexpr double kSameDoor = 0.2;  // m, between the lines of a doorway before and after a join
 
 /// Weight of the wall's line, in bins, where one of its pieces is fitted.
 constexpr double kTrustInWall = 3.0;
@@ -63,13 +61,6 @@ LineSegment segmentOf(const Wall& wall, const Stretch& stretch) {
 bool isDirected(const PointSums& bins, const MapNoise& noise) {
   const double spread = bins.xx - bins.x * bins.x / bins.w;
   return noise.lateralSigma() < kDirectionKnown * std::sqrt(std::max(0.0, spread));
-}
-
-/// Short heaps of returns, broader than noise makes a wall, are clutter.
-bool isLoose(const LineSegment& segment, const MapNoise& noise) {
-  const double breadth =
-      std::sqrt(fitLine(segment.moments).residual_sum_sq / segment.moments.weight);
-  return breadth > kLoosest * noise.lateralSigma() && breadth > kLooseShare * segment.length();
 }
 
 /// The id of the old piece that the segment covers most, if no new piece has it yet; otherwise 0.
@@ -123,9 +114,9 @@ bool yieldOverlap(Wall& lesser, Wall& greater, const std::function<bool(double)>
   for (int i = lesser.profile.first(); i < lesser.profile.last(); ++i) {
     const SupportBin& bin = lesser.profile.bin(i);
     if (bin.hits() <= 0.0) continue;
-    const Eigen::Vector2d p = lesser.toMap(bin.mean());
-    const Eigen::Vector2d td = greater.toWall(p);
-    if (!greater.hitNear(p) || !alike(greater.offLine(td))) continue;
+    const Eigen::Vector2d td = greater.toWall(lesser.toMap(bin.mean()));
+    const bool is_beside = greater.profile.spans(SupportProfile::binOf(td.x()));
+    if (!is_beside || !alike(greater.offLine(td))) continue;
     greater.profile.add(change(lesser.profile.take(i)));
     moved = true;
   }
@@ -162,7 +153,6 @@ void recut(Wall& wall, const MapNoise& noise, double line_price, std::uint64_t& 
     line.segment = segmentOf(wall, stretch);
     line.support = line.segment.moments.weight;
     if (line.support < line_price || !isDirected(stretch.tally.fitted, noise)) continue;
-    if (isLoose(line.segment, noise)) continue;
     line.id = takeId(wall.pieces, line.segment, pieces);
     pieces.push_back(line);
   }

@@ -33,6 +33,16 @@ TEST(SupportProfile, ADoorThatRaysPassThroughPartsTheWall) {
   EXPECT_NEAR(stretches[1].range.first * SupportProfile::kBinLength, 1.9, 0.11);
 }
 
+TEST(SupportProfile, SpansTheGapsThatItCloses) {
+  SupportProfile profile;
+  const auto bins = {0, 5, 11};  // gaps of four and of five bins
+  for (const int i : bins) profile.hit((i + 0.5) * SupportProfile::kBinLength, 0.0);
+  for (int i = -2; i <= 13; ++i) {
+    const bool is_hit = i == 0 || i == 5 || i == 11;
+    EXPECT_EQ(profile.spans(i), is_hit || (i > 0 && i < 5)) << i;
+  }
+}
+
 TEST(SupportProfile, CutsExactlyAtABend) {
   SupportProfile profile;
   for (double t = 0.0; t < 2.0; t += 0.01) profile.hit(t, t < 1.0 ? 0.0 : 0.3 * (t - 1.0));

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 namespace cca {
 namespace {
 
@@ -108,6 +110,17 @@ TEST(Recut, AStubIsALineWhereTheNoiseLetsItsDirectionBeKnown) {
 TEST(Recut, ALineTakesAsManyReturnsAsItsPrice) {
   EXPECT_EQ(piecesOf(1.0, 1, 16.0), 1u);  // twenty bins
   EXPECT_EQ(piecesOf(1.0, 1, 24.0), 0u);
+}
+
+TEST(YieldOverlap, SparseHitsBetweenThoseOfTheGreaterWallGoToIt) {
+  Wall greater, lesser;
+  for (int i = 0; i < 40; i += 2) greater.profile.hit((i + 0.5) * SupportProfile::kBinLength, 0.0);
+  for (int i = 31; i < 60; i += 2) lesser.profile.hit((i + 0.5) * SupportProfile::kBinLength, 0.0);
+  greater.fit = greater.profile.fit();
+  lesser.fit = lesser.profile.fit();
+  EXPECT_TRUE(yieldOverlap(lesser, greater, [](double off) { return std::abs(off) < 0.03; }));
+  lesser.profile.prune();
+  EXPECT_EQ(lesser.profile.first(), 39);  // the greater ends at 38
 }
 
 }  // namespace

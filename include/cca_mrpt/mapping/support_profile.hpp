@@ -92,6 +92,8 @@ class SupportProfile {
   /// Maximal occupied runs; gaps up to kBridgedBins are closed where no ray went through them.
   static constexpr int kBridgedBins = 4;  // longer gaps without hits would be phantoms
   std::vector<Stretch> stretches() const;
+  /// Whether bin i holds hits, or lies in a gap between hits of kBridgedBins at most.
+  bool spans(int i) const;
 
   BinTally tally(const BinRange& range) const;
   /// Of all bins, remembered until the next hit.
@@ -117,7 +119,6 @@ class SupportProfile {
 
   int first_ = 0;
   std::vector<SupportBin> bins_;
-  bool in_hindsight_ = false;      ///< its returns and rays are those of all scans
   mutable bool added_up_ = false;  ///< tally_ holds
   mutable BinTally tally_;
 };
