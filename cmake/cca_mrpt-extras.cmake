@@ -1,6 +1,6 @@
-# find_package(cca_mrpt [COMPONENTS geometry motion sensing localisation mapping slam navigation session baselines simulation io])
+# find_package(cca_mrpt [COMPONENTS geometry motion sensing localisation mapping slam navigation session simulation io])
 #
-# The targets cca_mrpt::geometry, ::motion, ::sensing, ::localisation, ::mapping, ::slam, ::navigation, ::session and ::baselines need Eigen only;
+# The targets cca_mrpt::geometry, ::motion, ::sensing, ::localisation, ::mapping, ::slam, ::navigation and ::session need Eigen only;
 # ::simulation and ::io are there when they are asked for as components, and bring MRPT with them.
 include(CMakeFindDependencyMacro)
 find_dependency(Eigen3 NO_MODULE)

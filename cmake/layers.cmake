@@ -1,6 +1,6 @@
 # cca_layer(NAME SOURCES file... [DEPENDS target...] PRECOMPILED header...|PRECOMPILED_BY layer)
 #
-# One folder of src/ as a library cca_NAME, known as cca_mrpt::NAME here and to projects that
+# One folder of src/, or of benchmarks/, as a library cca_NAME, known as cca_mrpt::NAME here and to projects that
 # find_package(cca_mrpt). A layer may use only the layers named in DEPENDS. PRECOMPILED are big headers
 # of others that most of its files need, compiled once for all, or what another layer has of them; each
 # file includes what it needs all the same.
@@ -12,7 +12,7 @@ function(cca_layer name)
   set_target_properties(${target} PROPERTIES EXPORT_NAME ${name} POSITION_INDEPENDENT_CODE ON
                         DEFINE_SYMBOL "")  # else no layer could share precompiled headers with another
   target_include_directories(${target} PUBLIC
-    $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/include> $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/src>
+    $<BUILD_INTERFACE:${cca_mrpt_SOURCE_DIR}/include> $<BUILD_INTERFACE:${cca_mrpt_SOURCE_DIR}/src>
     $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
   target_compile_features(${target} PUBLIC cxx_std_17)
   target_link_libraries(${target} PUBLIC Eigen3::Eigen ${ARG_DEPENDS} PRIVATE ${ARG_PRIVATE_DEPENDS})

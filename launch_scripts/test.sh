@@ -5,12 +5,12 @@
 #   launch_scripts/test.sh               what a change can break: checks of the sources and the pages,
 #                                        unit, command-line, exploration and node tests
 #   launch_scripts/test.sh --all         also the long ones: random places, real logs, MRPT's programs,
-#                                        rviz and the installed package, the Python package, benchmarks that
-#                                        must build, the unit tests under sanitizers in a build without ROS
+#                                        rviz and the installed package, the Python package, programs that
+#                                        measure times and must build, the unit tests under sanitizers in a build without ROS
 #   launch_scripts/test.sh --all fuzz    the fuzzers, by a build of their own; they run only when named
 #   launch_scripts/test.sh [--all] NAME  of these, the parts whose name holds NAME (see the end)
 set -u
-cd "$(dirname "$0")/.."
+cd "$(dirname "$0")/.." || exit
 # ROS's Python programs need the system's Python, whatever else stands first in PATH.
 export PATH=/usr/bin:/bin:/usr/sbin:/sbin:$PATH MAKEFLAGS=--no-print-directory
 all=OFF
@@ -31,21 +31,24 @@ part() {  # part NAME COMMAND...: runs it, and keeps how it ended
   results+=("$(printf '%-28s %-6s %5d s' "$name" $status $((SECONDS - begin)))")
 }
 
-configure_and_build() {  # DIR TARGETS OPTIONS...
-  local dir=$1 targets=$2
+configure_and_build() {  # DIR "TARGETS" OPTIONS...
+  local dir=$1 targets
+  read -ra targets <<<"$2"
   shift 2
   mkdir -p "$dir"
   # Make waits for all of a library before it compiles what links it; Ninja does not.
   [ -e "$dir/CMakeCache.txt" ] || set -- -G Ninja "$@"
   cmake -S . -B "$dir" -DCCA_BUILD_TESTS=ON -DCCA_WARNINGS_AS_ERRORS=$werror "$@" \
     >"$dir/configure.log" 2>&1 || { cat "$dir/configure.log"; return 1; }
-  cmake --build "$dir" -j"$jobs" --target $targets 2>&1 |
+  cmake --build "$dir" -j"$jobs" --target "${targets[@]}" 2>&1 |
     grep -vE '^\[[ 0-9/%]+\] (Built|Linking|Generating)|^Scanning'
   return "${PIPESTATUS[0]}"
 }
 
 release() {
-  configure_and_build build all -DCCA_BUILD_BENCHMARKS=$all || return 1
+  local what=all
+  [ $all = OFF ] || what='all timing'
+  configure_and_build build "$what" -DCCA_BUILD_BENCHMARKS=ON || return 1
   grep -q '^CCA_WITH_ROS:BOOL=ON' build/CMakeCache.txt && [ -x build/devel/lib/cca_mrpt/cca-mrpt ] ||
     { echo "the build has no ROS nodes"; return 1; }
 }
@@ -56,17 +59,17 @@ tests() { (cd build && ctest -j$((3 * jobs)) --output-on-failure --no-tests=erro
 # Also the proof that everything but the nodes builds where ROS is absent.
 sanitized() {  # DIR TARGET OPTIONS...
   configure_and_build "$@" -DCMAKE_BUILD_TYPE=None -DCMAKE_CXX_FLAGS=-O1 \
-    -DCCA_SANITIZE=ON -DCCA_WITH_ROS=OFF -DCCA_BUILD_BENCHMARKS=OFF
+    -DCCA_SANITIZE=ON -DCCA_WITH_ROS=OFF
 }
 
 sanitizers() {
-  sanitized build-sanitize unit_tests || return 1
+  sanitized build-sanitize unit_tests -DCCA_BUILD_BENCHMARKS=ON || return 1
   (cd build-sanitize && LSAN_OPTIONS="suppressions=$PWD/../test/checks/leaks.supp:print_suppressions=0" \
     ctest -j"$jobs" --output-on-failure --no-tests=error -L unit)
 }
 
 fuzzers() {
-  sanitized build-fuzz fuzzers -DCMAKE_CXX_COMPILER=clang++ -DCCA_BUILD_FUZZERS=ON -DCCA_WITH_EVIDENCE=OFF || return 1
+  sanitized build-fuzz fuzzers -DCMAKE_CXX_COMPILER=clang++ -DCCA_BUILD_FUZZERS=ON -DCCA_BUILD_BENCHMARKS=OFF || return 1
   (cd build-fuzz && ctest -j"$jobs" --output-on-failure --no-tests=error -L fuzz)
 }
 

@@ -23,12 +23,13 @@ if ! "$where/probe/bin/pip" download --timeout 10 --retries 1 --no-deps -d "$whe
 fi
 
 # Hardly optimised: compiling takes most of the time here, and the C++ tests see what is optimised.
-export SKBUILD_BUILD_DIR=$where/build SKBUILD_CMAKE_BUILD_TYPE=None CXXFLAGS=-O1 CMAKE_BUILD_PARALLEL_LEVEL=$(nproc)
+export SKBUILD_BUILD_DIR=$where/build SKBUILD_CMAKE_BUILD_TYPE=None CXXFLAGS=-O1 CMAKE_BUILD_PARALLEL_LEVEL
+CMAKE_BUILD_PARALLEL_LEVEL=$(nproc)
 export SKBUILD_CMAKE_DEFINE="CCA_WARNINGS_AS_ERRORS=${CI:+ON}"
 PATH="$(dirname "$python"):$PATH" "$python" python/run_page.py docs/python.md "$copy" install
 
-# The package's commands come first, then the program, where it was built before.
-export PATH="$copy/venv/bin:$PWD/build/devel/lib/cca_mrpt:$PWD/build/src/apps:$PATH"
+# The package's commands come first, then the programs, where they were built before.
+export PATH="$copy/venv/bin:$PWD/build/devel/lib/cca_mrpt:$PWD/build/src/apps:$PWD/build/benchmarks:$PATH"
 pip install pytest mypy distributed gymnasium rosbags mcap
 mkdir "$where/examples" 2>/dev/null || rm -rf "$where"/examples/*
 python python/tests/room_log.py "$where/examples/intel.log.gz"

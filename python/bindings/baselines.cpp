@@ -2,7 +2,7 @@
 #include <nanobind/stl/string.h>
 
 #include "arguments.hpp"
-#include "cca_mrpt/baselines/registry.hpp"
+#include "baselines/registry.hpp"
 #include "line_arrays.hpp"
 #include "module.hpp"
 

@@ -176,15 +176,16 @@ def explore(worlds: Sequence[PathLike], out: PathLike, *, seeds: Iterable[int] =
 
 def compare_strategies(worlds: Sequence[PathLike], out: PathLike, *,
                        strategies: Sequence[str] = ("view_tour", "greedy", "nearest_frontier", "gain_distance",
-                                                    "information"), starts: int = 3, program: str = "cca-mrpt",
+                                                    "information"), starts: int = 3, program: str = "cca-mrpt-bench",
                        workers: Optional[int] = None, scheduler: Optional[str] = None) -> str:
-    """`cca-mrpt compare-strategies`, a job for each world and strategy.
+    """`cca-mrpt-bench compare-strategies`, a job for each world and strategy.
 
     Args:
         worlds: map_server YAML files.
         out: folder for runs.csv and curves.csv, byte for byte those of the program alone.
         starts: number of them in each world.
-        program, workers, scheduler: as in `explore`.
+        program: where `cca-mrpt-bench` is, on the workers.
+        workers, scheduler: as in `map_logs`.
 
     Returns:
         The path of runs.csv.
@@ -203,18 +204,19 @@ def compare_strategies(worlds: Sequence[PathLike], out: PathLike, *,
 
 
 def tune(worlds: Sequence[PathLike], out: PathLike, *, shards: int = 16, options: Sequence[str] = (),
-         program: str = "cca-mrpt", workers: Optional[int] = None, scheduler: Optional[str] = None) -> str:
-    """`cca-mrpt tune`, the factorial experiment over the three input parameters, in shards.
+         program: str = "cca-mrpt-bench", workers: Optional[int] = None, scheduler: Optional[str] = None) -> str:
+    """`cca-mrpt-bench tune`, the factorial experiment over the three input parameters, in shards.
 
     Args:
         worlds: map_server YAML files with their true segments beside them.
         out: folder for the rows of all shards and runs.csv, byte for byte that of the program alone.
         shards: number of jobs.
-        options: further options of `cca-mrpt tune`, e.g. ("--seeds", "4").
-        program, workers, scheduler: as in `explore`.
+        options: further options of `cca-mrpt-bench tune`, e.g. ("--seeds", "4").
+        program: where `cca-mrpt-bench` is, on the workers.
+        workers, scheduler: as in `map_logs`.
 
     Returns:
-        The path of runs.csv, which launch_scripts/tuning_report.py analyses.
+        The path of runs.csv, which benchmarks/scripts/tuning_report.py analyses.
 
     Raises:
         RuntimeError: a job failed.

@@ -107,19 +107,19 @@ def test_jobs_that_would_write_to_one_folder_are_refused(logs, tmp_path):
 needs_program = pytest.mark.skipif(not shutil.which("cca-mrpt"), reason="needs the program cca-mrpt in PATH")
 
 
-@needs_program
+@pytest.mark.skipif(not shutil.which("cca-mrpt-bench"), reason="needs the program cca-mrpt-bench in PATH")
 def test_strategies_and_tuning_give_the_bytes_of_the_program_alone(tmp_path):
     world = Path(__file__).parents[2] / "maps" / "two_rooms.yaml"
     strategies = ["greedy", "nearest_frontier"]
     batch.compare_strategies([world], tmp_path / "two", strategies=strategies, starts=1, workers=2)
-    subprocess.run(["cca-mrpt", "compare-strategies", world, "--strategies", ",".join(strategies), "--starts", "1",
+    subprocess.run(["cca-mrpt-bench", "compare-strategies", world, "--strategies", ",".join(strategies), "--starts", "1",
                     "--out", tmp_path / "one"], check=True, capture_output=True)
     for name in "runs.csv", "curves.csv":
         assert (tmp_path / "two" / name).read_bytes() == (tmp_path / "one" / name).read_bytes()
     few = ["--similarity-cut", "0.4,0.5", "--vertex-price", "8,12", "--straightness", "0.02,0.035", "--seeds", "1",
            "--scans", "2", "--poses", "5"]
     runs = batch.tune([world], tmp_path / "shards", shards=2, options=few, workers=2)
-    subprocess.run(["cca-mrpt", "tune", world, "--out", tmp_path / "whole", *few], check=True, capture_output=True)
+    subprocess.run(["cca-mrpt-bench", "tune", world, "--out", tmp_path / "whole", *few], check=True, capture_output=True)
     assert Path(runs).read_bytes() == (tmp_path / "whole" / "runs.csv").read_bytes()
 
 

@@ -2,17 +2,19 @@
 # The algorithm layers know the standard library, Eigen and the layers below them, nothing else: no
 # MRPT, no ROS, no clock, no files, no global random numbers, no printing.
 set -u
-cd "$(dirname "$0")/../.."
+cd "$(dirname "$0")/../.." || exit
 failed=0
 
 # check LAYER ALLOWED_LAYERS [ALLOWED_HEADERS|]: every #include of the layer is allowed.
 check() {
   local found
-  found=$(grep -nE '^\s*#\s*include' -r "include/cca_mrpt/$1" "src/$1" |
+  local folders=("include/cca_mrpt/$1" "src/$1")
+  [ ! -d "benchmarks/$1" ] || folders=("benchmarks/$1")
+  found=$(grep -nE '^\s*#\s*include' -r "${folders[@]}" |
     grep -vE "#include (<Eigen/[A-Za-z]+>|${3:-}<[a-z_]+>|\"cca_mrpt/($2)/[a-z0-9_]+\.hpp\"|\"[a-z0-9_]+\.hpp\")")
   [ -z "$found" ] || { echo "$1 includes what it may not:"; echo "$found"; failed=1; }
   found=$(grep -nE '<(chrono|ctime|filesystem|fstream|iostream|cstdio|thread|mutex|random)>|std::rand\b|\bs?rand\(|random_device' \
-    -r "include/cca_mrpt/$1" "src/$1" | grep -vE '<random>.*// seeded')
+    -r "${folders[@]}" | grep -vE '<random>.*// seeded')
   [ -z "$found" ] || { echo "$1 reaches for clock, files, threads, output or random numbers:"; echo "$found"; failed=1; }
 }
 
@@ -28,7 +30,16 @@ check navigation/goals 'geometry|sensing|navigation/place|navigation/goals'
 check navigation/drive 'geometry|motion|sensing|navigation/place|navigation/drive|navigation/drive/tangent_bug'
 check navigation 'geometry|motion|sensing|navigation|navigation/[a-z_/]+'
 check session 'geometry|motion|sensing|mapping|localisation|slam|navigation|session'
-check baselines 'geometry|sensing|mapping|baselines'
+check baselines 'geometry|sensing|mapping' '"baselines/[a-z_]+\.hpp"|'
 check floor_plan 'geometry|mapping|floor_plan' '<boost/geometry[a-z_/]*\.hpp>|'
+
+# The benchmarks use the product by its public headers, and by few of its own use; the product knows nothing of them.
+own='"(baselines|commands|evidence|peers)/[a-z_]+\.hpp"'
+found=$(grep -rnE '^\s*#\s*include "' benchmarks --exclude-dir=tests --exclude-dir=timing | grep -vE "$own|\"(cca_mrpt/[a-z_/0-9]+|\
+apps/(program|options/(moved|parameter_options)|runs/(interruption|progress))|evaluation/(log_score|spatial_index|world_score)|\
+io/(files/atomic_file|lines/segments_csv|maps/map_picture|poses/(local_frame|mrpt_steps|pose_source|trajectory_error)))\.hpp\"")
+[ -z "$found" ] || { echo "benchmarks include what only the product may:"; echo "$found"; failed=1; }
+found=$(grep -rnE '^\s*#\s*include "(baselines|evidence|peers)/' include src)
+[ -z "$found" ] || { echo "the product includes benchmarks:"; echo "$found"; failed=1; }
 [ $failed -eq 0 ] && echo "layers: clean"
 exit $failed

@@ -6,7 +6,7 @@ set -u
 program=$(realpath "$1") maps=$(realpath "$2")
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
-cd "$work"
+cd "$work" || exit
 failures=0
 
 fail() { echo "FAILED: $*"; failures=$((failures + 1)); }
@@ -194,8 +194,8 @@ for blocks in 4 64 120; do
   said=$(ulimit -f $blocks; "$program" explore "$maps/two_rooms.yaml" --seed 7 --out full --force 2>&1)
   [ $? -eq 1 ] || fail "no file beyond $blocks blocks: not status 1"
   case "$said" in *"cca-mrpt: full/"*": cannot be written"*) ;; *) fail "a full disk was not told: $said" ;; esac
-  for file in $(ls -A full); do
-    cmp "full/$file" "a/$file" || fail "$file is half written"
+  for file in full/* full/.[!.]*; do
+    [ ! -e "$file" ] || cmp "$file" "a/${file#full/}" || fail "$file is half written"
   done
 done
 
@@ -265,18 +265,6 @@ expect_error 1 "exists" generate-world maze --out worlds
 expect_error 1 "two.yaml/maze: cannot be made a folder" generate-world maze --out two.yaml/maze
 expect_error 2 "a whole number in [0, 2147483647]" generate-world maze --seed -1
 expect_error 1 "name of a world" generate-world maze --out worlds --name ../elsewhere
-
-# compare-strategies: a robot of another size, results whole or an error.
-"$program" compare-strategies "$maps/two_rooms.yaml" --strategies nearest_frontier --starts 3 \
-  --robot.radius 0.4 --out strategies >/dev/null 2>&1 || fail "compare-strategies: status $?"
-[ "$(wc -l <strategies/runs.csv)" -eq 4 ] || fail "compare-strategies: a row a run"
-expect_error 2 "clairvoyance" compare-strategies "$maps/two_rooms.yaml" --strategies clairvoyance
-expect_error 1 "two.yaml: cannot be made a folder" compare-strategies "$maps/two_rooms.yaml" --out two.yaml
-expect_error 1 "two.yaml: cannot be made a folder" compare-extractors "$maps/two_rooms.yaml" --scans 1 --out two.yaml
-expect_error 1 "second world" compare-strategies "$maps/two_rooms.yaml" "$maps/two_rooms.yaml" --out s
-said=$(ulimit -f 0; "$program" compare-strategies "$maps/two_rooms.yaml" \
-  --strategies nearest_frontier --starts 1 --out unwritten 2>&1) && fail "lost results, status 0"
-case "$said" in *"runs.csv: cannot be written"*) ;; *) fail "lost results were not told: $said" ;; esac
 
 [ $failures -eq 0 ] && echo "all is well"
 exit $((failures > 0))

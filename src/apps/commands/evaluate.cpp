@@ -15,9 +15,9 @@
 #include "evaluation/log_score.hpp"
 #include "evaluation/sigma_score.hpp"
 #include "evaluation/world_score.hpp"
-#include "evidence/labelled_scan.hpp"
 #include "io/files/atomic_file.hpp"
 #include "io/lines/line_formats.hpp"
+#include "io/lines/segments_csv.hpp"
 
 namespace cca::apps {
 namespace {
@@ -53,12 +53,12 @@ LogScore evaluateLog(const std::string& log, const std::vector<Segment2>& map) {
 
 LogScore evaluateWorld(const std::string& world, const std::string& path,
                        const std::vector<Segment2>& map) {
-  const std::string truth = evidence::truthPath(world);
+  const std::string truth = truthPath(world);
   if (!std::filesystem::exists(truth)) {
     throw std::runtime_error(world + ": its true segments are not known; " + truth +
                              " (x1,y1,x2,y2) must stand beside it");
   }
-  const std::vector<Segment2> walls = evidence::loadSegments(truth);
+  const std::vector<Segment2> walls = loadSegments(truth);
   LogScore score = scoreAgainstWorld(walls, map);
   std::ifstream file(path);
   const std::string text{std::istreambuf_iterator<char>(file), {}};
@@ -83,7 +83,7 @@ void addEvaluateCommand(CLI::App& program) {
   command->add_option("--out", options->out, "JSON file to write; default: standard output");
   command->callback([options] {
     refuseExtracted(options->map);
-    const auto map = evidence::loadSegments(options->map);
+    const auto map = loadSegments(options->map);
     const LogScore score = options->log.empty() ? evaluateWorld(options->world, options->map, map)
                                                 : evaluateLog(options->log, map);
     const std::string text = toJson(score).dump(1) + "\n";
