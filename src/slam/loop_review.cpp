@@ -18,9 +18,9 @@ constexpr std::size_t kMostSearches = 80;  // in a round, spread over what contr
 constexpr int kSearchesApart = 5;          // frames: two and a half metres of way
 /// Of a pair's rays that contradict one another, for the place to be looked for again.
 constexpr double kContradicted = 0.1;
-/// m, rad; how far the map may be off there: two and a half times as far is searched, 2 m. By the
-/// bound that the graph knows, a corridor's next doors would be as likely.
-constexpr double kOffBy = 0.75, kTurnedBy = 0.05;
+/// m, rad; how far the map may be off there: two and a half times as far is searched, 2 or 6 m. By
+/// the bound that the graph knows, a corridor's next doors would be as likely.
+constexpr double kOffBy[] = {0.75, 2.4}, kTurnedBy = 0.05;
 /// Of the rays of a loop that was refused, to be thought of again: as among all places of a
 /// building.
 constexpr double kRaysOfRefused = 0.92, kCommonOfRefused = 0.15;
@@ -132,8 +132,11 @@ class LoopJury {
       if (gain > (better ? better->agreement : best_.agreement).gain()) better.swap(hypothesis);
       if (hypothesis) others_.push_back({hypothesis->graph, hypothesis->agreement});
     };
-    consider(withFound());
-    if (!better || !better->agreement.isGood()) {
+    const auto isMended = [&] { return better && better->agreement.isGood(); };
+    for (const double off_by : kOffBy) {
+      if (!isMended()) consider(withFound(off_by));
+    }
+    if (!isMended()) {
       for (const LoopChange& change : changesOf(best_.loops)) consider(changed(change));
     }
     if (!better) return false;
@@ -144,8 +147,8 @@ class LoopJury {
   }
 
   /// With what is found near to where the map contradicts itself.
-  std::optional<Hypothesis> withFound() {
-    const std::vector<LoopVerdict> found = searchAgain();
+  std::optional<Hypothesis> withFound(double off_by) {
+    const std::vector<LoopVerdict> found = searchAgain(off_by);
     if (found.empty()) return std::nullopt;
     PoseGraph graph = best_.graph;
     std::vector<LoopOfCluster> loops = best_.loops;
@@ -180,14 +183,14 @@ class LoopJury {
   }
 
   /// Loops near to where the map stands, at pairs of frames that contradict each other.
-  std::vector<LoopVerdict> searchAgain() {
+  std::vector<LoopVerdict> searchAgain(double off_by) {
     std::vector<FramePair> places = contradictions();
     frames_.graph = withoutLoops(best_.graph, remembered_);  // each visit by itself
     std::vector<std::optional<LoopVerdict>> verdicts(places.size());
     do_all_(static_cast<int>(places.size()), [&](int k) {
       const FramePair& pair = places[static_cast<std::size_t>(k)];
       PlaceSearch search =
-          PlaceSearch::atVisit(frames_, pair.second, {pair.first, kOffBy, kTurnedBy});
+          PlaceSearch::atVisit(frames_, pair.second, {pair.first, off_by, kTurnedBy});
       search.run();
       verdicts[static_cast<std::size_t>(k)] = search.verdict(frames_);
     });
