@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 #include <vector>
 
 #include "cca_mrpt/geometry/cross.hpp"
@@ -17,6 +18,7 @@ constexpr double kLeastWay = 1e-3;   // m, likewise; below the noise of any lase
 constexpr double kWidestGap = 0.75;  // of a beam's spacing, from a bearing to the beam taken for it
 constexpr double kSmallAngle = 1e-6;  // rad, below which an arc is a straight line
 constexpr double kStep = 0.1;         // of the range, between the neighbours of a return
+constexpr double kBend = 0.25;        // of a step in inverse range from neighbour to neighbour
 constexpr double kInvalid = std::numeric_limits<double>::quiet_NaN();
 
 bool isNoMatter(const Scan& scan, const Twist& sensor) {
@@ -59,20 +61,33 @@ std::vector<Moved> movedBeams(const Scan& scan, const Twist& before, const Twist
   return moved;
 }
 
-/// m, the range at a bearing of the surface that beam i saw: along it where both neighbours lie on
-/// it, too. Inverse ranges of a wall are linear over the small angles between beams.
+/// Whether the two are of one surface: near to each other, or in line with a third one, as on a
+/// wall that the beams graze. Inverse ranges of a wall are linear over the small angles between
+/// beams.
+bool areOfOneSurface(const Moved& here, const Moved& beside, const Moved& beyond) {
+  if (!isReturn(beside.range)) return false;
+  if (std::abs(beside.range - here.range) < kStep * here.range) return true;
+  if (!isReturn(beyond.range)) return false;
+  const double step = 1.0 / beside.range - 1.0 / here.range;
+  const double before = 1.0 / here.range - 1.0 / beyond.range;
+  return std::abs(step - before) < kBend * std::abs(step + before);
+}
+
+/// m, the range at a bearing of the surface that beam i saw: between it and the beam on that side,
+/// or on from the beam on the other one.
 double rangeBeside(const std::vector<Moved>& moved, std::size_t i, double bearing, bool closed) {
   const std::size_t n = moved.size();
-  const double here = moved[i].range;
-  if (!closed && (i == 0 || i + 1 == n)) return here;
-  const Moved &before = moved[(i + n - 1) % n], &after = moved[(i + 1) % n];
-  if (!isReturn(here) || !isReturn(before.range) || !isReturn(after.range)) return here;
-  const double angle = wrapAngle(after.bearing - before.bearing);
-  const bool is_surface = std::abs(before.range - here) < kStep * here &&
-                          std::abs(after.range - here) < kStep * here && angle != 0.0;
-  if (!is_surface) return here;
-  const double slope = (1.0 / after.range - 1.0 / before.range) / angle;
-  return 1.0 / (1.0 / here + slope * wrapAngle(bearing - moved[i].bearing));
+  const Moved& here = moved[i];
+  if (!isReturn(here.range) || (!closed && (i == 0 || i + 1 == n))) return here.range;
+  const Moved *toward = &moved[(i + 1) % n], *away = &moved[(i + n - 1) % n];
+  const double off = wrapAngle(bearing - here.bearing);
+  if ((wrapAngle(toward->bearing - here.bearing) > 0.0) != (off > 0.0)) std::swap(toward, away);
+  const Moved* const other = areOfOneSurface(here, *toward, *away)   ? toward
+                             : areOfOneSurface(here, *away, *toward) ? away
+                                                                     : nullptr;
+  const double angle = other ? wrapAngle(other->bearing - here.bearing) : 0.0;
+  if (angle == 0.0) return here.range;
+  return 1.0 / (1.0 / here.range + (1.0 / other->range - 1.0 / here.range) / angle * off);
 }
 
 }  // namespace

@@ -146,6 +146,27 @@ void GraphBackEnd::finish(KeyFrames& frames, MapPart& map, double scale, const D
   rescaleOdometryEdges(frames.graph, scale);
   if (has_closed) frames.graph.settle(true);
   adjust(frames, kAdjustRounds, do_all);
+  reviewEdges(frames, map, do_all);
+}
+
+void GraphBackEnd::reviewEdges(KeyFrames& frames, const MapPart& map, const DoAll& do_all) {
+  const auto wheelEdgesOf = [](const PoseGraph& graph) {
+    std::vector<int> numbers;
+    for (std::size_t k = 0; k < graph.edges().size(); ++k) {
+      if (graph.edges()[k].kind == EdgeKind::kWheels) numbers.push_back(static_cast<int>(k));
+    }
+    return numbers;
+  };
+  const std::vector<int> before = wheelEdgesOf(frames.graph);
+  review_ =
+      reviewLoops(frames, loop_closer_.loops(), loop_closer_.verdicts(), map.remembered(), do_all);
+  if (!review_.has_changed) return;
+  loop_closer_.believe(review_.loops);
+  const std::vector<int> after = wheelEdgesOf(frames.graph);  // the same ones
+  for (OdometryEdge& odometry : odometry_edges_) {
+    const auto found = std::lower_bound(before.begin(), before.end(), odometry.edge);
+    odometry.edge = after[static_cast<std::size_t>(found - before.begin())];
+  }
 }
 
 }  // namespace cca

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
+#include <tuple>
 #include <utility>
 
 namespace cca {
@@ -22,54 +23,8 @@ double apartness(const Pose2& a, const Pose2& b, bool full_turn) {
 constexpr int kLeastPairs = 10;
 /// Directions that less than this share of the strongest speaks for are noise of the normals.
 constexpr double kWeakest = 0.01;
-constexpr double kArm = 3.0;  // m, at which a turn counts as a shift
-
-/// Pairs for an adjustment: as many of the same visit as of others, within the common view.
-std::set<std::pair<int, int>> pairsInView(const KeyFrames& frames) {
-  constexpr int kOfEach = 7;           // bounds the matches of a frame
-  constexpr double kSameVisit = 10.0;  // m of way
-  std::vector<double> way(static_cast<std::size_t>(frames.size()), 0.0);
-  for (int k = 1; k < frames.size(); ++k) {
-    way[static_cast<std::size_t>(k)] =
-        way[static_cast<std::size_t>(k - 1)] +
-        (frames.graph.pose(k).position() - frames.graph.pose(k - 1).position()).norm();
-  }
-  // Frames by cells of the common view, so that only neighbours are asked.
-  std::vector<std::pair<std::pair<int, int>, int>> cells;
-  const auto cellOf = [&](int k) {
-    const Pose2& pose = frames.graph.pose(k);
-    return std::pair<int, int>{static_cast<int>(std::floor(pose.x / kCommonView)),
-                               static_cast<int>(std::floor(pose.y / kCommonView))};
-  };
-  for (int k = 0; k < frames.size(); ++k) cells.push_back({cellOf(k), k});
-  std::sort(cells.begin(), cells.end());
-  std::set<std::pair<int, int>> pairs;
-  for (int k = 0; k < frames.size(); ++k) {
-    const auto [cx, cy] = cellOf(k);
-    std::vector<std::pair<double, int>> same, other;
-    for (int x = cx - 1; x <= cx + 1; ++x) {
-      const std::pair<std::pair<int, int>, int> first{{x, cy - 1}, -1};
-      for (auto it = std::lower_bound(cells.begin(), cells.end(), first);
-           it != cells.end() && it->first.first == x && it->first.second <= cy + 1; ++it) {
-        const int m = it->second;
-        const Pose2 &a = frames.graph.pose(k), &b = frames.graph.pose(m);
-        if (m == k || (a.position() - b.position()).norm() > kCommonView) continue;
-        if (frames.graph.part(m) != frames.graph.part(k)) continue;
-        const bool same_visit = std::abs(way[static_cast<std::size_t>(m)] -
-                                         way[static_cast<std::size_t>(k)]) <= kSameVisit;
-        const double apart =
-            apartness(a, b, frames.surfaces[static_cast<std::size_t>(k)].is_full_turn);
-        (same_visit ? same : other).push_back({apart, m});
-      }
-    }
-    for (auto* list : {&same, &other}) {
-      std::sort(list->begin(), list->end());
-      if (list->size() > kOfEach) list->resize(kOfEach);
-      for (const auto& [apart, m] : *list) pairs.insert({std::min(k, m), std::max(k, m)});
-    }
-  }
-  return pairs;
-}
+constexpr double kArm = 3.0;             // m, at which a turn counts as a shift
+constexpr std::size_t kPairsOfEach = 7;  // bounds the matches of a frame in an adjustment
 
 }  // namespace
 
@@ -134,6 +89,57 @@ std::optional<GraphEdge> matchEdge(const KeyFrames& frames, int from, int to,
   return edge;
 }
 
+std::vector<FramePair> pairsInView(const KeyFrames& frames, std::size_t of_each) {
+  constexpr double kSameVisit = 10.0;  // m of way
+  std::vector<double> way(static_cast<std::size_t>(frames.size()), 0.0);
+  for (int k = 1; k < frames.size(); ++k) {
+    way[static_cast<std::size_t>(k)] =
+        way[static_cast<std::size_t>(k - 1)] +
+        (frames.graph.pose(k).position() - frames.graph.pose(k - 1).position()).norm();
+  }
+  // Frames by cells of the common view, so that only neighbours are asked.
+  std::vector<std::pair<std::pair<int, int>, int>> cells;
+  const auto cellOf = [&](int k) {
+    const Pose2& pose = frames.graph.pose(k);
+    return std::pair<int, int>{static_cast<int>(std::floor(pose.x / kCommonView)),
+                               static_cast<int>(std::floor(pose.y / kCommonView))};
+  };
+  for (int k = 0; k < frames.size(); ++k) cells.push_back({cellOf(k), k});
+  std::sort(cells.begin(), cells.end());
+  std::set<std::tuple<int, int, bool>> pairs;
+  for (int k = 0; k < frames.size(); ++k) {
+    const auto [cx, cy] = cellOf(k);
+    std::vector<std::pair<double, int>> same, other;
+    for (int x = cx - 1; x <= cx + 1; ++x) {
+      const std::pair<std::pair<int, int>, int> first{{x, cy - 1}, -1};
+      for (auto it = std::lower_bound(cells.begin(), cells.end(), first);
+           it != cells.end() && it->first.first == x && it->first.second <= cy + 1; ++it) {
+        const int m = it->second;
+        const Pose2 &a = frames.graph.pose(k), &b = frames.graph.pose(m);
+        if (m == k || (a.position() - b.position()).norm() > kCommonView) continue;
+        if (frames.graph.part(m) != frames.graph.part(k)) continue;
+        const bool same_visit = std::abs(way[static_cast<std::size_t>(m)] -
+                                         way[static_cast<std::size_t>(k)]) <= kSameVisit;
+        const double apart =
+            apartness(a, b, frames.surfaces[static_cast<std::size_t>(k)].is_full_turn);
+        (same_visit ? same : other).push_back({apart, m});
+      }
+    }
+    for (auto* list : {&same, &other}) {
+      std::sort(list->begin(), list->end());
+      if (list->size() > of_each) list->resize(of_each);
+      for (const auto& [apart, m] : *list) {
+        pairs.insert({std::min(k, m), std::max(k, m), list == &same});
+      }
+    }
+  }
+  std::vector<FramePair> found;
+  for (const auto& [first, second, is_same_visit] : pairs) {
+    found.push_back({first, second, is_same_visit});
+  }
+  return found;
+}
+
 namespace {
 
 /// What two frames say of each other, until they have moved.
@@ -174,10 +180,10 @@ void adjust(KeyFrames& frames, int rounds, const DoAll& do_all) {
   constexpr double kFirstReach = 0.3, kNarrows = 0.8, kLastReach = 0.1;
   constexpr int kAtOnce = 64;  // matches, so that sharing them out costs nothing
   std::vector<PairEdge> pairs;
-  for (const auto& [a, b] : pairsInView(frames)) {
+  for (const FramePair& pair : pairsInView(frames, kPairsOfEach)) {
     // In both directions: the lines of either are the other's measure.
-    pairs.emplace_back(a, b);
-    pairs.emplace_back(b, a);
+    pairs.emplace_back(pair.first, pair.second);
+    pairs.emplace_back(pair.second, pair.first);
   }
   const int count = static_cast<int>(pairs.size());
   std::vector<GraphEdge> steps;

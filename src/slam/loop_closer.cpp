@@ -23,7 +23,9 @@ constexpr double kFarMove = 3.0, kLikelySigmas = 1.5;
 /// scan is a frame, the search keeps up.
 constexpr int kFramesAtOnce = 3;
 
-bool agree(const PoseGraph& graph, const LoopVerdict& a, const LoopVerdict& b) {
+}  // namespace
+
+bool saySamePlace(const PoseGraph& graph, const LoopVerdict& a, const LoopVerdict& b) {
   if (graph.part(a.candidate) != graph.part(b.candidate) ||
       graph.part(a.frame) != graph.part(b.frame)) {
     return false;
@@ -36,8 +38,6 @@ bool agree(const PoseGraph& graph, const LoopVerdict& a, const LoopVerdict& b) {
   return way < kNeighbourWay && off.position().norm() < 0.15 + 0.02 * way &&
          std::abs(off.theta) < 0.03 + 0.005 * way;
 }
-
-}  // namespace
 
 bool isCredible(const LoopVerdict& verdict) {
   const double doubt = (1.0 - kAgreeNear) * kNearWindow / std::max(kNearWindow, verdict.window);
@@ -89,7 +89,7 @@ std::vector<GraphEdge> LoopCloser::advance(const KeyFrames& frames, int cells) {
 std::vector<GraphEdge> LoopCloser::take(const PoseGraph& graph, const LoopVerdict& verdict) {
   if (!isCredible(verdict)) return {};
   const auto second = std::find_if(waiting_.begin(), waiting_.end(), [&](const auto& other) {
-    return other.frame != verdict.frame && agree(graph, verdict, other);
+    return other.frame != verdict.frame && saySamePlace(graph, verdict, other);
   });
   if (second == waiting_.end()) {
     waiting_.push_back(verdict);

@@ -97,6 +97,29 @@ TEST(UndistortionOf, MissingReturnsTurnsThemWithTheBeams) {
   for (const int beam : {343, 357}) EXPECT_TRUE(isReturn(still.ranges[beam])) << beam;
 }
 
+// Neighbours on it differ in range by a tenth and more from 6 m on, as at a step in depth.
+TEST(UndistortionOf, AWallThatBeamsGrazeStaysStraight) {
+  constexpr int kBeams = 360;
+  constexpr double kTurn = 1.3, kSweep = 0.18;
+  Scan scan;
+  scan.angle_min = -M_PI;
+  scan.angle_increment = M_PI / 180.0;
+  scan.sweep_duration = kSweep;
+  for (std::size_t i = 0; i < kBeams; ++i) {  // in the middle of a corridor, 2 m wide
+    const double time = kSweep * (static_cast<double>(i) / (kBeams - 1.0) - 0.5);
+    const double range = 1.0 / std::abs(std::sin(scan.bearing(i) + kTurn * time));
+    scan.ranges.push_back(range < 12.0 ? range : HUGE_VAL);
+  }
+  const Scan still = undistort(scan, {{0.0, 0.0}, kTurn});
+  int far = 0;
+  for (std::size_t i = 0; i < still.size(); ++i) {
+    if (!isReturn(still.ranges[i]) || still.ranges[i] > 9.0) continue;
+    far += still.ranges[i] > 6.0;
+    EXPECT_NEAR(std::abs(still.ranges[i] * std::sin(still.bearing(i))), 1.0, 0.005) << i;
+  }
+  EXPECT_GE(far, 8);
+}
+
 TEST(UndistortionOf, AStepInDepthLeavesNoPointBetween) {
   const SweptRoom room;
   const Scan still =

@@ -7,6 +7,7 @@
 
 #include "cca_mrpt/slam/key_frames.hpp"
 #include "cca_mrpt/slam/loop_closer.hpp"
+#include "cca_mrpt/slam/loop_review.hpp"
 #include "cca_mrpt/slam/map_part.hpp"
 
 namespace cca {
@@ -43,7 +44,7 @@ class GraphBackEnd {
   /// Whether the last correction joined two parts.
   bool hasJoined() const { return has_joined_; }
   /// Relocalises the frames of all lost parts once more, and solves for all poses by all scans
-  /// (bundle adjustment).
+  /// (bundle adjustment), with another set of loops where the visits contradict one another.
   /// @param do_all  shares out what can be done at once; see adjust().
   void finish(KeyFrames& frames, MapPart& map, double scale, const DoAll& do_all);
 
@@ -53,6 +54,8 @@ class GraphBackEnd {
   const SlamWork& work() const { return work_; }
   void restartCount() { work_ = {}; }
   const LoopCloser& loopCloser() const { return loop_closer_; }
+  /// Of the last finish().
+  const LoopReview& review() const { return review_; }
 
  private:
   struct OdometryEdge {
@@ -64,6 +67,7 @@ class GraphBackEnd {
   void applyOptimisation(KeyFrames& frames, MapPart& map);
   void connectRevisits(KeyFrames& frames, int frame);
   void rescaleOdometryEdges(PoseGraph& graph, double scale);
+  void reviewEdges(KeyFrames& frames, const MapPart& map, const DoAll& do_all);
 
   LoopCloser loop_closer_;
   std::deque<int> to_join_;  ///< frames to be relocalised in other parts of the graph
@@ -73,6 +77,7 @@ class GraphBackEnd {
   int last_optimised_ = 0;          ///< frame
   bool has_new_edges_ = false;      ///< of revisits, for which the poses have not been solved yet
   bool has_joined_ = false;
+  LoopReview review_;
   SlamWork work_;
 };
 

@@ -51,6 +51,15 @@ std::vector<int> framesInView(const KeyFrames& frames, int anchor, const Pose2& 
 std::optional<GraphEdge> matchEdge(const KeyFrames& frames, int from, int to,
                                    const MatchScale& scale);
 
+/// Two frames of one part of the graph within the common view of each other.
+struct FramePair {
+  int first, second;   ///< first < second
+  bool is_same_visit;  ///< ten metres of way apart at the most
+};
+/// Each frame with those that have most in common with it: as many of the same visit as of others.
+/// @param of_each  of each of the two, at the most. @return  in the order of the frames.
+std::vector<FramePair> pairsInView(const KeyFrames& frames, std::size_t of_each);
+
 /// All frames and the scans between them made to agree: pairs of frames that see the same place are
 /// matched anew where they stand, and all poses solved for at once; and again, the reach shrinking
 /// (bundle adjustment). What the wheels say stays as it is.

@@ -3,6 +3,7 @@
 
 #include <deque>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "cca_mrpt/slam/loop_closing.hpp"
@@ -13,6 +14,9 @@ namespace cca {
 /// Whether a loop speaks for itself: rays agree, enough was seen on both visits, and no other place
 /// is nearly as good.
 bool isCredible(const LoopVerdict& verdict);
+
+/// Whether two loops, at most 12 m of way apart, lay one visit onto the other alike.
+bool saySamePlace(const PoseGraph& graph, const LoopVerdict& a, const LoopVerdict& b);
 
 /// Which of the loops that are found are believed: within a part of the graph, a credible one waits
 /// until a second one, of another frame, says the same; what joins two parts is decided by
@@ -37,6 +41,8 @@ class LoopCloser {
   /// @return the edges of the loops that were believed now, two or none.
   std::vector<GraphEdge> advance(const KeyFrames& frames, int cells);
 
+  /// Others are believed instead.
+  void believe(std::vector<LoopVerdict> loops) { loops_ = std::move(loops); }
   /// What waits for a second one waits no more.
   void forgetDoubtful() { waiting_.clear(); }
 

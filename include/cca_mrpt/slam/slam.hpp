@@ -107,6 +107,9 @@ class Slam {
   const KeyFrames& keyFrames() const { return frames_; }
   const std::vector<LoopVerdict>& loops() const { return back_end_.loopCloser().loops(); }
   const std::vector<LoopVerdict>& verdicts() const { return back_end_.loopCloser().verdicts(); }
+  /// How the visits of the map agree with one another, and whether other sets of loops were tried:
+  /// of the last finish().
+  const LoopReview& review() const { return back_end_.review(); }
   int version() const { return corrections_.version(); }
 
  private:

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "cca_mrpt/mapping/scan_agreement.hpp"
+#include "cca_mrpt/slam/visit_agreement.hpp"
 
 namespace cca::apps {
 
@@ -16,6 +17,17 @@ inline std::string contradiction(const ScanAgreement& agreement) {
       text, sizeof text,
       "scans contradict the map (%.1f %% of their returns agree with it): poses are wrong",
       100.0 * agreement.overall());
+  return text;
+}
+
+/// The same of the visits of a place. Empty where they agree.
+inline std::string contradiction(const VisitAgreement& visits) {
+  if (!visits.isContradiction()) return "";
+  char text[140];
+  std::snprintf(text, sizeof text,
+                "visits of one place contradict one another (%.1f %% of their returns more than "
+                "usual): poses are wrong",
+                100.0 * visits.excess());
   return text;
 }
 

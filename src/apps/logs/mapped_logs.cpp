@@ -111,7 +111,10 @@ void MappedLogs::finish() {
   warn(strayWarning());
 }
 
-std::string MappedLogs::shortcoming() const { return contradiction(session_->agreement()); }
+std::string MappedLogs::shortcoming() const {
+  const std::string by_lines = contradiction(session_->agreement());
+  return by_lines.empty() && slam_ ? contradiction(slam_->slam().review().agreement) : by_lines;
+}
 
 void MappedLogs::restart() {
   grid_ = ScanGrid(start_);
@@ -213,6 +216,7 @@ MapProducts MappedLogs::products() const {
     products.memory = packedMemory({slam.memory(), origin_});
     summary["key_frames"] = products.graph.size();
     summary["loops"] = slam.loops().size();
+    addVisits(summary, slam.review());
     summary["scans_without_place"] = std::count(known.begin(), known.end(), false);
     if (logs_.memory) {
       summary["resumed"] = logs_.resumed;
@@ -228,6 +232,18 @@ MapProducts MappedLogs::products() const {
   // Poses taken from the log are their own reference, and would be called perfect.
   if (logs_.pose != PoseSource::kLog && logs_.pose != PoseSource::kTruth) addPoseError(summary);
   return products;
+}
+
+/// How far the visits of a place contradict one another, and what was chosen among.
+void MappedLogs::addVisits(nlohmann::ordered_json& summary, const LoopReview& review) {
+  summary["visits_contradicted"] = review.agreement.excess();
+  if (review.hypotheses == 0) return;
+  auto& tried = summary["loop_hypotheses"];
+  tried["solved"] = review.hypotheses;
+  tried["changed"] = review.has_changed;
+  if (!review.runner_up) return;
+  tried["runner_up"] = {{"visits_contradicted", review.runner_up->excess},
+                        {"distance_m", review.runner_up->distance}};
 }
 
 void MappedLogs::addPoseError(nlohmann::ordered_json& summary) const {

@@ -66,6 +66,7 @@ class MappedLogs : public MapRecorder {
   std::string slamWarnings() const;
   std::string strayWarning() const;
   void warn(const std::string& warning);
+  static void addVisits(nlohmann::ordered_json& summary, const LoopReview& review);
   void addPoseError(nlohmann::ordered_json& summary) const;
 
   LogsToMap logs_;
