@@ -25,6 +25,20 @@ function(cca_layer name)
   cca_join_sources(${target})
 endfunction()
 
+# cca_add_replay_template(TARGET): the page of replay.html, libraries and all, stands in the program.
+function(cca_add_replay_template target)
+  set(replay ${PROJECT_SOURCE_DIR}/src/io/replay)
+  set(header ${CMAKE_CURRENT_BINARY_DIR}/replay_template.hpp)
+  file(GLOB_RECURSE parts CONFIGURE_DEPENDS ${replay}/page/*)
+  add_custom_command(OUTPUT ${header}
+    COMMAND ${CMAKE_COMMAND} -D SOURCES=${replay}/page -D OUT=${header}
+            -P ${PROJECT_SOURCE_DIR}/cmake/replay_template.cmake
+    DEPENDS ${parts} ${PROJECT_SOURCE_DIR}/cmake/replay_template.cmake VERBATIM)
+  target_sources(${target} PRIVATE ${header})
+  target_include_directories(${target} PRIVATE ${CMAKE_CURRENT_BINARY_DIR})
+  set_source_files_properties(${replay}/replay_page.cpp PROPERTIES COMPILE_OPTIONS -Wno-overlength-strings)
+endfunction()
+
 # cca_late_library(NAME SOURCES file... DEPENDS target...)
 #
 # A library libcca_NAME.so that no target links: lateFunction() loads it, from where cca_io lies.

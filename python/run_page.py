@@ -38,7 +38,7 @@ def run(kind, code, folder):
 def main(page, folder, part):
     text = Path(page).read_text(encoding="utf-8")
     blocks = [(text.count("\n", 0, found.start()) + 1, found[1], found[2]) for found in BLOCK.finditer(text)]
-    install = next(block for block in blocks if block[1] == "sh")
+    install = next((block for block in blocks if block[1] == "sh"), None)
     failed = 0
     for line, kind, code in [install] if part == "install" else [b for b in blocks if b != install]:
         missing = missing_for(code)

@@ -34,4 +34,5 @@ pip install pytest mypy distributed gymnasium rosbags mcap
 mkdir "$where/examples" 2>/dev/null || rm -rf "$where"/examples/*
 python python/tests/room_log.py "$where/examples/intel.log.gz"
 python python/run_page.py docs/python.md "$where/examples" examples
+python python/run_page.py docs/python_batch.md "$where/examples" examples
 python -m pytest -q -p no:cacheprovider python/tests

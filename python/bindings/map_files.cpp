@@ -7,11 +7,13 @@
 #include <algorithm>
 #include <cstdint>
 #include <memory>
+#include <stdexcept>
 #include <utility>
 
 #include "cca_mrpt/io/pose_files.hpp"
 #include "io/lines/line_formats.hpp"
 #include "io/poses/local_frame.hpp"
+#include "io/replay/replay.hpp"
 #include "line_arrays.hpp"
 #include "module.hpp"
 #include "owned_array.hpp"
@@ -109,6 +111,17 @@ void addMapFiles(nb::module_& module) {
         return readLinesGeoJson(geojson, name).poly_lines;
       },
       nb::arg("geojson"), nb::arg("name"), "The poly-lines of a lines.geojson, in metres.");
+  module.def(
+      "runs_of_page",
+      [](const std::string& page, const std::string& name) {
+        try {
+          return runsOfReplayPage(page, name);
+        } catch (const std::runtime_error& error) {
+          throw nb::value_error(error.what());
+        }
+      },
+      nb::arg("page"), nb::arg("name"), "The runs that a replay.html holds, packed.");
+  module.def("page_of_runs", &replayPage, nb::arg("runs"), "The page of one run, or two.");
 }
 
 nb::object filesAndArrays(MappedScans result) {
@@ -125,6 +138,9 @@ nb::object filesAndArrays(MappedScans result) {
   held["times"] = nb::cast(result.times);
   held["is_placed"] = is_placed;
   held["warnings"] = result.warnings;
+  held["shortcoming"] = result.shortcoming;
+  held["replay"] =
+      nb::make_tuple(result.replay, nb::make_tuple(result.origin.x(), result.origin.y()));
   held["grid"] = gridTuple(result.grid);
   summary["finished"] = result.finished;
   summary["pose"] = result.pose;

@@ -34,7 +34,8 @@ struct MappedScans {
   double agreement = 0.0;
   Eigen::Vector2d origin = Eigen::Vector2d::Zero();  ///< m, map frame: where that frame lies
   bool finished = false;
-  std::string warnings;
+  std::string warnings, shortcoming;
+  std::string replay;  ///< Replay::packed(), of the same frame; empty: there is none
 };
 
 /// (dict of arrays and numbers, dict of files by name), in the map frame.

@@ -14,4 +14,5 @@ NB_MODULE(_core, module) {
   cca::python::addMapFiles(module);
   cca::python::addFloorPlan(module);
   cca::python::addSession(module);
+  cca::python::addLocalisation(module);
 }

@@ -9,6 +9,7 @@ namespace cca::python {
 void addMapping(nanobind::module_& module);
 void addBaselines(nanobind::module_& module);
 void addNavigation(nanobind::module_& module);
+void addLocalisation(nanobind::module_& module);
 void addLogs(nanobind::module_& module);
 void addSlam(nanobind::module_& module);
 void addMapFiles(nanobind::module_& module);

@@ -228,6 +228,12 @@ void addExplorer(nb::module_& module) {
                 ExplorationSession(std::make_unique<GivenPoses>(), {mapping, robot, parameters})});
           },
           nb::arg("parameters"), nb::sig(signature.c_str()))
+      .def("__repr__",
+           [](SharedExplorer& explorer) {
+             const std::size_t scans = explorer.with(
+                 [](Exploration& own) { return own.session.mapping().trajectory().size(); });
+             return "Explorer(" + std::to_string(scans) + " scans)";
+           })
       .def("step", &explore, nb::arg("ranges").none(), nb::arg("angle_min"),
            nb::arg("angle_increment"), nb::arg("pose").none(), nb::arg("time"),
            nb::arg("velocity").none() = nb::make_tuple(0.0, 0.0),

@@ -27,9 +27,11 @@ from ._core import (
 )
 from .floor_plans import FloorPlan, Furniture, Opening, Room, Wall, floor_plan
 from .grids import Grid
+from .localisation import Localisation, localize
 from .logs import Log, read_log
-from .maps import Map, MapArc, Mapper, load, map
+from .maps import Map, MapArc, Mapper, load, map, merge
 from .plotting import plot
+from .replays import replay_page
 
 _no_simulation = ""
 if TYPE_CHECKING:
@@ -64,6 +66,7 @@ __all__ = [
     "Furniture",
     "Grid",
     "LineMap",
+    "Localisation",
     "Log",
     "LogRecord",
     "Map",
@@ -80,9 +83,12 @@ __all__ = [
     "extract_lines",
     "floor_plan",
     "load",
+    "localize",
     "map",
+    "merge",
     "plot",
     "read_log",
+    "replay_page",
 ]
 
 

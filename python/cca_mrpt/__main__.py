@@ -1,16 +1,29 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The command line: python -m cca_mrpt map LOG [--out FOLDER], info LOG, and batch for many logs or worlds."""
+"""The command line: python -m cca_mrpt map LOG, merge MAP MAP, localize LOG, render FOLDER, info LOG, and batch."""
 from __future__ import annotations
 
 import argparse
 import math
+import re
 import sys
+from importlib.metadata import version
 from pathlib import Path
 from typing import Any, Callable, Dict, List, Optional, Sequence, Tuple
 
+from ._core import write_files_into
+from .localisation import localize
 from .logs import read_log
-from .maps import POSES
+from .maps import POSES, Map, merge
 from .maps import map as map_log
+from .replays import replay_page
+
+FELL_SHORT = 3
+STATUSES = """exit status: 0 done; 1 failed; 2 no such command or option, or a value that is not allowed; 3 done, but the
+result falls short, as the last message says (scans that contradict the map, a robot that was localised nowhere)"""
+
+
+class Shortcoming(Exception):
+    """What was asked for is done and saved, but is not what it should be."""
 
 
 def parse_mount(text: str) -> Tuple[Tuple[float, float, float], bool]:
@@ -32,17 +45,72 @@ def reading_of(options: argparse.Namespace) -> Dict[str, Any]:
                 upside_down=upside_down)
 
 
+def require_new(folder: Path, force: bool, *names: str) -> None:
+    """Before the work, not after it."""
+    for name in names:
+        if (folder / name).exists() and not force:
+            raise FileExistsError(f"{folder / name}: is there already (--force overwrites it)")
+
+
+def require_sound(result: Any, out: Path, what: str) -> None:
+    if result.shortcoming:
+        raise Shortcoming(f"{result.shortcoming}; {what} in {out}")
+
+
+def save_map(made: Map, out: Path, options: argparse.Namespace, told: str) -> str:
+    made.save(out, force=options.force)
+    if not options.quiet:
+        print(f"{told}; {out} holds the map")
+    require_sound(made, out, "the map is")
+    return ""
+
+
 def run_map(options: argparse.Namespace) -> str:
     """Write the line map of a log into a folder; what was done, in a sentence."""
     out = options.out or Path("out") / Path(options.log).name.split(".")[0]
-    if (out / "lines.csv").exists() and not options.force:
-        raise FileExistsError(f"{out / 'lines.csv'}: is there already (--force overwrites it)")
-    made = map_log(options.log, options.pose, **reading_of(options))
+    require_new(out, options.force, "lines.csv", "summary.json")
+    made = map_log(options.log, options.pose, serve=options.serve, serve_address=options.serve_address,
+                   **reading_of(options))
     if made.warnings:
         print(f"{options.log}: {made.warnings}", file=sys.stderr)
-    made.save(out, force=options.force)
-    return (f"{len(made)} lines from {len(made.trajectory)} scans over {made.summary['distance_m']:.1f} m, "
-            f"poses by {made.summary['pose']}; {out} holds the map")
+    return save_map(made, out, options, f"{len(made)} lines from {len(made.trajectory)} scans over "
+                                        f"{made.summary['distance_m']:.1f} m, poses by {made.summary['pose']}")
+
+
+def run_merge(options: argparse.Namespace) -> str:
+    """Write one map of several; what was done, in a sentence."""
+    if len(options.maps) < 2:
+        raise Usage("MAP: two or more are needed")
+    require_new(options.out, options.force, "lines.csv", "summary.json")
+    made = merge(options.maps)
+    return save_map(made, options.out, options, f"{len(made)} lines from {len(options.maps)} maps, "
+                                                f"{made.summary['loops']} loops between and within them")
+
+
+def run_localize(options: argparse.Namespace) -> str:
+    """Write where a log was taken in a plan; what was done, in a sentence."""
+    require_new(options.out, options.force, "poses.csv", "poses.tum", "summary.json")
+    found = localize(read_log(options.log, **reading_of(options)), options.plan, options.start, options.scale)
+    if found.warnings:
+        print(f"{options.log}: {found.warnings}", file=sys.stderr)
+    found.save(options.out, force=options.force)
+    if not options.quiet:
+        print(f"{len(found)} of {found.summary['scans']} scans localised, lost {found.summary['lost_times']} time(s); "
+              f"{options.out} holds the poses")
+    require_sound(found, options.out, "the summary is")
+    return ""
+
+
+def run_render(options: argparse.Namespace) -> str:
+    """Write the page that replays a run."""
+    run = Path(options.run)
+    out: Optional[Path] = options.out
+    if out is None and run.is_dir() and options.beside is None:
+        out = run / "replay.html"
+    if out is None or out.suffix != ".html":
+        raise Usage("--out: a page that ends in .html is needed")
+    write_files_into(str(out.parent), {out.name: replay_page(run, options.beside).encode()})
+    return f"{out} replays the run"
 
 
 def run_info(options: argparse.Namespace) -> str:
@@ -90,34 +158,107 @@ def add_batch(commands: Any) -> None:
     command.add_argument("--program", default="cca-mrpt", help="explore: the program, on the workers")
 
 
+class Usage(Exception):
+    """A value that is not allowed."""
+
+
 def told(work: Callable[[], str]) -> int:
     """Do it and say what was done, or what is wrong; the exit status."""
     try:
-        print(work())
+        done = work()
+        if done:
+            print(done)
+    except Usage as error:
+        print(f"cca_mrpt: {error}", file=sys.stderr)
+        return 2
+    except Shortcoming as error:
+        print(f"cca_mrpt: {error}", file=sys.stderr)
+        return FELL_SHORT
     except (OSError, ValueError, RuntimeError, ImportError) as error:
         print(f"cca_mrpt: {error}", file=sys.stderr)
         return 1
     return 0
 
 
-def main(arguments: Optional[Sequence[str]] = None) -> int:
-    parser = argparse.ArgumentParser(prog="cca-mrpt", description="line maps of laser logs")
-    commands = parser.add_subparsers(dest="command", required=True)
-    map_command = commands.add_parser("map", help="line map of a whole log")
-    map_command.add_argument("--out", type=Path, help="folder to write to (default: out/NAME_OF_LOG)")
-    map_command.add_argument("--pose", default="auto", choices=POSES,
-                             help="where the poses come from (auto: the log's own where it has corrected ones, else SLAM)")
-    map_command.add_argument("--force", action="store_true", help="overwrite a map that is there")
-    for command in map_command, commands.add_parser("info", help="what is in a log"):
-        command.add_argument("log", metavar="LOG", help="CARMEN .log, ROS .bag, .db3, .mcap or a folder of ROS 2")
-        command.add_argument("--topic", help="bags: of the scans (default: the one with most of them)")
-        command.add_argument("--base-frame", help="bags: the robot's frame")
-        command.add_argument("--odom-frame", help="bags: the frame of the robot's odometry")
-        command.add_argument("--mount", type=parse_mount, metavar="X,Y,YAW_DEG[,upside-down]",
-                             help="bags: how the laser stands on the robot, where tf does not tell it")
+def parse_start(text: str) -> Tuple[float, float, float]:
+    """X,Y,DEG."""
+    try:
+        x, y, degrees = (float(part) for part in text.split(","))
+    except ValueError:
+        raise argparse.ArgumentTypeError(f"{text!r}: X,Y,DEG is needed") from None
+    return x, y, math.radians(degrees)
+
+
+def parse_port(text: str) -> int:
+    if not text.isdecimal() or int(text) > 65535:
+        raise argparse.ArgumentTypeError(f"{text!r}: a port in [0, 65535] is needed")
+    return int(text)
+
+
+def add_log(command: argparse.ArgumentParser) -> None:
+    command.add_argument("log", metavar="LOG", help="CARMEN .log, ROS .bag, .db3, .mcap or a folder of ROS 2")
+    command.add_argument("--topic", help="bags: of the scans (default: the one with most of them)")
+    command.add_argument("--base-frame", help="bags: the robot's frame")
+    command.add_argument("--odom-frame", help="bags: the frame of the robot's odometry")
+    command.add_argument("--mount", type=parse_mount, metavar="X,Y,YAW_DEG[,upside-down]",
+                         help="bags: how the laser stands on the robot, where tf does not tell it")
+
+
+def add_output(command: argparse.ArgumentParser, required: bool, what: str) -> None:
+    command.add_argument("--out", type=Path, required=required, help=f"folder to write {what} to"
+                         + ("" if required else " (default: out/NAME_OF_LOG)"))
+    command.add_argument("--force", action="store_true", help="overwrite what is there")
+    command.add_argument("--quiet", action="store_true", help="print nothing but errors")
+
+
+def add_commands(commands: Any) -> None:
+    add_log(commands.add_parser("info", help="what is in a log"))
+    command = commands.add_parser("localize", help="poses of a log in a finished map or a drawn plan")
+    add_log(command)
+    command.add_argument("--in", dest="plan", metavar="PLAN", required=True,
+                         help="a map's folder, its lines.csv or map.slam; .geojson, .dxf, .svg; .yaml of map_server")
+    command.add_argument("--start", type=parse_start, metavar="X,Y,DEG",
+                         help="where the log begins, to half a metre and 15 degrees (default: anywhere)")
+    command.add_argument("--scale", type=float, default=0.0, help="metres of a unit of the drawing (default: as it tells)")
+    add_output(command, True, "the poses")
+    command = commands.add_parser("map", help="line map of a whole log")
+    add_log(command)
+    command.add_argument("--pose", default="auto", choices=POSES,
+                         help="where the poses come from (auto: the log's own where it has corrected ones, else SLAM)")
+    add_output(command, False, "the map")
+    command.add_argument("--serve", type=parse_port, nargs="?", const=8048, metavar="PORT",
+                         help="show the map in browsers as it grows, at this port [8048]; 0: any free")
+    command.add_argument("--serve-address", default="127.0.0.1", metavar="ADDR",
+                         help="serve at another address of this machine: who asks must know a random token then")
+    command = commands.add_parser("merge", help="maps of one place, by one robot or several, become one")
+    command.add_argument("maps", metavar="MAP", nargs="+", help="folders with a map.slam; the first one's frame stays")
+    add_output(command, True, "the map")
+    command = commands.add_parser("render", help="a page to replay a run in, from its folder's replay.html")
+    command.add_argument("run", metavar="DIR", help="folder of a run, or its page")
+    command.add_argument("--html", action="store_true", help="as the program calls it; there is nothing else here")
+    command.add_argument("--beside", metavar="DIR", help="folder of a second run, to be seen beside it")
+    command.add_argument("--out", type=Path, help="page to write (default: the folder's replay.html)")
     add_batch(commands)
-    options = parser.parse_args(arguments)
-    run = {"batch": run_batch, "map": run_map, "info": run_info}[options.command]
+
+
+def _with_places_told(words: Sequence[str]) -> List[str]:
+    """`--start -1,0,90` as `--start=-1,0,90`: argparse takes what begins so for an option."""
+    told: List[str] = []
+    for word in words:
+        if told and told[-1] in ("--start", "--mount") and re.match(r"-[\d.]", word):
+            told[-1] += "=" + word
+        else:
+            told.append(word)
+    return told
+
+
+def main(arguments: Optional[Sequence[str]] = None) -> int:
+    parser = argparse.ArgumentParser(prog="cca-mrpt", description="line maps of laser logs", epilog=STATUSES)
+    parser.add_argument("--version", action="version", version=f"cca-mrpt {version('cca-mrpt')}")
+    add_commands(parser.add_subparsers(dest="command", required=True))
+    options = parser.parse_args(_with_places_told(sys.argv[1:] if arguments is None else arguments))
+    run = {"batch": run_batch, "map": run_map, "info": run_info, "localize": run_localize, "merge": run_merge,
+           "render": run_render}[options.command]
     return told(lambda: run(options))
 
 

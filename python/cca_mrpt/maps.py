@@ -6,13 +6,14 @@ import csv
 import io
 import json
 import os
+import sys
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Dict, Iterable, List, NamedTuple, Optional, Sequence, Tuple, Union
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ._core import MAP_LINE, Estimate, LogRecord, MappingSession, PolyLine, map_records, read_chains, write_files_into
+from ._core import MAP_LINE, Estimate, LogRecord, MappingSession, PolyLine, map_records, merge_maps, read_chains, replay_with_rooms, write_files_into
 from .grids import Grid, read_grid
 from .logs import Log, read_log
 from .plotting import plot
@@ -26,7 +27,8 @@ if TYPE_CHECKING:
 
 POSES = ("auto", "log", "odometry", "slam")
 # What a map's folder holds that Python keeps as it is; the program writes more.
-FILES = ("lines.csv", "arcs.csv", "lines.geojson", "lines.svg", "lines.dxf", "poses.csv", "poses.tum", "graph.g2o", "map.slam")
+FILES = ("lines.csv", "arcs.csv", "lines.geojson", "lines.svg", "lines.dxf", "poses.csv", "poses.tum", "graph.g2o", "map.slam",
+         "replay.html")
 
 
 class MapArc(NamedTuple):
@@ -52,6 +54,7 @@ class Map:
         summary: numbers of the run, as in summary.json.
         grid: which places are free (a `Grid`); None: the folder that it was loaded from has no map.yaml.
         warnings: what could not be read, or was guessed; empty where all was well.
+        shortcoming: why it is not the map that was asked for (the scans contradict it); empty where it is.
     """
 
     def __init__(self, held: Dict[str, Any], files: Dict[str, bytes], warnings: str = "") -> None:
@@ -66,9 +69,12 @@ class Map:
         self.warnings = warnings = "; ".join(filter(None, [warnings, held.get("warnings", "")]))
         if not self.is_placed.all():
             self.summary["unplaced_scans"] = np.flatnonzero(~self.is_placed).tolist()
-        if warnings:
-            self.summary["warnings"] = warnings
+        told = "; ".join(filter(None, [warnings, held.get("shortcoming", "")]))
+        if told:
+            self.summary["warnings"] = told
         self._files = files
+        self.shortcoming: str = held.get("shortcoming", "")
+        self._replay: Tuple[str, Tuple[float, float]] = held.get("replay", ("", (0.0, 0.0)))
 
     def save(self, folder: Union[str, "os.PathLike[str]"], force: bool = False) -> List[str]:
         """Write the map into a folder, which is made where it is missing; each file whole or not at all.
@@ -78,21 +84,25 @@ class Map:
 
         Returns:
             The files' names: lines.csv, arcs.csv, lines.geojson, .svg, .dxf, poses.csv, poses.tum, of SLAM graph.g2o
-            and map.slam; summary.json comes last.
+            and map.slam, of `map` replay.html; summary.json comes last.
 
         Raises:
             FileExistsError: one of them is there already.
             RuntimeError: it cannot be written; names the file and the reason.
         """
-        where = Path(folder)
-        names = [*self._files, "summary.json"]
+        where, contents = Path(folder), dict(self._files)
+        if self._replay[0] and self.grid:
+            cells, resolution, origin = self.grid
+            page = replay_with_rooms(*self._replay, self.lines_csv(), cells, resolution, origin)
+            contents["replay.html"] = page.encode()
+        names = [*contents, "summary.json"]
         taken = [name for name in names if (where / name).exists()]
         if taken and not force:
             raise FileExistsError(f"{where / taken[0]}: is there already (force=True overwrites it)")
         if (where / "summary.json").exists():  # it says that all is there
             (where / "summary.json").unlink()
-        write_files_into(os.fspath(where), self._files)
-        for name in set(FILES) - set(self._files):  # what an earlier run left would be taken for this one's
+        write_files_into(os.fspath(where), contents)
+        for name in set(FILES) - set(contents):  # what an earlier run left would be taken for this one's
             (where / name).unlink(missing_ok=True)
         write_files_into(os.fspath(where), {"summary.json": (json.dumps(self.summary, indent=1) + "\n").encode()})
         return names
@@ -130,9 +140,14 @@ def _log_of(source: Union[str, "os.PathLike[str]", Iterable[LogRecord]], reading
     return source
 
 
+def _tell_address(url: str) -> None:
+    print(f"cca_mrpt: the run can be seen at {url}", file=sys.stderr, flush=True)
+
+
 def map(path: Union[str, "os.PathLike[str]", Iterable[LogRecord]], pose: str = "auto", *, topic: Optional[str] = None,
         base_frame: Optional[str] = None, odom_frame: Optional[str] = None, mount: Optional[Sequence[float]] = None,
-        upside_down: bool = False, **parameters: Unpack[MapParameters]) -> Map:
+        upside_down: bool = False, serve: Optional[int] = None, serve_address: str = "127.0.0.1",
+        **parameters: Unpack[MapParameters]) -> Map:
     """The line map of a whole log: the same as the program `cca-mrpt map` makes, byte for byte.
 
     Args:
@@ -140,6 +155,8 @@ def map(path: Union[str, "os.PathLike[str]", Iterable[LogRecord]], pose: str = "
         pose: where the poses come from: "log": as somebody has corrected them, else the odometry's; "odometry": the
             wheels alone; "slam": line SLAM; "auto": the log's where it has corrected ones, else SLAM.
         topic, base_frame, odom_frame, mount, upside_down: of bags, see `read_log`.
+        serve: a port: the map is shown in browsers as it grows, at the address that is printed on stderr. See
+            `Mapper.serve`; while a viewer pauses, no scan is read.
         parameters: of `LineMap`.
 
     Raises:
@@ -150,7 +167,8 @@ def map(path: Union[str, "os.PathLike[str]", Iterable[LogRecord]], pose: str = "
     log = _log_of(path, {"topic": topic, "base_frame": base_frame, "odom_frame": odom_frame, "mount": mount,
                          "upside_down": upside_down or None})
     try:
-        held, files = map_records(log, pose, **parameters)
+        page = None if serve is None else (serve_address, serve)
+        held, files = map_records(log, pose, Path(getattr(log, "path", "scans")).name, page, _tell_address, **parameters)
     except ValueError as error:
         name = getattr(log, "path", None)
         raise ValueError(f"{name}: {error}" if name and name not in str(error) else str(error)) from None
@@ -158,6 +176,22 @@ def map(path: Union[str, "os.PathLike[str]", Iterable[LogRecord]], pose: str = "
     if isinstance(log, Log):
         result.summary = {"log": log.path, **result.summary}
     return result
+
+
+def merge(maps: "Sequence[Union[str, os.PathLike[str]]]", **parameters: Unpack[MapParameters]) -> Map:
+    """One map of several of one place, by one robot or several: the same as `cca-mrpt merge` makes, byte for byte.
+
+    Args:
+        maps: folders that `Map.save`, or the program, has left, with SLAM's map.slam. The first one's frame stays.
+        parameters: of `LineMap`.
+
+    Raises:
+        ValueError: fewer than two; a map.slam is missing or damaged; no place of one was found in the first.
+    """
+    folders = [os.fspath(folder) for folder in maps]
+    made = Map(*merge_maps(folders, **parameters))
+    made.summary = {"maps": folders, **made.summary}
+    return made
 
 
 class Mapper:
@@ -181,6 +215,24 @@ class Mapper:
     def lines(self) -> NDArray[np.void]:
         """The lines as they stand; see `LineMap.lines`."""
         return self._session.lines()
+
+    def serve(self, port: int = 8048, address: str = "127.0.0.1", title: str = "Mapper") -> str:
+        """Show the map in browsers as it grows: the live page of `cca-mrpt map --serve`, until the mapper goes.
+
+        Args:
+            port: of this machine; 0: any that is free.
+            address: one of this machine's; at another than 127.0.0.1 who asks must know the token of the answer.
+            title: for people.
+
+        Returns:
+            The page's address, to be opened in a browser. Where a viewer pauses, `step` waits until one starts it.
+
+        Raises:
+            ValueError: there is no such port.
+            RuntimeError: the port is in use, the address is none of this machine's, the mapper is served already, or
+                the package was built without cpp-httplib.
+        """
+        return self._session.serve(address, port, title)
 
     def map(self) -> Map:
         """The map as it stands, without a last pass."""

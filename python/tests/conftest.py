@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 
+import cca_mrpt
 import room_log
 from room_log import ROOM, chain, ranges_in
 
@@ -34,3 +35,18 @@ def log(tmp_path):
     path = tmp_path / "room.log.gz"
     room_log.write(path)
     return path
+
+
+@pytest.fixture
+def drive(two_rooms, scan_of):
+    """Records of a robot whose wheels turn a little at each step, and its true poses."""
+    records, truth, wheels = [], [], np.array([5.0, 7.0, 1.0])
+    for k in range(60):
+        step = 0.1 if k < 30 else -0.1
+        pose = (truth[-1][0] + step, 0.0, 0.0) if truth else (0.0, 0.0, 0.0)
+        if truth:
+            wheels += (step * np.cos(wheels[2]), step * np.sin(wheels[2]), 0.004)
+        truth.append(pose)
+        records.append(cca_mrpt.LogRecord(scan_of(two_rooms, pose, beams=360, **FULL_TURN), **FULL_TURN, time=k / 5,
+                                          odometry=tuple(wheels)))
+    return records, np.array(truth)

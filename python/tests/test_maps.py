@@ -17,21 +17,6 @@ from conftest import FULL_TURN
 SHARED = Path(__file__).resolve().parents[2].parent / "shared" / "data"
 
 
-@pytest.fixture
-def drive(two_rooms, scan_of):
-    """Records of a robot whose wheels turn a little at each step, and its true poses."""
-    records, truth, wheels = [], [], np.array([5.0, 7.0, 1.0])
-    for k in range(60):
-        step = 0.1 if k < 30 else -0.1
-        pose = (truth[-1][0] + step, 0.0, 0.0) if truth else (0.0, 0.0, 0.0)
-        if truth:
-            wheels += (step * np.cos(wheels[2]), step * np.sin(wheels[2]), 0.004)
-        truth.append(pose)
-        records.append(cca_mrpt.LogRecord(scan_of(two_rooms, pose, beams=360, **FULL_TURN), **FULL_TURN, time=k / 5,
-                                          odometry=tuple(wheels)))
-    return records, np.array(truth)
-
-
 def in_first_frame(poses):
     """As seen from the first pose."""
     x, y, theta = (poses - poses[0]).T

@@ -19,6 +19,7 @@ struct RunCommand {
 };
 
 struct LivePageSettings {
+  static constexpr int kPort = 8048;  ///< where none is named
   /// A number of this machine's. On another one than 127.0.0.1 who asks has to know a random token,
   /// which url() tells.
   std::string address = "127.0.0.1";
@@ -26,7 +27,7 @@ struct LivePageSettings {
   std::string title;                                 ///< for people
   double robot_radius = 0.2;                         ///< m
   Eigen::Vector2d origin = Eigen::Vector2d::Zero();  ///< m, map frame: where the run's frame lies
-  const World* world = nullptr;                      ///< what there is in truth; may be null
+  std::string world;  ///< what there is in truth: replayWorld(); empty: nobody knows
   bool has_robot =
       false;  ///< else there is nobody to be sent home or anywhere: kStart, kPause only
 };

@@ -19,7 +19,7 @@ bool hasMoved(const std::optional<Pose2>& last, const Pose2& now) {
 
 Replay emptyReplay(const LivePageSettings& settings) {
   Replay replay(settings.title, settings.robot_radius);
-  if (settings.world) replay.setWorld(*settings.world);
+  replay.setWorld(settings.world);
   return replay;
 }
 
@@ -29,9 +29,7 @@ LiveRun::LiveRun(const LivePageSettings& settings)
     : settings_(settings),
       empty_(emptyReplay(settings)),
       replay_(empty_),
-      thread_([this] { work(); }) {
-  settings_.world = nullptr;  // nobody says how long it lives
-}
+      thread_([this] { work(); }) {}
 
 LiveRun::~LiveRun() {
   close();
@@ -76,12 +74,14 @@ void LiveRun::take(const Glimpse& glimpse) {
       replay_ = empty_;
       last_kept_.reset();
       ++run_;
-    } else {
-      const bool is_kept = hasMoved(last_kept_, glimpse.moment.T_map_robot) || glimpse.lines ||
-                           glimpse.moment.reason != tip_.reason;
+    } else if (isFinite(glimpse.moment.T_map_robot) && std::isfinite(glimpse.moment.time)) {
+      const bool is_kept =
+          hasMoved(last_kept_, glimpse.moment.T_map_robot) || glimpse.moment.reason != tip_.reason;
       if (is_kept) {
         replay_.add(glimpse.moment, glimpse.scan, glimpse.lines ? &*glimpse.lines : nullptr);
         last_kept_ = glimpse.moment.T_map_robot;
+      } else if (glimpse.lines) {
+        replay_.redraw(*glimpse.lines);
       }
       tip_ = glimpse.moment;
       shown_at_ = glimpse.shown_at;

@@ -25,7 +25,8 @@ class LiveRun {
   LiveRun(const LiveRun&) = delete;
   LiveRun& operator=(const LiveRun&) = delete;
 
-  /// One moment of the run, copied. Dropped where a hundred wait already.
+  /// One moment of the run, copied. Dropped where a hundred wait already, or its time or place is
+  /// not finite.
   struct Glimpse {
     ReplayMoment moment;
     Scan scan;

@@ -130,8 +130,8 @@ void PageServer::listen(const LivePageSettings& settings) {
   if (port <= 0) {
     throw std::runtime_error("cannot serve at " + settings.address + ":" +
                              std::to_string(settings.port) +
-                             ": another program may be there already (--serve 0 takes any port "
-                             "that is free), or the address is none of this machine's");
+                             ": another program may be there already (port 0: any that is free), "
+                             "or the address is none of this machine's");
   }
   const bool is_local = settings.address == "127.0.0.1";
   const std::string token = is_local ? "" : randomToken();

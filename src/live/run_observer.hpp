@@ -4,13 +4,14 @@
 #include <functional>
 #include <vector>
 
-#include "cca_mrpt/io/map_products.hpp"
 #include "cca_mrpt/mapping/line_map.hpp"
 #include "cca_mrpt/sensing/scan.hpp"
 #include "cca_mrpt/simulation/body.hpp"
 #include "io/replay/replay.hpp"
 
 namespace cca {
+
+struct MapProducts;
 
 /// What there is to see of a run at one moment; valid during RunObserver::show() only.
 struct RunView {

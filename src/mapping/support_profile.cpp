@@ -7,8 +7,8 @@
 namespace cca {
 namespace {
 
-constexpr int kWindow = 2;           // bins on either side that speak for a place
-constexpr double kFewestRays = 2.0;  // that can refute a place, where they are no fewer than hits
+constexpr int kWindow = 2;            // bins on either side that speak for a place
+constexpr double kFewestRays = 2.0;   // that can refute a place, where they are no fewer than hits
 constexpr double kPartingRays = 2.0;  // that keep a gap open
 
 /// The mean point of a bin that holds hits, of its weight.

@@ -12,4 +12,20 @@ void rememberDrive(const SlamMemory& memory, SlamLocaliser& slam, MappingSession
   }
 }
 
+std::optional<std::size_t> joinDrives(const std::vector<const SlamMemory*>& drives,
+                                      SlamLocaliser& slam, MappingSession& session,
+                                      const DoAll& do_all) {
+  std::vector<std::size_t> first_of;  // scan of each drive
+  for (const SlamMemory* drive : drives) {
+    first_of.push_back(slam.remembered());
+    rememberDrive(*drive, slam, session);
+  }
+  session.finish(do_all);
+  const std::vector<bool> is_localised = slam.isLocalised();
+  for (std::size_t k = 1; k < drives.size(); ++k) {
+    if (!is_localised[first_of[k]]) return k;
+  }
+  return std::nullopt;
+}
+
 }  // namespace cca

@@ -5,7 +5,6 @@
 live_page_test.py CCA_MRPT_PROGRAM MAPS_FOLDER   exit status 77: the program was built without cpp-httplib
 """
 import filecmp
-import http.client
 import json
 import os
 import re
@@ -16,7 +15,8 @@ import sys
 import tempfile
 import time
 
-PATIENCE = 20  # s, for a busy machine
+from live_viewer import PATIENCE, Viewer
+
 RESULTS = 'lines.csv', 'arcs.csv', 'poses.csv', 'run.rawlog', 'replay.html', 'map.pgm'
 
 failures = []
@@ -28,7 +28,7 @@ def check(holds, what):
         print('FAILED:', what)
 
 
-class Run:
+class Run(Viewer):
     """A program that serves its run."""
 
     def __init__(self, program, *words):
@@ -45,51 +45,7 @@ class Run:
                     print('skipped:', self.said)
                     sys.exit(77)
                 raise RuntimeError('nothing is served: ' + self.said)
-        self.address, self.port, self.query = found[1], int(found[2]), found[3]
-        self.origin = f'http://{self.address}:{self.port}'
-
-    def ask(self, method, path, body=None, **headers):
-        """Status and text of an answer; 0 where the connection was cut."""
-        connection = http.client.HTTPConnection('127.0.0.1', self.port, timeout=PATIENCE)
-        host = headers.pop('Host', f'{self.address}:{self.port}')
-        try:
-            connection.request(method, path, body, {'Host': host, **headers})
-            answer = connection.getresponse()
-            return answer.status, answer.read().decode()
-        except (OSError, http.client.HTTPException):
-            return 0, ''
-        finally:
-            connection.close()
-
-    def command(self, **body):
-        return self.ask('POST', '/command' + self.query, json.dumps(body), Origin=self.origin)[0]
-
-    def events(self):
-        """What a viewer is told, one event after the other, until the run ends; {} once a second of silence."""
-        begin = time.time()
-        while True:
-            connection = http.client.HTTPConnection('127.0.0.1', self.port, timeout=PATIENCE)
-            connection.request('GET', '/events' + self.query, headers={'Host': f'{self.address}:{self.port}'})
-            answer = connection.getresponse()
-            if answer.status == 200:
-                break
-            connection.close()
-            # Viewers who have gone are missed within seconds.
-            if answer.status != 503 or time.time() - begin > PATIENCE:
-                raise RuntimeError(f'events: {answer.status}')
-            time.sleep(0.2)
-        try:
-            for line in answer:
-                if line.startswith(b'data: '):
-                    yield json.loads(line[6:])
-                elif line.startswith(b':'):
-                    yield {}
-        finally:
-            connection.close()
-
-    def where(self):
-        told = next(e for e in self.events() if 'robot' in e)
-        return told['robot']['x'], told['robot']['y'], told['paused']
+        super().__init__(found[1], int(found[2]), found[3])
 
     def wait_for(self, wanted, what):
         begin = time.time()

@@ -8,6 +8,7 @@
 
 #include <cmath>
 #include <limits>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <numeric>
 
@@ -160,6 +161,125 @@ TEST(ReplayPage, KeepsTheRoomsOfARun) {
 
 TEST(ReplayPage, OfSomethingElseIsToldApart) {
   EXPECT_THROW(runsOfReplayPage("<html></html>", "page"), std::runtime_error);
+}
+
+/// Appends the numbers of which a column holds the differences.
+void undo(std::vector<std::int64_t>& numbers, const nlohmann::json& column) {
+  std::int64_t sum = 0;
+  for (const auto& difference : column) numbers.push_back(sum += difference.get<std::int64_t>());
+}
+
+using Columns = std::map<std::string, std::vector<std::int64_t>>;
+
+/// As the page takes what it is told, but the frames of changes, which it bounds by what it has.
+void append(const nlohmann::json& run, Columns& to) {
+  for (const auto& [name, column] : run["frames"].items()) {
+    if (name != "ranges") undo(to[name], column);
+  }
+  for (const auto& [name, column] : run["lines"].items()) {
+    if (name != "frame") undo(to["line_" + name], column);
+  }
+  for (const char* name : {"x", "y"})
+    undo(to[std::string("frontier_") + name], run["frontier"][name]);
+  for (const auto& range : run["frames"]["ranges"]) to["ranges"].push_back(range);
+  for (const auto& decision : run["decisions"]) to["decisions"].push_back(decision["frame"]);
+}
+
+TEST(ReplaySince, IsNothingWhereNothingHasCome) {
+  const Replay replay = drive(100);
+  const auto more = nlohmann::json::parse(replay.since(replay.mark()));
+  for (const auto& [name, column] : more["frames"].items()) EXPECT_TRUE(column.empty()) << name;
+  for (const auto& [name, column] : more["lines"].items()) EXPECT_TRUE(column.empty()) << name;
+  EXPECT_TRUE(more["decisions"].empty());
+  EXPECT_TRUE(more["world"].is_null());
+}
+
+TEST(ReplaySince, OfARunWithoutMomentsIsEmpty) {
+  const Replay replay("nothing");
+  EXPECT_TRUE(Replay::Mark().generation == 0 && !Replay::Mark().isBefore(replay.mark()));
+  const auto more = nlohmann::json::parse(replay.since(replay.mark()));
+  EXPECT_TRUE(more["frames"]["x"].empty());
+}
+
+TEST(ReplaySince, AddsUpToTheWholeInPartsOfAnySize) {
+  LineMap map;
+  Replay replay("wall");
+  Replay::Mark mark;
+  Columns followed;
+  int parts = 0;
+  for (int k = 0; k < 1000; ++k) {
+    const Pose2 pose{1e-2 * k, 0.01 * (k % 7), 0.001 * (k % 11)};
+    const Scan scan = wallAhead(pose);
+    if (k % 50 == 0) map.insert(scan);
+    ReplayMoment moment = momentAt(0.1 * k, pose);
+    moment.reason = "reason " + std::to_string(k / 13);
+    if (k % 3 == 0) moment.frontier = {{0.2 * (k % 17), 1.0}, {1.0, 0.2 * (k % 5)}};
+    replay.add(moment, scan, map);
+    if (k * k % 23 > 3) continue;
+    if (!mark.isBefore(replay.mark())) followed.clear();
+    const Replay::Mark from = mark.isBefore(replay.mark())
+                                  ? mark
+                                  : Replay::Mark{replay.mark().generation, 0, 0, 0, 0, true, true};
+    append(nlohmann::json::parse(replay.since(from)), followed);
+    mark = replay.mark();
+    ++parts;
+  }
+  replay.redraw({});
+  replay.finish(map.lines());
+  append(nlohmann::json::parse(replay.since(mark)), followed);
+  Columns whole;
+  append(unpacked(replay.packed()), whole);
+  EXPECT_GT(parts, 50);
+  for (const auto& [name, column] : whole) EXPECT_EQ(followed[name], column) << name;
+}
+
+TEST(ReplaySince, IsVoidOnceMomentsWereDropped) {
+  LineMap map;
+  Replay replay("long");
+  Replay::Mark mark;
+  for (std::size_t k = 0; k <= Replay::kMostMoments; ++k) {
+    mark = replay.mark();
+    const Pose2 pose{1e-3 * static_cast<double>(k), 0.0, 0.0};
+    replay.add(momentAt(0.1 * static_cast<double>(k), pose), wallAhead(pose), map);
+  }
+  EXPECT_FALSE(mark.isBefore(replay.mark()));
+}
+
+TEST(ReplaySince, IsVoidOnceTheTruthIsNotKnownAnyMore) {
+  Replay replay = drive(10);
+  const Replay::Mark mark = replay.mark();
+  ReplayMoment moment = momentAt(2.0, {1.0, 0.0, 0.0});
+  moment.truth.reset();
+  replay.add(moment, wallAhead(moment.T_map_robot), LineMap());
+  EXPECT_FALSE(mark.isBefore(replay.mark()));
+}
+
+TEST(ReplaySince, NoMarkOfMoreThanThereIsIsBefore) {
+  const Replay replay = drive(10);
+  const Replay::Mark now = replay.mark();
+  EXPECT_TRUE(now.isBefore(now));
+  for (std::size_t Replay::Mark::*count : {&Replay::Mark::frames, &Replay::Mark::decisions,
+                                           &Replay::Mark::toggles, &Replay::Mark::changes}) {
+    Replay::Mark later = now;
+    ++(later.*count);
+    EXPECT_FALSE(later.isBefore(now));
+    later.*count = static_cast<std::size_t>(-1);
+    EXPECT_FALSE(later.isBefore(now));
+  }
+}
+
+TEST(Replay, HoldsNumbersThatAPageReadsExactly) {
+  Replay replay("astray");
+  for (const double x : {0.0, 1e300, -1e300, 5.0}) {
+    ReplayMoment moment = momentAt(1.0, {x, 0.0, 0.0});
+    moment.distance = std::numeric_limits<double>::quiet_NaN();
+    moment.goal = {{x, std::numeric_limits<double>::infinity()}};
+    replay.add(moment, wallAhead({}), LineMap());
+  }
+  Columns columns;
+  append(unpacked(replay.packed()), columns);
+  EXPECT_EQ(columns["x"].back(), 5000);
+  for (const std::int64_t x : columns["x"]) EXPECT_LT(std::abs(x), std::int64_t{1} << 53);
 }
 
 }  // namespace

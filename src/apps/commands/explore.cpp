@@ -114,7 +114,7 @@ std::unique_ptr<LivePage> openPage(const ServeOptions& options, const Scene& sce
   settings.title = scene.simulation.world().name;
   settings.robot_radius = scene.simulation.parameters().robot.radius;
   settings.origin = scene.origin;
-  settings.world = &scene.simulation.world();
+  settings.world = replayWorld(scene.simulation.world());
   settings.has_robot = true;
   return serve(options, settings);
 }

@@ -12,6 +12,7 @@
 #include "apps/logs/log_warnings.hpp"
 #include "apps/options/log_hint_options.hpp"
 #include "apps/runs/interruption.hpp"
+#include "apps/runs/progress.hpp"
 #include "cca_mrpt/io/map_products.hpp"
 #include "commands.hpp"
 #include "io/files/atomic_file.hpp"
@@ -35,18 +36,10 @@ struct LocalizeOptions {
 
 nlohmann::ordered_json summaryOf(const LocalizeOptions& options, const PlanFile& plan,
                                  const LocalizedLog& log) {
-  double length = 0.0;
-  for (const auto& [a, b] : plan.lines) length += (b - a).norm();
   nlohmann::ordered_json summary;
   summary["program"] = "cca-mrpt " CCA_VERSION;
   summary["log"] = options.log;
-  summary["plan"] = {{"file", options.plan},
-                     {"kind", plan.kind},
-                     {"lines", plan.lines.size()},
-                     {"length_m", length}};
-  if (!plan.not_understood.empty()) summary["plan"]["not_understood"] = plan.not_understood;
-  log.addTo(summary);
-  if (!log.warnings().empty()) summary["warnings"] = log.warnings();
+  log.describe(plan, options.plan, summary);
   return summary;
 }
 
@@ -90,7 +83,12 @@ void localize(const LocalizeOptions& options) {
   const FolderLock folder = prepareMapFolder(options.out, options.force, {kPictureName});
   LocalizedLog log(plan.lines, start);
   try {
-    log.take(*reader, interruption);
+    Progress progress("localise");
+    log.take(*reader, [&] {
+      progress.show(reader->progress(), std::to_string(log.scans()) + " scans, " +
+                                            std::to_string(log.poses().size()) + " localised");
+      return !interruption.requested();
+    });
   } catch (const std::exception& error) {
     if (is_new) std::filesystem::remove(options.out, unknown);
     throw std::runtime_error(options.log + ": " + error.what());

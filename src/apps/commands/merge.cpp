@@ -39,20 +39,13 @@ struct Merged {
   std::unique_ptr<MappingSession> session;
 };
 
-/// The parts of all maps but the first begin as they were, and look for their place in it.
 void join(const MergeOptions& options, const std::vector<StoredMemory>& stored, Merged& merged) {
-  std::vector<std::size_t> first_of;  // scan of each map
-  for (const StoredMemory& map : stored) {
-    first_of.push_back(merged.slam->remembered());
-    rememberDrive(map.memory, *merged.slam, *merged.session);
-  }
-  merged.session->finish(doOnAllCores);
-  const std::vector<bool> is_localised = merged.slam->isLocalised();
-  for (std::size_t k = 1; k < stored.size(); ++k) {
-    if (is_localised[first_of[k]]) continue;
-    throw std::runtime_error(options.maps[k] + ": no place of it was found in " +
-                             options.maps.front() + "; nothing was written");
-  }
+  std::vector<const SlamMemory*> drives;
+  for (const StoredMemory& map : stored) drives.push_back(&map.memory);
+  const auto apart = joinDrives(drives, *merged.slam, *merged.session, doOnAllCores);
+  if (!apart) return;
+  throw std::runtime_error(options.maps[*apart] + ": no place of it was found in " +
+                           options.maps.front() + "; nothing was written");
 }
 
 MapProducts productsOf(const Merged& merged, const Eigen::Vector2d& origin,

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 
-#include "apps/runs/progress.hpp"
 #include "io/logs/measurements.hpp"
 
 namespace cca::apps {
@@ -21,17 +20,14 @@ LocalizedLog::LocalizedLog(const std::vector<PlanLine>& plan, const std::optiona
   localiser_.place(*start, sigmas.cwiseAbs2().asDiagonal());
 }
 
-void LocalizedLog::take(LogReader& log, const Interruption& interruption) {
-  Progress progress("localise");
+void LocalizedLog::take(LogReader& log, const std::function<bool()>& goes_on) {
   while (!interrupted_) {
     const std::optional<LogRecord> record = log.next();
     if (!record) break;
     const Estimate estimate = localiser_.localise(measurementOf(*record, PoseSource::kSlam));
     note(estimate, *record);
     ++scans_;
-    progress.show(log.progress(), std::to_string(scans_) + " scans, " +
-                                      std::to_string(poses_.size()) + " localised");
-    interrupted_ = interruption.requested();
+    interrupted_ = !goes_on();
   }
   warnings_ = log.warnings();
 }
@@ -58,7 +54,13 @@ std::string LocalizedLog::whyNot() const {
   return std::to_string(places.size()) + " places look like what was seen";
 }
 
-void LocalizedLog::addTo(nlohmann::ordered_json& summary) const {
+void LocalizedLog::describe(const PlanFile& plan, const std::string& path,
+                            nlohmann::ordered_json& summary) const {
+  double length = 0.0;
+  for (const auto& [a, b] : plan.lines) length += (b - a).norm();
+  summary["plan"] = {
+      {"file", path}, {"kind", plan.kind}, {"lines", plan.lines.size()}, {"length_m", length}};
+  if (!plan.not_understood.empty()) summary["plan"]["not_understood"] = plan.not_understood;
   summary["finished"] = !interrupted_;
   summary["scans"] = scans_;
   summary["localised"] = poses_.size();
@@ -77,6 +79,7 @@ void LocalizedLog::addTo(nlohmann::ordered_json& summary) const {
   if (error_sq_.count > 0.0) {
     summary["pose_error"] = {{"rms_m", std::sqrt(error_sq_.mean())}, {"max_m", worst_error_}};
   }
+  if (!warnings_.empty()) summary["warnings"] = warnings_;
 }
 
 }  // namespace cca::apps

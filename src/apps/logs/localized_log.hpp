@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <functional>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "apps/runs/interruption.hpp"
 #include "cca_mrpt/io/log_reader.hpp"
 #include "cca_mrpt/io/pose_files.hpp"
 #include "cca_mrpt/known_map/known_map.hpp"
+#include "io/plans/plan_reader.hpp"
 
 namespace cca::apps {
 
@@ -19,7 +20,8 @@ class LocalizedLog {
   /// @param start  T_map_robot where the log begins, about; nothing: anywhere in the plan.
   LocalizedLog(const std::vector<PlanLine>& plan, const std::optional<Pose2>& start);
 
-  void take(LogReader& log, const Interruption& interruption);
+  /// Goes through a log. @param goes_on  asked after each scan; where it says no, the rest is left.
+  void take(LogReader& log, const std::function<bool()>& goes_on);
 
   /// Of the scans that were localised; stamped by the log's time, else by the scan's number.
   const std::vector<StampedPose>& poses() const { return poses_; }
@@ -31,7 +33,9 @@ class LocalizedLog {
   const std::string& warnings() const { return warnings_; }
   /// Why the robot is not localised now, for people; empty where nothing is known of it.
   std::string whyNot() const;
-  void addTo(nlohmann::ordered_json& summary) const;
+  /// What summary.json tells of it. @param path  of the plan.
+  void describe(const PlanFile& plan, const std::string& path,
+                nlohmann::ordered_json& summary) const;
 
  private:
   struct Mean {

@@ -19,8 +19,6 @@
 namespace cca::apps {
 namespace {
 
-constexpr double kLongestStep = 10.0;  // m; farther from one scan to the next is no drive
-
 std::string fileName(const std::string& path) {
   return std::filesystem::path(path).filename().string();
 }

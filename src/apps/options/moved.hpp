@@ -8,6 +8,9 @@
 
 namespace cca::apps {
 
+/// m; farther from one scan to the next is no drive.
+inline constexpr double kLongestStep = 10.0;
+
 /// Keeps a pose that lies 10 cm or 0.25 rad from the last one that was kept. @return whether it
 /// does.
 inline bool keepIfMoved(std::optional<Pose2>& last, const Pose2& now) {

@@ -12,7 +12,7 @@ std::shared_ptr<const ServeOptions> addServeOptions(CLI::App& command) {
                   "show the run in browsers as it goes, at this port of this machine; 0: any free")
       ->type_name("[PORT]")
       ->expected(0, 1)
-      ->default_str(std::to_string(ServeOptions::kPort))
+      ->default_str(std::to_string(LivePageSettings::kPort))
       ->check(CLI::Range(0, 65535));
   command
       .add_option(

@@ -11,7 +11,6 @@ namespace cca::apps {
 
 /// Whether and where a command serves the live page.
 struct ServeOptions {
-  static constexpr int kPort = 8048;  ///< where none is named
   std::string address = "127.0.0.1";
   int port = -1;  ///< -1: there is no page
 };

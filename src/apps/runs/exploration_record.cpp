@@ -106,7 +106,7 @@ std::string ExplorationRecord::packedReplay(const Simulation& simulation,
   std::vector<double> distances;
   for (const Look& kept : looks_) distances.push_back(kept.distance);
   replay_.setCoverage(distances, coverage_.curve());
-  replay_.setWorld(simulation.world());
+  replay_.setWorld(replayWorld(simulation.world()));
   replay_.finish(lines);
   return replay_.packed(origin_);
 }

@@ -16,6 +16,7 @@
 #include "io/poses/truth_file.hpp"
 #include "rawlog_reader.hpp"
 #include "sound_log.hpp"
+#include "undistorted_log.hpp"
 
 namespace cca {
 namespace {
@@ -121,6 +122,10 @@ std::unique_ptr<LogReader> openLog(const std::string& path, const LogHints& hint
                              (why.empty() ? "" : " (" + why + ")"));
   }
   return std::make_unique<BegunLog>(std::move(log), std::move(*first));
+}
+
+std::unique_ptr<LogReader> openUndistortedLog(const std::string& path, const LogHints& hints) {
+  return undistortedLog([&] { return openLog(path, hints); }, hints.sweep);
 }
 
 }  // namespace cca

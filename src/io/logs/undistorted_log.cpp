@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "undistorted_log.hpp"
+
 #include <algorithm>
 #include <map>
 #include <tuple>
 #include <utility>
 
-#include "cca_mrpt/io/log_reader.hpp"
 #include "cca_mrpt/sensing/motion_compensation.hpp"
 
 namespace cca {
@@ -77,9 +78,10 @@ class UndistortedLog : public LogReader {
 
 }  // namespace
 
-std::unique_ptr<LogReader> openUndistortedLog(const std::string& path, const LogHints& hints) {
-  auto lasers = hints.sweep ? Lasers(hints.sweep) : survey(*openLog(path, hints));
-  return std::make_unique<UndistortedLog>(openLog(path, hints), std::move(lasers));
+std::unique_ptr<LogReader> undistortedLog(const std::function<std::unique_ptr<LogReader>()>& open,
+                                          const std::optional<double>& sweep) {
+  auto lasers = sweep ? Lasers(sweep) : survey(*open());
+  return std::make_unique<UndistortedLog>(open(), std::move(lasers));
 }
 
 }  // namespace cca

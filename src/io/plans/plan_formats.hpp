@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "cca_mrpt/floor_plan/floor_plan.hpp"
+#include "cca_mrpt/mapping/line_map.hpp"
 
 namespace cca {
 
@@ -25,7 +26,7 @@ std::string planGeoJson(const FloorPlan& plan);
 /// point inside of each [m, map frame], measures, and its doors and openings by number.
 std::string roomsCsv(const FloorPlan& plan);
 
-/// A floor plan as DXF R12, one drawing unit a metre. Layers: A-WALL (faces of walls), A-WALL-PRSM
+/// A floor plan as DXF R2000, in metres. Layers: A-WALL (faces of walls), A-WALL-PRSM
 /// (presumed ones), A-DOOR, A-OPNG, A-AREA (rooms), A-AREA-IDEN (their names and areas), A-FURN.
 std::string planDxf(const FloorPlan& plan);
 
@@ -52,5 +53,9 @@ RoomLabels readRoomLabels(const std::string& text, const std::string& file);
 /// Gives rooms the names of the labels that lie in them; of several in one room the first counts.
 /// @return  the labels that lie in no room.
 RoomLabels nameRooms(FloorPlan& plan, const RoomLabels& labels);
+
+/// What a plan is made of: the lines of a lines.csv but the dotted ones. A row of posts parts no
+/// rooms. @param name  of the file, for messages. @throws std::runtime_error as readLinesCsv().
+std::vector<MapLine> wallsOfCsv(const std::string& text, const std::string& name);
 
 }  // namespace cca

@@ -52,7 +52,8 @@ PlanFile readMemoryPlan(const std::string& path) {
   return {"map.slam", planLinesOf(map.lines()), ""};
 }
 
-PlanFile read(const std::filesystem::path& path, double scale) {
+PlanFile read(const std::filesystem::path& path, double scale,
+              const std::function<PlanFile(const std::string&)>& read_grid) {
   const std::string name = path.string(), ending = endingOf(path);
   if (ending == ".csv") return {"CSV", planLinesOf(readLinesCsv(planText(path), name)), ""};
   if (ending == ".slam") return readMemoryPlan(name);
@@ -61,7 +62,7 @@ PlanFile read(const std::filesystem::path& path, double scale) {
   }
   if (ending == ".dxf") return readDxfPlan(planText(path), name, scale);
   if (ending == ".svg") return readSvgPlan(planText(path), name, scale);
-  if (ending == ".yaml" || ending == ".yml") return readGridPlan(name);
+  if (ending == ".yaml" || ending == ".yml") return read_grid(name);
   throw std::runtime_error(name +
                            ": is no plan by its name; allowed are a map's folder, .csv, .slam, "
                            ".geojson, .json, .dxf, .svg and .yaml");
@@ -96,10 +97,11 @@ void addArc(const Eigen::Vector2d& centre, double radius, double from, double to
   addChain(chain, false, lines);
 }
 
-PlanFile readPlan(const std::string& path, double scale) {
+PlanFile readPlan(const std::string& path, double scale,
+                  const std::function<PlanFile(const std::string&)>& read_grid) {
   std::filesystem::path file(path);
   if (std::filesystem::is_directory(file)) file /= "lines.csv";
-  PlanFile plan = read(file, scale);
+  PlanFile plan = read(file, scale, read_grid);
   for (const auto& [a, b] : plan.lines) {
     const double farthest = std::max(a.cwiseAbs().maxCoeff(), b.cwiseAbs().maxCoeff());
     if (!(farthest <= kFarthestPlan)) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -17,6 +18,9 @@ struct PlanFile {
   std::string not_understood;
 };
 
+/// The plan that a map_server grid is. @throws std::runtime_error naming the file and the reason.
+PlanFile readGridPlan(const std::string& yaml_path);
+
 /// Reads a plan, by the ending of its name:
 /// - a folder of `map` or `explore`, or .csv: lines.csv;
 /// - .slam: map.slam, of which the lines are made anew;
@@ -31,9 +35,11 @@ struct PlanFile {
 /// - .yaml: a map_server grid: the faces of its occupied cells towards free ones.
 ///
 /// @param scale  m, of a unit of the drawing; 0: as the file tells, see above.
+/// @param read_grid  how .yaml is read.
 /// @throws std::runtime_error naming the file and the rule that it breaks; also where it holds no
 ///         line.
-PlanFile readPlan(const std::string& path, double scale = 0.0);
+PlanFile readPlan(const std::string& path, double scale = 0.0,
+                  const std::function<PlanFile(const std::string&)>& read_grid = readGridPlan);
 
 /// The same lines as those of a map, for what draws such: numbered from 0, without support.
 std::vector<MapLine> mapLinesOf(const std::vector<PlanLine>& plan);

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "cca_mrpt/floor_plan/raster.hpp"
 #include "io/plans/plan_reader.hpp"
 
 namespace cca {
@@ -24,6 +25,6 @@ void addArc(const Eigen::Vector2d& centre, double radius, double from, double to
 PlanFile readGeoJsonPlan(const std::string& text, const std::string& name, double scale);
 PlanFile readDxfPlan(const std::string& text, const std::string& name, double scale);
 PlanFile readSvgPlan(const std::string& text, const std::string& name, double scale);
-PlanFile readGridPlan(const std::string& yaml_path);
+PlanFile gridPlan(const OccupancyRaster& raster);
 
 }  // namespace cca

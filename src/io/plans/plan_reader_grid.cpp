@@ -5,8 +5,6 @@
 #include "cca_mrpt/floor_plan/region_outline.hpp"
 #include "cca_mrpt/geometry/cross.hpp"
 #include "cca_mrpt/geometry/line_segment.hpp"
-#include "io/maps/occupancy_files.hpp"
-#include "io/plans/plan_files.hpp"
 #include "plan_reader_formats.hpp"
 
 namespace cca {
@@ -88,9 +86,7 @@ void addBorder(Polygon border, const Raster<int>& labels, const OccupancyRaster&
 
 }  // namespace
 
-PlanFile readGridPlan(const std::string& yaml_path) {
-  const auto grid = readOccupancyMap(yaml_path, {0.0, 0.0});
-  const OccupancyRaster raster = occupancyOf(*grid, {0.0, 0.0});
+PlanFile gridPlan(const OccupancyRaster& raster) {
   Raster<int> labels = raster.alike(kUnknownLabel);
   for (std::size_t k = 0; k < raster.values.size(); ++k) {
     if (raster.values[k] == Occupancy::kFree) labels.values[k] = kFreeLabel;

@@ -12,7 +12,14 @@ constexpr std::size_t kMostShown = 181;  // of a scan: what can be told apart on
 constexpr std::int64_t kVisible = 20;    // mm, that a line's end moves before it is drawn anew
 constexpr std::size_t kLinesAMoment = 40;
 
-std::int64_t thousandths(double value) { return std::llround(1e3 * value); }
+/// The nearest integer. A page's numbers are exact up to 2^53: what is beyond, as broken logs have
+/// it, is out of view anyway.
+std::int64_t whole(double value) {
+  constexpr double kLargest = 4e15;
+  return std::isnan(value) ? 0 : std::llround(std::clamp(value, -kLargest, kLargest));
+}
+
+std::int64_t thousandths(double value) { return whole(1e3 * value); }
 
 }  // namespace
 
@@ -31,12 +38,10 @@ Replay::Placed Replay::placed(const Pose2& pose) {
 
 Replay::Shown Replay::shown(const MapLine& line) {
   const auto& [start, end, moments, covariance] = line.segment;
-  const auto sigma = [](double variance) {
-    return std::llround(1e5 * std::sqrt(std::abs(variance)));
-  };
+  const auto sigma = [](double variance) { return whole(1e5 * std::sqrt(std::abs(variance))); };
   return {
       {thousandths(start.x()), thousandths(start.y()), thousandths(end.x()), thousandths(end.y())},
-      std::max<std::int64_t>(std::llround(line.support), 1),
+      std::max<std::int64_t>(whole(line.support), 1),
       sigma(covariance(0, 0)),
       sigma(covariance(1, 1))};
 }
@@ -132,6 +137,10 @@ void Replay::drawLines(const std::vector<MapLine>& lines, std::int64_t smallest_
   lines_ = std::move(now);
 }
 
+void Replay::redraw(const std::vector<MapLine>& lines) {
+  if (!frames_.empty()) drawLines(lines, kVisible);
+}
+
 void Replay::finish(const std::vector<MapLine>& lines) {
   if (!frames_.empty()) drawLines(lines, 0);
 }
@@ -153,7 +162,8 @@ bool Replay::hasTimes() const {
 
 bool Replay::Mark::isBefore(const Mark& later) const {
   return generation == later.generation && has_truth == later.has_truth &&
-         has_times == later.has_times && frames <= later.frames;
+         has_times == later.has_times && frames <= later.frames && decisions <= later.decisions &&
+         toggles <= later.toggles && changes <= later.changes;
 }
 
 Replay::Mark Replay::mark() const {

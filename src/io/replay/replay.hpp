@@ -14,9 +14,10 @@
 #include "cca_mrpt/floor_plan/floor_plan.hpp"
 #include "cca_mrpt/mapping/line_map.hpp"
 #include "cca_mrpt/sensing/scan.hpp"
-#include "cca_mrpt/simulation/world.hpp"
 
 namespace cca {
+
+class World;
 
 /// One moment of a run, as the robot had it then; all places in one frame [m].
 struct ReplayMoment {
@@ -53,10 +54,12 @@ class Replay {
   /// The same, where who has the map says when its lines are looked at. @param lines  null: not
   /// now.
   void add(const ReplayMoment& moment, const Scan& scan, const std::vector<MapLine>* lines);
+  /// The lines as they are now, without a moment more: the robot stands.
+  void redraw(const std::vector<MapLine>& lines);
   /// The lines as the run leaves them, exactly.
   void finish(const std::vector<MapLine>& lines);
-  /// What there is in truth.
-  void setWorld(const World& world);
+  /// What there is in truth. @param world  replayWorld().
+  void setWorld(std::string world) { world_ = std::move(world); }
   /// @param share  of what can be seen, in [0, 1], seen on the way up to each distance [m].
   void setCoverage(const std::vector<double>& distance, const std::vector<double>& share);
 
@@ -136,9 +139,12 @@ class Replay {
   std::vector<Toggle> toggles_;
   std::map<std::uint64_t, Shown> lines_;
   std::vector<LineChange> changes_;
-  std::string world_;  // JSON
+  std::string world_;  ///< replayWorld(); empty: nobody knows
   std::vector<std::int64_t> coverage_distance_, coverage_share_;
 };
+
+/// The obstacles of a world as a page shows them: JSON.
+std::string replayWorld(const World& world);
 
 /// The same run, with the rooms that its finished map has. @param packed  Replay::packed().
 /// @param rooms  of the floor plan, m, in the frame of packed().

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <mrpt/system/string_utils.h>
 #include <zlib.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <nlohmann/json.hpp>
@@ -46,6 +46,21 @@ struct Tail {
   const Item *first, *past;
 };
 
+/// RFC 4648, section 4.
+std::string base64Of(const std::vector<std::uint8_t>& bytes) {
+  constexpr char kSigns[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string text;
+  text.reserve((bytes.size() + 2) / 3 * 4);
+  for (std::size_t k = 0; k < bytes.size(); k += 3) {
+    const std::size_t there = std::min<std::size_t>(3, bytes.size() - k);
+    std::uint32_t group = 0;
+    for (std::size_t i = 0; i < 3; ++i) group = group << 8 | (i < there ? bytes[k + i] : 0U);
+    for (std::size_t i = 0; i < 4; ++i)
+      text += i <= there ? kSigns[group >> (18 - 6 * i) & 63U] : '=';
+  }
+  return text;
+}
+
 std::string packedText(const std::string& text) {
   uLongf size = compressBound(text.size());
   std::vector<std::uint8_t> bytes(size);
@@ -54,9 +69,7 @@ std::string packedText(const std::string& text) {
     throw std::runtime_error("replay.html: out of memory");
   }
   bytes.resize(size);
-  std::string base64;
-  mrpt::system::encodeBase64(bytes, base64);
-  return base64;
+  return base64Of(bytes);
 }
 
 /// x, y, x, y, ... in mm
@@ -81,26 +94,6 @@ std::string withRooms(const std::string& packed, const std::vector<PlanRoom>& ro
   }
   return packed + kRoomsFollow +
          packedText(all.dump(-1, ' ', false, Json::error_handler_t::replace));
-}
-
-/// The obstacles as lengths of runs: free, not free, free, ..., row by row from the lowest y.
-void Replay::setWorld(const World& world) {
-  Json runs = Json::array();
-  bool is_obstacle = false;
-  std::int64_t length = 0;
-  for (const unsigned char cell : world.obstacles()) {
-    if ((cell != 0) != is_obstacle) {
-      runs.push_back(length);
-      length = 0;
-      is_obstacle = !is_obstacle;
-    }
-    ++length;
-  }
-  runs.push_back(length);
-  world_ = Json{{"width", world.width()},           {"height", world.height()},
-                {"resolution", world.resolution()}, {"x", world.origin().x()},
-                {"y", world.origin().y()},          {"runs", runs}}
-               .dump();
 }
 
 std::string Replay::packed(const Eigen::Vector2d& origin) const {

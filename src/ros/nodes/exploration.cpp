@@ -2,11 +2,13 @@
 #include "exploration.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
 #include <utility>
 
 #include "cca_mrpt/session/earlier_drive.hpp"
 #include "io/files/memory_file.hpp"
+#include "live/exploration_moment.hpp"
 
 namespace cca {
 namespace {
@@ -15,6 +17,16 @@ namespace {
 /// and standing still was no lack of progress.
 constexpr double kLongestStep = 0.5;           // s
 constexpr double kLongestContradiction = 5.0;  // s
+const ros::WallDuration kPagePeriod(0.5);
+
+LivePageSettings pageOf(const Exploration::Settings& settings, double robot_radius) {
+  LivePageSettings page;
+  page.title = settings.title;
+  page.robot_radius = robot_radius;
+  page.world = settings.world;
+  page.has_robot = true;
+  return page;
+}
 
 }  // namespace
 
@@ -23,6 +35,8 @@ Exploration::Exploration(ros::NodeHandle& node, ros::NodeHandle& private_node, S
     : settings_(std::move(settings)),
       program_(program),
       publisher_(node, settings_.map_frame, program.robot.radius),
+      page_(private_node, settings_.page, pageOf(settings_, program.robot.radius),
+            [this](const RunCommand& command) { heed(command); }),
       mode_(settings_.autostart ? Mode::kRunning : Mode::kStopped),
       saver_(private_node, settings_.out, [this] { return products(); }),
       plan_(node, private_node, settings_.map_frame, saver_.mutex(),
@@ -32,6 +46,9 @@ Exploration::Exploration(ros::NodeHandle& node, ros::NodeHandle& private_node, S
                private_node.advertiseService("pause", &Exploration::onPause, this),
                private_node.advertiseService("home", &Exploration::onHome, this)};
   setMode(mode_);
+  page_timer_ = private_node.createWallTimer(kPagePeriod, [this](const ros::WallTimerEvent&) {
+    if (session_) page_.repeat(publisher_.status(), session_->mapping().lineMap());
+  });
 }
 
 void Exploration::begin(std::unique_ptr<Localiser> localiser, const std::string& resume,
@@ -75,12 +92,22 @@ Velocity Exploration::step(Observation observation, const ros::Time& stamp) {
   last_time_ = observation.time;
   T_map_goal_.reset();
   T_map_robot_ = observation.T_map_robot;
-  if (!errand_end_ && (mode_ == Mode::kStopped || finished_)) return {};
+  if (!errand_end_ && (mode_ == Mode::kStopped || finished_)) {
+    if (session_->mapping().localiser().correctsPast()) showPage(observation, {}, stamp);
+    return {};
+  }
   observation.time = own_time_;
   const std::lock_guard<std::mutex> lock(saver_.mutex());
   const Action action = session_->decide(observation);
   if (action.goal) T_map_goal_ = Pose2{action.goal->x(), action.goal->y(), action.goal_heading};
   publisher_.show(*session_, *recorder_.grid().grid(), observation.T_map_robot, T_map_goal_, stamp);
+  const Velocity velocity = act(action, passed, stamp);
+  showPage(observation, action, stamp);
+  return velocity;
+}
+
+/// What there is to do about it beside driving.
+Velocity Exploration::act(const Action& action, double passed, const ros::Time& stamp) {
   if (errand_end_) {
     followErrand(action, passed);
     return errand_end_ ? action.velocity : Velocity{};
@@ -98,6 +125,14 @@ Velocity Exploration::step(Observation observation, const ros::Time& stamp) {
   return finished_ ? Velocity{} : action.velocity;
 }
 
+void Exploration::showPage(const Observation& observation, Action action, const ros::Time& stamp) {
+  if (!page_.isDue()) return;
+  page_.setPaused(!drives());
+  if (!drives()) action.reason = publisher_.status();
+  page_.show(momentOf(session_->explorer(), observation.T_map_robot, action), observation.scan,
+             session_->mapping().lineMap(), stamp);
+}
+
 void Exploration::followErrand(const Action& action, double passed) {
   if (action.status == ExplorationStatus::kArrived)
     return endErrand(ErrandOutcome::kReached, "the goal is reached");
@@ -113,7 +148,9 @@ void Exploration::endErrand(ErrandOutcome outcome, const std::string& how) {
   why_paused_ = how + "; call ~pause with false to go on";
   state_ = finished_ ? "finished: " + how : "paused: " + why_paused_;
   publisher_.showStatus(state_);
-  std::exchange(errand_end_, nullptr)(outcome, how);
+  const ErrandEnd end = std::exchange(errand_end_, nullptr);
+  page_.setPaused(!drives());
+  end(outcome, how);
 }
 
 void Exploration::sendTo(const Pose2& T_map_goal, ErrandEnd end) {
@@ -123,6 +160,7 @@ void Exploration::sendTo(const Pose2& T_map_goal, ErrandEnd end) {
   const std::lock_guard<std::mutex> lock(saver_.mutex());
   session_->explorer().sendTo(T_map_goal);
   errand_end_ = std::move(end);
+  page_.setPaused(false);
   state_ = "driving: to where it was sent";
   publisher_.showStatus(state_);
 }
@@ -202,6 +240,7 @@ MapProducts Exploration::products() const {
 }
 
 void Exploration::end() {
+  if (session_) page_.finish(session_->mapping().lineMap().lines(), publisher_.status());
   if (settings_.save_at_end && hasBegun()) saver_.saveOrTell();
 }
 
@@ -211,6 +250,7 @@ void Exploration::setMode(Mode mode) {
   mode_ = mode;
   if (session_) session_->explorer().pause(mode == Mode::kPaused);
   why_paused_ = "call ~pause with false to go on";
+  page_.setPaused(!drives());
   if (finished_) return;
   state_ = mode == Mode::kStopped  ? "stopped: call ~start to explore"
            : mode == Mode::kPaused ? "paused: " + why_paused_
@@ -218,29 +258,27 @@ void Exploration::setMode(Mode mode) {
   publisher_.showStatus(state_);
 }
 
-bool Exploration::onStart(std_srvs::Trigger::Request& /*request*/,
-                          std_srvs::Trigger::Response& response) {
+Exploration::Answer Exploration::start() {
   if (failed_) finished_ = failed_ = false;  // somebody has found the robot, or its laser's fault
   contradicted_for_ = 0.0;
-  response.success = !finished_;
-  response.message = finished_ ? "the exploration has finished" : "exploring";
-  if (response.success) setMode(Mode::kRunning);
-  return true;
+  if (finished_) return {false, "the exploration has finished"};
+  setMode(Mode::kRunning);
+  return {true, "exploring"};
 }
 
-bool Exploration::onStop(std_srvs::Trigger::Request& /*request*/,
-                         std_srvs::Trigger::Response& response) {
+Exploration::Answer Exploration::stop() {
   setMode(Mode::kStopped);
-  response.success = true;
-  response.message = "stopped";
-  return true;
+  return {true, "stopped"};
 }
 
-bool Exploration::onHome(std_srvs::Trigger::Request& /*request*/,
-                         std_srvs::Trigger::Response& response) {
-  response.success = hasBegun();
-  response.message = response.success ? "returning" : "it has not left yet";
-  if (!response.success) return true;
+Exploration::Answer Exploration::pause(bool is_wanted) {
+  if (!errand_end_ && (mode_ == Mode::kStopped || finished_)) return {false, "not exploring"};
+  setMode(is_wanted ? Mode::kPaused : Mode::kRunning);
+  return {true, is_wanted ? "paused" : "exploring"};
+}
+
+Exploration::Answer Exploration::returnHome() {
+  if (!hasBegun()) return {false, "it has not left yet"};
   {
     const std::lock_guard<std::mutex> lock(saver_.mutex());
     session_->explorer().returnToStart();
@@ -248,15 +286,56 @@ bool Exploration::onHome(std_srvs::Trigger::Request& /*request*/,
     contradicted_for_ = 0.0;
   }
   setMode(Mode::kRunning);
+  return {true, "returning"};
+}
+
+void Exploration::heed(const RunCommand& command) {
+  using Kind = RunCommand::Kind;
+  if (command.kind == Kind::kGo && leaves_driving_) {
+    ROS_WARN("the page's command: move_base takes its goals itself");
+    return;
+  }
+  if (command.kind == Kind::kGo) {
+    const Eigen::Vector2d way = command.place_map - T_map_robot_.position();
+    return sendTo({command.place_map.x(), command.place_map.y(), std::atan2(way.y(), way.x())},
+                  [](ErrandOutcome, const std::string& how) { ROS_INFO("%s", how.c_str()); });
+  }
+  const Answer answer = command.kind == Kind::kStart   ? start()
+                        : command.kind == Kind::kPause ? pause(true)
+                        : command.kind == Kind::kHome  ? returnHome()
+                                                       : stop();
+  if (!answer.success) ROS_WARN("the page's command: %s", answer.message.c_str());
+}
+
+namespace {
+
+template <class Answer, class Response>
+bool tellAnswer(const Answer& answer, Response& response) {
+  response.success = answer.success;
+  response.message = answer.message;
   return true;
+}
+
+}  // namespace
+
+bool Exploration::onStart(std_srvs::Trigger::Request& /*request*/,
+                          std_srvs::Trigger::Response& response) {
+  return tellAnswer(start(), response);
+}
+
+bool Exploration::onStop(std_srvs::Trigger::Request& /*request*/,
+                         std_srvs::Trigger::Response& response) {
+  return tellAnswer(stop(), response);
+}
+
+bool Exploration::onHome(std_srvs::Trigger::Request& /*request*/,
+                         std_srvs::Trigger::Response& response) {
+  return tellAnswer(returnHome(), response);
 }
 
 bool Exploration::onPause(std_srvs::SetBool::Request& request,
                           std_srvs::SetBool::Response& response) {
-  response.success = errand_end_ || (mode_ != Mode::kStopped && !finished_);
-  response.message = response.success ? (request.data ? "paused" : "exploring") : "not exploring";
-  if (response.success) setMode(request.data ? Mode::kPaused : Mode::kRunning);
-  return true;
+  return tellAnswer(pause(request.data), response);
 }
 
 }  // namespace cca

@@ -17,13 +17,14 @@
 #include "ros/output/exploration_publisher.hpp"
 #include "ros/output/map_saver.hpp"
 #include "ros/output/plan_server.hpp"
+#include "ros/output/run_page.hpp"
 
 namespace cca {
 
 /// An exploration session with what a person does to it: the services `~start`, `~stop`, `~pause`,
-/// `~home`,
-/// `~save`, and the topics of ExplorationPublisher. Where its observations come from, and where its
-/// velocities go, is its owner's business.
+/// `~home`, `~save`, the topics of ExplorationPublisher, and the live page, whose buttons do as the
+/// services do. Where its observations come from, and where its velocities go, is its owner's
+/// business.
 class Exploration {
  public:
   struct Settings {
@@ -32,6 +33,8 @@ class Exploration {
     std::string out = "cca_map";  ///< folder for ~save, relative to where the node runs
     bool autostart = true;
     bool save_at_end = true;
+    RunPage::Settings page;
+    std::string world;  ///< what there is in truth, for the page: replayWorld(); may be empty
   };
 
   Exploration(ros::NodeHandle& node, ros::NodeHandle& private_node, Settings settings,
@@ -55,7 +58,10 @@ class Exploration {
   Velocity step(Observation observation, const ros::Time& stamp);
 
   /// See Explorer::leaveDriving(), noteOutcome().
-  void leaveDriving() { session_->explorer().leaveDriving(); }
+  void leaveDriving() {
+    session_->explorer().leaveDriving();
+    leaves_driving_ = true;
+  }
   void noteOutcome(DriveOutcome outcome) { session_->explorer().noteOutcome(outcome); }
   /// Where the last step wants the robot, and where to it shall look there: only while it drives.
   const std::optional<Pose2>& goal() const { return T_map_goal_; }
@@ -101,11 +107,23 @@ class Exploration {
  private:
   enum class Mode { kStopped, kRunning, kPaused };
 
+  /// What became of something that a person wanted.
+  struct Answer {
+    bool success;
+    std::string message;
+  };
+  Answer start();
+  Answer stop();
+  Answer pause(bool is_wanted);
+  Answer returnHome();
+  void heed(const RunCommand& command);
   bool onStart(std_srvs::Trigger::Request&, std_srvs::Trigger::Response& response);
   bool onStop(std_srvs::Trigger::Request&, std_srvs::Trigger::Response& response);
   bool onHome(std_srvs::Trigger::Request&, std_srvs::Trigger::Response& response);
   bool onPause(std_srvs::SetBool::Request& request, std_srvs::SetBool::Response& response);
   void setMode(Mode mode);
+  Velocity act(const Action& action, double passed, const ros::Time& stamp);
+  void showPage(const Observation& observation, Action action, const ros::Time& stamp);
   void finish(const ros::Time& stamp);
   MapProducts products() const;
   void tell(const Action& action);
@@ -130,8 +148,10 @@ class Exploration {
   SlamLocaliser* slam_ = nullptr;  ///< the session's, with line SLAM
   std::unique_ptr<ExplorationSession> session_;
   ExplorationPublisher publisher_;
+  RunPage page_;
+  ros::WallTimer page_timer_;  ///< of a robot that waits, viewers are told why
   Mode mode_;
-  bool finished_ = false, failed_ = false;
+  bool finished_ = false, failed_ = false, leaves_driving_ = false;
   std::optional<Action> end_;                ///< that waits for conclude()
   double own_time_ = 0.0, last_time_ = 0.0;  // s
   double contradicted_for_ = 0.0;            // s, that scans and map have been at odds

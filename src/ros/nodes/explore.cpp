@@ -68,6 +68,7 @@ Settings readSettings() {
   parameters.flag("autostart", s.exploration.autostart);
   parameters.flag("save_at_end", s.exploration.save_at_end);
   parameters.flag("exit_at_end", s.exit_at_end);
+  s.exploration.page.read(parameters);
   parameters.program(s.program, sections);
   parameters.refuseUnknown();
   s.driver.robot = s.program.robot;
@@ -83,7 +84,9 @@ void exploreSimulated(const Settings& settings, ros::NodeHandle& node,
   SimulatedRobot robot(
       node, makeSimulation(settings.simulator, settings.program),
       {settings.driver.frames, settings.simulator.scan_rate, settings.simulator.record, true});
-  Exploration exploration(node, private_node, settings.exploration, settings.program);
+  Exploration::Settings exploration_settings = settings.exploration;
+  exploration_settings.world = replayWorld(robot.simulation().world());
+  Exploration exploration(node, private_node, exploration_settings, settings.program);
   exploration.begin(std::make_unique<GivenPoses>());
   const GoalServer goals(node, private_node, settings.driver.frames.map, exploration);
   const std::map<std::string, long> none_dropped;
@@ -160,6 +163,8 @@ const NodeDescription kNode{
     "  out [cca_map] folder for the map\n"
     "  save_at_end [true], exit_at_end [false]\n"
     "  map_frame [map], odom_frame [odom], base_frame [base_link], laser_frame [laser]\n"
+    "  serve [false] shows the run in browsers, and obeys them; serve_port [8048] 0: any free;\n"
+    "    serve_address [127.0.0.1] others: who asks must know a random token\n"
     "with a robot\n"
     "  pose [tf] tf: somebody gives map -> odom; slam: this node does, by line SLAM; odometry:\n"
     "    this node does, and trusts the wheels; auto: slam where nobody gives it for 5 s, else tf\n"

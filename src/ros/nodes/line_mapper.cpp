@@ -18,6 +18,7 @@
 #include "ros/output/line_publisher.hpp"
 #include "ros/output/map_saver.hpp"
 #include "ros/output/plan_server.hpp"
+#include "ros/output/run_page.hpp"
 #include "ros/output/slam_publisher.hpp"
 #include "ros/output/way_publisher.hpp"
 #include "ros/parameters/private_parameters.hpp"
@@ -36,6 +37,7 @@ struct LineMapperParameters {
   std::string out = "cca_map";  ///< directory, relative to where the node runs
   bool save_at_end = false;
   std::string record;  ///< bag to write
+  RunPage::Settings page;
   Parameters program;
 };
 
@@ -59,6 +61,7 @@ LineMapperParameters readParameters(const ros::NodeHandle& private_node) {
   parameters.text("out", p.out);
   parameters.flag("save_at_end", p.save_at_end);
   parameters.text("record", p.record);
+  p.page.read(parameters);
   parameters.program(p.program, {"mapping"});
   parameters.refuseUnknown();
   return p;
@@ -73,6 +76,8 @@ class LineMapper {
         recorder_(node, parameters_.record, topicsOfRobot(parameters_.scans)),
         publisher_(node, parameters_.frames.map),
         way_(node, parameters_.frames.map),
+        page_(private_node, parameters_.page, pageSettings(),
+              [this](const RunCommand& command) { heed(command); }),
         scans_(node, scanSettings(), [this](const PlacedScan& scan) { insert(scan); }),
         diagnostics_(
             node, private_node, [this]() -> const auto& { return scans_.dropped(); }),
@@ -91,12 +96,12 @@ class LineMapper {
   void end() {
     ros::getGlobalCallbackQueue()->callAvailable();  // scans that have come belong to the map
     scans_.finish();
-    if (!parameters_.save_at_end) return;
-    {
+    if (parameters_.save_at_end) {
       const std::lock_guard<std::mutex> lock(saver_.mutex());
       session_->finish();
     }
-    saver_.saveOrTell();
+    page_.finish(session_->lineMap().lines(), "the node ends");
+    if (parameters_.save_at_end) saver_.saveOrTell();
   }
 
  private:
@@ -109,6 +114,18 @@ class LineMapper {
             0.0,
             frames.odom,
             corrects};
+  }
+
+  static LivePageSettings pageSettings() {
+    LivePageSettings page;
+    page.title = "line_mapper";
+    return page;
+  }
+
+  /// There is nobody to be sent anywhere: while it is paused, scans are left out.
+  void heed(const RunCommand& command) {
+    is_paused_ = command.kind != RunCommand::Kind::kStart;
+    page_.setPaused(is_paused_);
   }
 
   /// An empty map.
@@ -129,6 +146,7 @@ class LineMapper {
   }
 
   void insert(const PlacedScan& scan) {
+    if (is_paused_) return;
     const ros::WallTime start = ros::WallTime::now();
     const std::lock_guard<std::mutex> lock(saver_.mutex());
     Measurement measurement = measurementOf(scan, slam_ != nullptr);
@@ -137,6 +155,7 @@ class LineMapper {
     } else {
       if (session_->times().empty() && slam_) measurement.T_map_robot = T_map_start_;
       show(session_->add(measurement), measurement, scan);
+      showPage(scan.stamp);
     }
     if (scan_lines_.getNumSubscribers() > 0) showLinesOf(scan);
     publisher_.publish(session_->lineMap().lines(), scan.stamp);
@@ -164,6 +183,13 @@ class LineMapper {
     way_shown_ = now;
   }
 
+  void showPage(const ros::Time& stamp) {
+    if (!estimate_.is_known || !page_.isDue()) return;
+    ReplayMoment moment;
+    moment.T_map_robot = estimate_.T_map_robot;
+    page_.show(moment, session_->scan(), session_->lineMap(), stamp);
+  }
+
   /// Of the session's last scan.
   void showLinesOf(const PlacedScan& scan) {
     std::vector<MapLine> numbered;
@@ -181,6 +207,7 @@ class LineMapper {
     if (!session_->times().empty()) T_map_start_ = estimate_.T_map_robot;
     parameters_.resume.clear();
     begin();
+    page_.restart();
     way_.replace({}, {});
     publisher_.publish({}, ros::Time::now());
     response.success = true;
@@ -214,6 +241,8 @@ class LineMapper {
   LinePublisher publisher_;
   WayPublisher way_;
   ros::WallTime way_shown_;
+  RunPage page_;
+  bool is_paused_ = false;  ///< by the page's viewers
   ScanFeed scans_;
   NodeDiagnostics diagnostics_;
   ros::Publisher scan_lines_;
@@ -236,7 +265,9 @@ const NodeDescription kNode{
     "  config [] .ini file, read first\n"
     "  out [cca_map] folder for the map\n"
     "  save_at_end [false]\n"
-    "  record [] bag to write of scans, tf, odom and cmd_vel",
+    "  record [] bag to write of scans, tf, odom and cmd_vel\n"
+    "  serve [false] shows the map in browsers as it grows; serve_port [8048] 0: any free;\n"
+    "    serve_address [127.0.0.1] others: who asks must know a random token",
     {"mapping"}};
 
 }  // namespace

@@ -35,6 +35,7 @@ class ExplorationPublisher {
   }
   /// Where it differs from what stands. The first word is the state.
   void showStatus(const std::string& status);
+  const std::string& status() const { return shown_status_; }
 
  private:
   void showGoal(const std::optional<Pose2>& T_map_goal, const ros::Time& stamp);

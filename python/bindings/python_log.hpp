@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <nanobind/nanobind.h>
+
+#include <optional>
+#include <string>
+
+#include "cca_mrpt/io/log_reader.hpp"
+
+namespace cca::python {
+
+namespace nb = nanobind;
+
+/// The records of any Python iterator, for what reads logs.
+class PythonLog : public LogReader {
+ public:
+  /// @param iterator  outlives this, which may be destroyed without the interpreter's lock.
+  explicit PythonLog(nb::handle iterator) : iterator_(iterator) {}
+
+  std::optional<LogRecord> next() override {
+    const nb::gil_scoped_acquire turn;
+    if (ended_) return std::nullopt;
+    const nb::object record = nb::steal(PyIter_Next(iterator_.ptr()));
+    if (record.is_valid()) {
+      const LogRecord* taken = nullptr;
+      if (!nb::try_cast<const LogRecord*>(record, taken) || !taken)
+        throw nb::value_error("records: an iterable of LogRecord is needed");
+      return *taken;
+    }
+    ended_ = true;
+    if (PyErr_Occurred()) throw nb::python_error();
+    return std::nullopt;
+  }
+  std::string warnings() const override { return {}; }
+  double progress() const override { return ended_ ? 1.0 : 0.0; }
+
+ private:
+  nb::handle iterator_;
+  bool ended_ = false;
+};
+
+}  // namespace cca::python

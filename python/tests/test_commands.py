@@ -1,0 +1,238 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""merge, localize and render: the program's, from Python and by its commands."""
+import gzip
+import json
+import os
+import shutil
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+
+import cca_mrpt
+from cca_mrpt.__main__ import main
+from cca_mrpt.program import installed_program
+from conftest import FULL_TURN
+
+needs_program = pytest.mark.skipif(not installed_program(), reason="needs the program cca-mrpt")
+OF_A_MAP = ["lines.csv", "arcs.csv", "lines.geojson", "lines.svg", "lines.dxf", "graph.g2o", "map.slam"]
+
+
+def by(what, *words):
+    """Exit status and error output of a command, of the program or of Python."""
+    command = [installed_program()] if what == "program" else [sys.executable, "-m", "cca_mrpt"]
+    done = subprocess.run([*command, *map(str, words)], capture_output=True, text=True)
+    return done.returncode, done.stderr
+
+
+@pytest.fixture
+def two_maps(two_rooms, scan_of, tmp_path):
+    """Folders of two drives through the same rooms, the second from elsewhere and the other way about."""
+    stubs = [[[-3, 0.5], [-1.5, 0.5]], [[4, -2], [4, -1]], [[6, 2], [6, 1.2]], [[0, 2], [0.7, 1.3]]]
+    rooms = np.concatenate([two_rooms, np.array(stubs)])  # which look like themselves from one place only
+    folders = []
+    for number, (first, last) in enumerate(((0, 4), (4.5, 0.5))):
+        way, turn = np.linspace(first, last, 40), np.pi * number
+        way = np.concatenate([way, way[::-1]])  # there and back
+        driven = np.cos(turn) * (way - way[0])
+        records = [cca_mrpt.LogRecord(scan_of(rooms, (x, 0.1, turn), beams=360, **FULL_TURN), **FULL_TURN, time=k / 5,
+                                      odometry=(1.01 * driven[k], 3e-4 * k, 0)) for k, x in enumerate(way)]
+        folders.append(tmp_path / f"map{number}")
+        cca_mrpt.map(records).save(folders[-1])
+    return folders
+
+
+def test_two_maps_become_one(two_maps, tmp_path):
+    made = cca_mrpt.merge(two_maps)
+    alone = cca_mrpt.load(two_maps[0])
+    assert made.summary["maps"] == [str(folder) for folder in two_maps] and made.summary["loops"] > 0
+    assert made.shortcoming == "" and len(made.trajectory) == 0
+    length = lambda lines: np.linalg.norm(lines["ends"][:, 1] - lines["ends"][:, 0], axis=1).sum()  # noqa: E731
+    assert length(alone.lines) - 0.1 < length(made.lines) < length(alone.lines) + 3, "no wall stands twice"
+    made.save(tmp_path / "merged")
+    assert len(cca_mrpt.merge([tmp_path / "merged", two_maps[1]])) == len(made)
+
+
+@needs_program
+def test_the_program_merges_to_the_same_bytes(two_maps, tmp_path):
+    for what in "program", "python":
+        status, said = by(what, "merge", *two_maps, "--out", tmp_path / what)
+        assert status == 0, said
+    for name in OF_A_MAP:
+        assert (tmp_path / "program" / name).read_bytes() == (tmp_path / "python" / name).read_bytes(), name
+
+
+@pytest.mark.parametrize("what", ["python", pytest.param("program", marks=needs_program)])
+def test_what_cannot_be_merged_is_named(two_maps, room, scan_of, tmp_path, what):
+    small = 0.3 * np.asarray(room)  # is nowhere in those rooms
+    record = [cca_mrpt.LogRecord(scan_of(small, (0.01 * k, 0, 0), beams=360, **FULL_TURN), **FULL_TURN,
+                                 odometry=(0.01 * k, 0, 0)) for k in range(10)]
+    cca_mrpt.map(record).save(tmp_path / "other")
+    status, said = by(what, "merge", two_maps[0], tmp_path / "other", "--out", tmp_path / "out")
+    assert status == 1 and "no place of it was found" in said and str(tmp_path / "other") in said
+    (two_maps[1] / "map.slam").write_bytes(b"nonsense")
+    status, said = by(what, "merge", *two_maps, "--out", tmp_path / "out")
+    assert status == 1 and "map.slam" in said
+    assert by(what, "merge", two_maps[0], "--out", tmp_path / "out")[0] == 2
+    assert not (tmp_path / "out" / "summary.json").exists()
+
+
+def test_wrong_maps_raise(two_maps, tmp_path):
+    with pytest.raises(ValueError, match="two or more"):
+        cca_mrpt.merge(two_maps[:1])
+    with pytest.raises(ValueError, match="none: is not there"):
+        cca_mrpt.merge([two_maps[0], tmp_path / "none"])
+
+
+START = (-1.0, -0.3, 0.0)  # where the log of the room begins
+
+
+@pytest.fixture
+def plan(log, tmp_path):
+    cca_mrpt.map(log).save(tmp_path / "plan")
+    return tmp_path / "plan"
+
+
+def test_a_log_is_localised_in_its_map(log, plan):
+    truth = np.array([[x, 0.3 * x, 0.1 * k] for k, x in enumerate(np.linspace(-1, 1, 20))])
+    found = cca_mrpt.localize(log, plan, START)
+    assert len(found) == 20 and repr(found) == "Localisation(20 of 20 scans)" and found.shortcoming == ""
+    assert np.abs(found.poses[:, :2] - truth[:, :2]).max() < 0.02
+    assert np.array_equal(found.times, np.arange(20.0)) and found.summary["plan"]["kind"] == "CSV"
+    records = iter(list(cca_mrpt.read_log(log)))  # also of what can be gone through once only
+    assert np.array_equal(cca_mrpt.localize(records, plan, START).poses, found.poses)
+
+
+def test_nothing_is_localised_where_two_places_look_alike(log, tmp_path, capsys):
+    """A room of four right angles looks the same from its other end."""
+    plan = tmp_path / "room.csv"
+    plan.write_text("x1,y1,x2,y2\n-3,-2,3,-2\n3,-2,3,2\n3,2,-3,2\n-3,2,-3,-2\n")
+    found = cca_mrpt.localize(log, plan)
+    assert len(found) == 0 and "never localised" in found.shortcoming
+    assert main(["localize", str(log), "--in", str(plan), "--out", str(tmp_path / "out")]) == 3
+    assert "never localised" in capsys.readouterr().err
+    assert json.loads((tmp_path / "out" / "summary.json").read_text())["localised"] == 0
+
+
+@needs_program
+@pytest.mark.parametrize("kind", ["", "lines.csv", "lines.geojson", "lines.dxf", "map.slam", "plan.geojson", "plan.dxf",
+                                  "plan.svg", "map.yaml"])
+def test_the_program_localises_to_the_same_bytes(log, kind, tmp_path):
+    assert by("program", "map", log, "--pose", "slam", "--out", tmp_path / "plan")[0] == 0
+    for what in "program", "python":
+        status, said = by(what, "localize", log, "--in", tmp_path / "plan" / kind, "--start", "-1,-0.3,0", "--out",
+                          tmp_path / what)
+        assert status == 0, said
+    for name in "poses.csv", "poses.tum":
+        assert (tmp_path / "program" / name).read_bytes() == (tmp_path / "python" / name).read_bytes(), name
+    told = [json.loads((tmp_path / what / "summary.json").read_text()) for what in ("program", "python")]
+    assert told[0].pop("program")
+    assert told[0] == told[1]
+
+
+@needs_program
+def test_a_grid_of_somebody_else_is_read_by_its_own_thresholds(log, tmp_path):
+    assert by("program", "map", log, "--out", tmp_path / "plan")[0] == 0
+    text, image = (tmp_path / "plan" / "map.yaml").read_text(), (tmp_path / "plan" / "map.pgm").read_bytes()
+    head = image[:-len(image.split(b"\n255\n", 1)[1])]
+    (tmp_path / "plan" / "map.pgm").write_bytes(head + bytes(255 - b for b in image[len(head):]))
+    (tmp_path / "plan" / "map.yaml").write_text(text.replace("negate: 0", "negate: 1"))
+    for what in "program", "python":
+        assert by(what, "localize", log, "--in", tmp_path / "plan" / "map.yaml", "--start", "-1,-0.3,0", "--out",
+                  tmp_path / what) == (0, "")
+    assert (tmp_path / "program" / "poses.csv").read_bytes() == (tmp_path / "python" / "poses.csv").read_bytes()
+
+
+@pytest.mark.parametrize("arguments, named", [
+    (dict(scale=-1.0), "scale"), (dict(scale=np.nan), "scale"), (dict(start=(1.0, 2.0)), "start"),
+    (dict(start=(np.nan, 0.0, 0.0)), "start"),
+])
+def test_wrong_arguments_are_named(log, plan, arguments, named):
+    with pytest.raises(ValueError, match=named):
+        cca_mrpt.localize(log, plan, **arguments)
+
+
+def test_what_is_no_plan_is_named(log, tmp_path):
+    with pytest.raises(FileNotFoundError, match="none.dxf"):
+        cca_mrpt.localize(log, tmp_path / "none.dxf")
+    for name, text in ("plan.dxf", "nonsense"), ("plan.txt", ""), ("plan.geojson", "{"), ("map.yaml", "image: x\n"):
+        (tmp_path / name).write_text(text)
+        with pytest.raises(ValueError, match=name):
+            cca_mrpt.localize(log, tmp_path / name)
+
+
+@needs_program
+def test_a_saved_map_replays_as_the_programs(log, tmp_path):
+    cca_mrpt.map(log, pose="slam").save(tmp_path / "python")
+    assert by("program", "map", log, "--pose", "slam", "--out", tmp_path / "program")[0] == 0
+    page = {what: (tmp_path / what / "replay.html").read_text() for what in ("program", "python")}
+    runs = {what: cca_mrpt._core.runs_of_page(page[what], what)[0] for what in page}
+    assert runs["program"].split(".")[0] == runs["python"].split(".")[0]  # after it come the rooms
+    assert "." in runs["python"]
+    again = cca_mrpt.load(tmp_path / "python")
+    again.save(tmp_path / "again")
+    assert (tmp_path / "again" / "replay.html").read_text() == page["python"]
+
+
+@needs_program
+def test_the_program_renders_the_same_page(log, tmp_path):
+    for name, pose in ("a", "slam"), ("b", "log"):
+        cca_mrpt.map(log, pose=pose).save(tmp_path / name)
+    for beside in [], ["--beside", tmp_path / "b"]:
+        for what in "program", "python":
+            status, said = by(what, "render", tmp_path / "a", "--html", *beside, "--out", tmp_path / f"{what}.html")
+            assert status == 0, said
+        assert (tmp_path / "program.html").read_bytes() == (tmp_path / "python.html").read_bytes()
+    assert cca_mrpt.replay_page(tmp_path / "a", tmp_path / "b" / "replay.html") == (tmp_path / "python.html").read_text()
+
+
+def test_what_holds_no_run_is_named(tmp_path, capsys):
+    (tmp_path / "page.html").write_bytes(b"<html>\xff</html>")
+    assert main(["render", str(tmp_path / "page.html"), "--out", str(tmp_path / "out.html")]) == 1
+    assert main(["render", str(tmp_path / "none"), "--out", str(tmp_path / "out.html")]) == 1
+    assert main(["render", str(tmp_path / "page.html"), "--out", str(tmp_path / "out.txt")]) == 2
+    said = capsys.readouterr().err
+    assert "page.html: holds no run" in said and "none" in said and not (tmp_path / "out.html").exists()
+
+
+@pytest.fixture
+def contradicted(room, scan_of, tmp_path):
+    """A log of a robot that turns by 2 degrees a step more than its poses say: the walls turn with it."""
+    path = tmp_path / "turning.log.gz"
+    with gzip.open(path, "wt") as file:
+        for k in range(40):
+            ranges = scan_of(room, (0.02 * k, 0.0, -0.035 * k), np.radians(-90), np.radians(1), 181)
+            pose = f"{0.02 * k} 0 0"
+            file.write(f"FLASER 181 {' '.join(f'{r:.3f}' for r in ranges)} {pose} {pose} {k} host {k}\n")
+    return path
+
+
+@pytest.mark.parametrize("what", ["python", pytest.param("program", marks=needs_program)])
+def test_a_map_that_its_scans_contradict_ends_with_status_3(contradicted, tmp_path, what):
+    status, said = by(what, "map", contradicted, "--pose", "odometry", "--out", tmp_path / what)
+    assert status == 3 and "scans contradict the map" in said
+    assert "contradict" in json.loads((tmp_path / what / "summary.json").read_text())["warnings"]
+
+
+@needs_program
+def test_help_of_both_names_the_same_statuses_and_commands():
+    told = {what: " ".join(subprocess.run(command, capture_output=True, text=True, check=True).stdout.split())
+            for what, command in (("program", [installed_program(), "--help"]),
+                                  ("python", [sys.executable, "-m", "cca_mrpt", "--help"]))}
+    for words in "0 done", "2 no such command or option", "3 done, but the result falls short":
+        assert all(words in text for text in told.values()), words
+    for command in "info", "localize", "map", "merge", "render":
+        assert all(command in text for text in told.values()), command
+
+
+def test_nothing_is_overwritten_unasked(log, plan, tmp_path, capsys):
+    before = (plan / "lines.csv").read_bytes()
+    (tmp_path / "poses").mkdir()
+    (tmp_path / "poses" / "poses.csv").write_text("mine")
+    for words in (["map", log, "--out", plan], ["merge", plan, plan, "--out", plan],
+                  ["localize", log, "--in", plan, "--out", tmp_path / "poses"]):
+        assert main([os.fspath(word) for word in words]) == 1
+        assert "is there already (--force overwrites it)" in capsys.readouterr().err
+    assert (plan / "lines.csv").read_bytes() == before and (tmp_path / "poses" / "poses.csv").read_text() == "mine"
+    shutil.rmtree(tmp_path / "poses")
