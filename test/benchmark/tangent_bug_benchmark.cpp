@@ -3,7 +3,7 @@
 
 #include "../navigation/random_worlds.hpp"
 #include "../navigation/traps.hpp"
-#include "cca_mrpt/navigation/drive/tangent_bug/tangent_bug.hpp"
+#include "cca_mrpt/navigation/control/tangent_bug/tangent_bug.hpp"
 
 namespace {
 

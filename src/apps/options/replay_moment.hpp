@@ -18,7 +18,7 @@ inline ReplayMoment momentOf(const Simulation& simulation, const Explorer& explo
   moment.goal = action.goal;
   moment.reason = action.reason;
   moment.way = explorer.planner().plan().path;
-  for (const Cell& cell : explorer.planner().place().frontierCells().cells()) {
+  for (const Cell& cell : explorer.world().frontierCells().cells()) {
     moment.frontier.push_back(explorer.grid().centreOf(cell));
   }
   return moment;

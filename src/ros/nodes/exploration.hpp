@@ -54,8 +54,8 @@ class Exploration {
   /// observation.time may do what it likes: the explorer's own clock stands while it waits.
   Velocity step(Observation observation, const ros::Time& stamp);
 
-  /// See Explorer::leaveDriving(), noteOutcome().
-  void leaveDriving() { session_->explorer().leaveDriving(); }
+  /// See Explorer::delegateDriving(), noteOutcome().
+  void delegateDriving() { session_->explorer().delegateDriving(); }
   void noteOutcome(DriveOutcome outcome) { session_->explorer().noteOutcome(outcome); }
   /// Where the last step wants the robot, and where to it shall look there: only while it drives.
   const std::optional<Pose2>& goal() const { return T_map_goal_; }
@@ -90,7 +90,7 @@ class Exploration {
   bool finished() const { return finished_; }
   const ExplorationSession& session() const { return *session_; }
   const ScanAgreement& agreement() const { return session_->mapping().agreement(); }
-  const ShownMotion& shownMotion() const { return session_->explorer().shownMotion(); }
+  const ActuationModel& actuation() const { return session_->explorer().actuation(); }
   /// Told as the status while the robot has to stand: why.
   void wait(const std::string& reason) { publisher_.showStatus("waiting: " + reason); }
   const std::string& state() const { return state_; }
