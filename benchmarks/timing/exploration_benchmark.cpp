@@ -9,7 +9,7 @@
 #include <limits>
 
 #include "cca_mrpt/geometry/cell.hpp"
-#include "cca_mrpt/navigation/goals/global_planner.hpp"
+#include "cca_mrpt/navigation/planning/global_planner.hpp"
 
 namespace {
 
@@ -43,21 +43,22 @@ cca::Scan scanFrom(double x, double y) {
   return scan;
 }
 
-/// Half of the place known, the rest to be explored.
-cca::GlobalPlanner halfway() {
-  cca::GlobalPlanner planner;
+/// Half of it known, the rest to be explored.
+cca::WorldModel halfway() {
+  cca::WorldModel world;
   std::vector<cca::Cell> free, occupied;
   for (int y = 0; y < kSide; ++y) {
     for (int x = 0; x < kSide / 2; ++x) (isWall({x, y}) ? occupied : free).push_back({x, y});
   }
-  planner.place().seed(occupied, cca::CellState::kOccupied);
-  planner.place().seed(free, cca::CellState::kFree);
-  return planner;
+  world.seed(occupied, cca::CellState::kOccupied);
+  world.seed(free, cca::CellState::kFree);
+  return world;
 }
 
 /// Steps of a point that follows the plan; counters in ms of processor time, a step.
 void BM_PlanningStep(benchmark::State& state) {
-  cca::GlobalPlanner planner = halfway();
+  cca::WorldModel world = halfway();
+  cca::GlobalPlanner planner;
   Eigen::Vector2d robot(45.0, 45.0);
   std::vector<double> took_ms;
   for (auto _ : state) {
@@ -65,7 +66,8 @@ void BM_PlanningStep(benchmark::State& state) {
     const cca::Scan scan = scanFrom(robot.x(), robot.y());
     state.ResumeTiming();
     const std::clock_t start = std::clock();
-    const cca::Plan& plan = planner.update(scan, robot);
+    world.observe(scan, robot);
+    const cca::Plan& plan = planner.update(world, robot);
     took_ms.push_back(1e3 * static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC);
     state.PauseTiming();
     if (plan.path.size() > 1 && plan.path[1] != robot)

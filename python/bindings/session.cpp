@@ -21,7 +21,7 @@
 #include "arguments.hpp"
 #include "cca_mrpt/localisation/given_poses.hpp"
 #include "cca_mrpt/localisation/wheel_odometry.hpp"
-#include "cca_mrpt/navigation/place/exploration_grid.hpp"
+#include "cca_mrpt/navigation/world/exploration_grid.hpp"
 #include "cca_mrpt/session/earlier_drive.hpp"
 #include "cca_mrpt/slam/slam_localiser.hpp"
 #include "io/files/stray_places.hpp"

@@ -15,7 +15,7 @@ inline ReplayMoment momentOf(const Explorer& explorer, const Pose2& T_map_robot,
   moment.goal = action.goal;
   moment.reason = action.reason;
   moment.way = explorer.planner().plan().path;
-  for (const Cell& cell : explorer.planner().place().frontierCells().cells()) {
+  for (const Cell& cell : explorer.world().frontierCells().cells()) {
     moment.frontier.push_back(explorer.grid().centreOf(cell));
   }
   return moment;

@@ -56,9 +56,17 @@ Velocity obey(const Velocity& velocity, const Velocity& command, const Velocity&
           towards(velocity.angular, command.angular, speeds_up.angular, brakes.angular, dt)};
 }
 
-ShownMotion::ShownMotion(const RobotParameters& robot) : robot_(robot) { conclude(); }
+ActuationModel::ActuationModel(const RobotParameters& robot) : robot_(robot) { conclude(); }
 
-void ShownMotion::observe(const SentCommands& sent, const Velocity& measured, double time) {
+void ActuationModel::changeMotion(const RobotParameters& robot) {
+  const bool obeys_otherwise = robot.latency != robot_.latency ||
+                               robot.max_linear_acceleration != robot_.max_linear_acceleration ||
+                               robot.max_angular_acceleration != robot_.max_angular_acceleration;
+  if (obeys_otherwise) *this = ActuationModel(robot);
+  robot_ = robot;
+}
+
+void ActuationModel::observe(const SentCommands& sent, const Velocity& measured, double time) {
   if (!std::isfinite(measured.linear + measured.angular + time)) return last_.reset();
   const double passed = time - last_time_;
   const bool follows = last_ && passed > 0.0 && passed <= kLongestGap;
@@ -75,14 +83,14 @@ void ShownMotion::observe(const SentCommands& sent, const Velocity& measured, do
   last_time_ = time;
 }
 
-void ShownMotion::beginPending(const Velocity& measured, double time) {
+void ActuationModel::beginPending(const Velocity& measured, double time) {
   pending_ = {};
   pending_count_ = 0.0;
   pending_since_ = time;
   pending_from_ = measured;
 }
 
-void ShownMotion::takePending() {
+void ActuationModel::takePending() {
   for (std::size_t latency = 0; latency < kLatencies; ++latency) {
     for (std::size_t motion = 0; motion < kMotions; ++motion) {
       for (std::size_t share = 0; share < kShares; ++share) {
@@ -95,7 +103,7 @@ void ShownMotion::takePending() {
   conclude();
 }
 
-void ShownMotion::addErrors(const SentCommands& sent, const Velocity& measured, double time) {
+void ActuationModel::addErrors(const SentCommands& sent, const Velocity& measured, double time) {
   const int steps = std::max(1, static_cast<int>(std::lround((time - last_time_) / kSubstep)));
   const double dt = (time - last_time_) / steps;
   for (std::size_t latency = 0; latency < kLatencies; ++latency) {
@@ -127,7 +135,7 @@ void ShownMotion::addErrors(const SentCommands& sent, const Velocity& measured, 
   pending_count_ += 2.0;
 }
 
-double ShownMotion::sumOf(std::size_t latency) const {
+double ActuationModel::sumOf(std::size_t latency) const {
   double sum = 0.0;
   for (const auto& motion : sums_[latency]) sum += *std::min_element(motion.begin(), motion.end());
   // What is far from what was told has to be shown.
@@ -135,7 +143,7 @@ double ShownMotion::sumOf(std::size_t latency) const {
   return off > kUnsure + 1e-9 ? sum + 2.0 * kChance : sum;
 }
 
-void ShownMotion::conclude() {
+void ActuationModel::conclude() {
   best_ = static_cast<std::size_t>(std::lround(robot_.latency / kStep));
   for (std::size_t latency = 0; latency < kLatencies; ++latency) {
     if (sumOf(latency) < sumOf(best_) - 1e-9) best_ = latency;
@@ -154,7 +162,7 @@ void ShownMotion::conclude() {
 }
 
 // Where the robot has not braked so hard, several are as good: then the hardest.
-double ShownMotion::shareOf(Motion motion) const {
+double ActuationModel::shareOf(Motion motion) const {
   const auto& sums = sums_[best_][motion];
   const double most = *std::min_element(sums.begin(), sums.end()) + kAsGood;
   const auto hardest =
@@ -162,30 +170,22 @@ double ShownMotion::shareOf(Motion motion) const {
   return kShare[static_cast<std::size_t>(hardest - sums.begin())];
 }
 
-Velocity ShownMotion::brakes() const {
+Velocity ActuationModel::brakes() const {
   return {shareOf(kBrakes) * robot_.max_linear_acceleration,
           shareOf(kTurnsLess) * robot_.max_angular_acceleration};
 }
 
-Velocity ShownMotion::reliableBrakes() const {
+Velocity ActuationModel::reliableBrakes() const {
   Velocity reliable = brakes();
   reliable.linear = std::min(reliable.linear, kReliable * robot_.max_linear_acceleration);
   return reliable;
 }
 
-void CommandedMotion::changeMotion(const RobotParameters& robot) {
-  const bool obeys_otherwise = robot.latency != robot_.latency ||
-                               robot.max_linear_acceleration != robot_.max_linear_acceleration ||
-                               robot.max_angular_acceleration != robot_.max_angular_acceleration;
-  robot_ = robot;
-  if (obeys_otherwise) shown_ = ShownMotion(robot_);
-}
-
 void CommandedMotion::observe(const Velocity& measured, double time) {
-  const bool can_be = std::abs(measured.linear) < kOverSpeed * robot_.max_linear_velocity &&
-                      std::abs(measured.angular) < kOverSpeed * robot_.max_angular_velocity;
+  const bool can_be = std::abs(measured.linear) < kOverSpeed * robot().max_linear_velocity &&
+                      std::abs(measured.angular) < kOverSpeed * robot().max_angular_velocity;
   if (can_be) {
-    shown_.observe(sent_, measured, time);
+    actuation_.observe(sent_, measured, time);
     measured_ = measured;
   }
   if (time_ >= 0.0) intervals_.push_back(time - time_);
@@ -199,37 +199,38 @@ double CommandedMotion::period() const {
   return std::min(longest, kLongestPeriod);
 }
 
-Onset CommandedMotion::after(double latency) const {
-  Onset onset{{}, measured_, latency};
+PredictedState CommandedMotion::after(double latency) const {
+  PredictedState state{{}, measured_, latency};
   const int steps = static_cast<int>(std::ceil(latency / kSubstep - 1e-9));
   const double dt = latency / std::max(steps, 1);
-  const Velocity speeds_up{robot_.max_linear_acceleration, robot_.max_angular_acceleration};
-  const Velocity brakes = shown_.brakes();
+  const Velocity speeds_up{robot().max_linear_acceleration, robot().max_angular_acceleration};
+  const Velocity brakes = actuation_.brakes();
   for (int i = 0; i < steps; ++i) {
     const auto command = sent_.at(time_ + (i + 0.5) * dt - latency);
-    const Velocity before = onset.velocity;
-    if (command) onset.velocity = obey(before, *command, speeds_up, brakes, dt);
-    const double way = 0.5 * (before.linear + onset.velocity.linear) * dt;
-    const double turn = 0.5 * (before.angular + onset.velocity.angular) * dt;
-    onset.T_now_then =
-        onset.T_now_then * Pose2{way * std::cos(0.5 * turn), way * std::sin(0.5 * turn), turn};
+    const Velocity before = state.velocity;
+    if (command) state.velocity = obey(before, *command, speeds_up, brakes, dt);
+    const double way = 0.5 * (before.linear + state.velocity.linear) * dt;
+    const double turn = 0.5 * (before.angular + state.velocity.angular) * dt;
+    state.T_now_then =
+        state.T_now_then * Pose2{way * std::cos(0.5 * turn), way * std::sin(0.5 * turn), turn};
   }
-  return onset;
+  return state;
 }
 
-std::vector<Onset> CommandedMotion::otherwise() const {
-  std::vector<Onset> onsets;
-  for (const double latency : {shown_.earliest(), std::max(robot_.latency, shown_.latest())}) {
-    if (std::abs(latency - this->latency()) > kSameLatency) onsets.push_back(after(latency));
+std::vector<PredictedState> CommandedMotion::latencyHypotheses() const {
+  std::vector<PredictedState> states;
+  for (const double latency :
+       {actuation_.earliest(), std::max(robot().latency, actuation_.latest())}) {
+    if (std::abs(latency - this->latency()) > kSameLatency) states.push_back(after(latency));
   }
-  return onsets;
+  return states;
 }
 
 bool CommandedMotion::actsAtOnce() const { return latency() <= kSameLatency; }
 
 RobotParameters CommandedMotion::believed() const {
-  RobotParameters believed = robot_;
-  const Velocity brakes = shown_.brakes();
+  RobotParameters believed = robot();
+  const Velocity brakes = actuation_.brakes();
   believed.max_linear_acceleration = brakes.linear;
   believed.max_angular_acceleration = brakes.angular;
   return believed;

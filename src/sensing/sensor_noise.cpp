@@ -31,10 +31,9 @@ double SensorNoise::variance(double range) const {
   return std::max(range_sigma_ * range_sigma_, across * across);
 }
 
-void SensorNoise::add(const Scan& scan) {
-  const double sigma = rangeNoise(scan).range_sigma;
+void SensorNoise::add(const Scan& scan, double range_sigma) {
   scans_ = std::min(scans_ + 1, kScansKept);
-  range_sigma_ += (sigma - range_sigma_) / static_cast<double>(scans_);
+  range_sigma_ += (range_sigma - range_sigma_) / static_cast<double>(scans_);
   const std::vector<Deviation> found = slanted(scan);
   if (found.size() < kLeastAtOnce) return;
   for (const Deviation& d : found) {

@@ -33,6 +33,7 @@ Observation ExplorationSession::sense(const Measurement& measurement, const Velo
   observation.velocity = velocity;
   observation.time = measurement.time;
   observation.is_localised = estimate_.is_known;
+  observation.range_sigma = mapping_.analysed().noise.range_sigma;
   return observation;
 }
 
@@ -40,7 +41,7 @@ Estimate ExplorationSession::addSecondary(const Measurement& measurement, std::s
   const Estimate estimate = mapping_.addSecondary(measurement, sensor);
   if (estimate.was_corrected) explorer_.correct(mapping_.past());
   if (!estimate.is_known) return estimate;
-  explorer_.observe(mapping_.scan(), estimate.T_map_robot);
+  explorer_.observe(mapping_.scan(), estimate.T_map_robot, mapping_.analysed().noise.range_sigma);
   return estimate;
 }
 

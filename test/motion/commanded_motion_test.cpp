@@ -61,12 +61,12 @@ void driveAbout(Base& base, CommandedMotion& motion, int periods, double noise =
 TEST(CommandedMotion, OfARobotThatObeysAtOnceBeginsHereAndNow) {
   CommandedMotion motion(withLatency(0.0));
   motion.observe({0.4, 0.3}, 1.0);
-  const Onset onset = motion.expected();
-  EXPECT_EQ(onset.T_now_then.x, 0.0);
-  EXPECT_EQ(onset.T_now_then.theta, 0.0);
-  EXPECT_EQ(onset.velocity.linear, 0.4);
-  EXPECT_EQ(onset.velocity.angular, 0.3);
-  EXPECT_EQ(onset.delay, 0.0);
+  const PredictedState state = motion.expected();
+  EXPECT_EQ(state.T_now_then.x, 0.0);
+  EXPECT_EQ(state.T_now_then.theta, 0.0);
+  EXPECT_EQ(state.velocity.linear, 0.4);
+  EXPECT_EQ(state.velocity.angular, 0.3);
+  EXPECT_EQ(state.delay, 0.0);
 }
 
 TEST(CommandedMotion, FollowsTheCommandsUnderWay) {
@@ -75,7 +75,7 @@ TEST(CommandedMotion, FollowsTheCommandsUnderWay) {
     CommandedMotion motion(base.robot);
     driveAbout(base, motion, 40);
     motion.observe(base.velocity, base.time);
-    const Onset onset = motion.expected();
+    const PredictedState state = motion.expected();
     Base then = base;
     const int steps = static_cast<int>(std::lround(latency / 0.005));
     for (int i = 0; i < steps; ++i) {
@@ -88,17 +88,17 @@ TEST(CommandedMotion, FollowsTheCommandsUnderWay) {
     }
     const Pose2 moved = base.pose.inverse() * then.pose;
     EXPECT_GT(moved.position().norm(), 0.01) << latency;
-    EXPECT_NEAR((moved.position() - onset.T_now_then.position()).norm(), 0.0, 0.002) << latency;
-    EXPECT_NEAR(moved.theta, onset.T_now_then.theta, 0.01) << latency;
-    EXPECT_NEAR(then.velocity.linear, onset.velocity.linear, 0.01) << latency;
-    EXPECT_NEAR(then.velocity.angular, onset.velocity.angular, 0.04) << latency;
+    EXPECT_NEAR((moved.position() - state.T_now_then.position()).norm(), 0.0, 0.002) << latency;
+    EXPECT_NEAR(moved.theta, state.T_now_then.theta, 0.01) << latency;
+    EXPECT_NEAR(then.velocity.linear, state.velocity.linear, 0.01) << latency;
+    EXPECT_NEAR(then.velocity.angular, state.velocity.angular, 0.04) << latency;
   }
 }
 
 TEST(CommandedMotion, AtFirstReckonsWithAnyLatencyAroundTheOneTold) {
   CommandedMotion motion(withLatency(0.2));
   motion.observe({}, 0.0);
-  const auto others = motion.otherwise();
+  const auto others = motion.latencyHypotheses();
   ASSERT_EQ(others.size(), 2u);
   EXPECT_NEAR(others[0].delay, 0.05, 1e-9);
   EXPECT_NEAR(others[1].delay, 0.35, 1e-9);
@@ -110,10 +110,10 @@ TEST(CommandedMotion, LearnsHowLateCommandsAre) {
       Base base{withLatency(latency)};
       CommandedMotion motion(withLatency(0.15));
       driveAbout(base, motion, 150, noise);
-      EXPECT_NEAR(motion.shown().latency(), latency, 0.026) << noise;
-      EXPECT_LE(motion.shown().earliest(), latency + 1e-9) << noise;
-      EXPECT_GE(motion.shown().latest(), latency - 1e-9) << noise;
-      EXPECT_TRUE(motion.shown().knowsLatency()) << noise << " " << latency;
+      EXPECT_NEAR(motion.actuation().latency(), latency, 0.026) << noise;
+      EXPECT_LE(motion.actuation().earliest(), latency + 1e-9) << noise;
+      EXPECT_GE(motion.actuation().latest(), latency - 1e-9) << noise;
+      EXPECT_TRUE(motion.actuation().knowsLatency()) << noise << " " << latency;
       EXPECT_NEAR(motion.latency(), std::max(latency, 0.15), 0.026);
     }
   }
@@ -124,7 +124,7 @@ TEST(CommandedMotion, OfARobotAsToldHasNothingElseToReckonWith) {
     Base base{withLatency(latency)};
     CommandedMotion motion(base.robot);
     driveAbout(base, motion, 60);
-    EXPECT_TRUE(motion.otherwise().empty()) << latency;
+    EXPECT_TRUE(motion.latencyHypotheses().empty()) << latency;
     EXPECT_EQ(motion.believed().max_linear_acceleration, base.robot.max_linear_acceleration);
   }
 }
@@ -133,12 +133,12 @@ TEST(CommandedMotion, LearnsHowHardTheRobotBrakes) {
   for (const double share : {1.0, 0.7, 0.5, 0.3}) {
     Base base{withLatency(0.15)};
     CommandedMotion motion(base.robot);
-    EXPECT_EQ(motion.shown().reliableBrakes().linear, 0.5);
+    EXPECT_EQ(motion.actuation().reliableBrakes().linear, 0.5);
     base.robot.max_linear_acceleration = share;
     driveAbout(base, motion, 150);
-    EXPECT_NEAR(motion.shown().brakes().linear, share, 0.01);
-    EXPECT_NEAR(motion.shown().reliableBrakes().linear, std::min(share, 0.5), 0.01);
-    EXPECT_NEAR(motion.shown().latency(), 0.15, 0.026);
+    EXPECT_NEAR(motion.actuation().brakes().linear, share, 0.01);
+    EXPECT_NEAR(motion.actuation().reliableBrakes().linear, std::min(share, 0.5), 0.01);
+    EXPECT_NEAR(motion.actuation().latency(), 0.15, 0.026);
   }
 }
 
@@ -150,7 +150,7 @@ TEST(CommandedMotion, LearnsNothingWhereTheBaseDoesNotRespond) {
     motion.note({i / 20 % 2 ? 0.3 : 0.0, i / 10 % 2 ? 0.8 : 0.0});
   }
   EXPECT_NEAR(motion.latency(), 0.15, 1e-9);
-  EXPECT_EQ(motion.shown().brakes().linear, 1.0);
+  EXPECT_EQ(motion.actuation().brakes().linear, 1.0);
 }
 
 TEST(CommandedMotion, BearsTimesAndVelocitiesThatCannotBe) {
@@ -161,7 +161,7 @@ TEST(CommandedMotion, BearsTimesAndVelocitiesThatCannotBe) {
     motion.note({0.3, i % 4 ? 0.1 : nan});
   }
   EXPECT_TRUE(std::isfinite(motion.latency()));
-  EXPECT_GT(motion.shown().reliableBrakes().linear, 0.0);
+  EXPECT_GT(motion.actuation().reliableBrakes().linear, 0.0);
 }
 
 TEST(CommandedMotion, PassesOverWhatNoSuchRobotCanDo) {

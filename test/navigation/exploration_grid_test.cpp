@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "cca_mrpt/navigation/place/exploration_grid.hpp"
+#include "cca_mrpt/navigation/world/exploration_grid.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <limits>
 #include <random>
 
-#include "cca_mrpt/navigation/place/frontier.hpp"
+#include "cca_mrpt/navigation/world/frontier.hpp"
 
 namespace cca {
 namespace {

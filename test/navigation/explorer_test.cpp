@@ -155,7 +155,8 @@ TEST(Explorer, DrivesWithLasersThatLookAwayFromWhereItStands) {
   };
   Action action;
   for (int i = 0; i < 4000 && action.status != ExplorationStatus::kFinished; ++i) {
-    driver.explorer.observe(look(-0.15, M_PI), driver.T_map_robot);
+    const Scan behind = look(-0.15, M_PI);
+    driver.explorer.observe(behind, driver.T_map_robot, rangeNoise(behind).range_sigma);
     action =
         driver.explorer.step({look(0.15, 0.0), driver.T_map_robot, driver.velocity, driver.time});
     driver.move(action.velocity);
@@ -199,7 +200,7 @@ struct StrayingDriver {
     T_map_true = T_map_true * Pose2{stray, 0.5 * stray, 0.2 * stray};
     scan.T_map_sensor = T_map_true * T_map_robot;
     const Action action = explorer.step({scan, scan.T_map_sensor, velocity, time});
-    past.add({scan, {}, {}}, scan.T_map_sensor);
+    past.add({scan, rangeNoise(scan), {}}, scan.T_map_sensor);
     truth.push_back(T_map_robot);
     velocity = action.velocity;
     constexpr double kPeriod = 0.1;
@@ -281,7 +282,7 @@ TEST(Explorer, BelievesInAnotherLatencyWhereItIsTold) {
   RobotParameters late;
   late.latency = 0.3;
   driver.explorer.changeMotion(late);
-  EXPECT_NEAR(driver.explorer.shownMotion().latency(), 0.3, 1e-9);
+  EXPECT_NEAR(driver.explorer.actuation().latency(), 0.3, 1e-9);
 }
 
 // Something holds a robot with a narrow laser: half a minute, and it goes on without.
@@ -467,11 +468,11 @@ TEST(Explorer, TellsWhereMuchInViewWasNotReached) {
   const KnownWorld narrow = slits(windows);
   for (const KnownWorld* world : {&windows, &narrow, &kRooms}) {
     Driver driver({}, *world);
-    EXPECT_FALSE(driver.explorer.leavesMuch()) << "before it has finished";
+    EXPECT_FALSE(driver.explorer.isIncomplete()) << "before it has finished";
     while (driver.time < 600.0 && driver.step().status != ExplorationStatus::kFinished) {
     }
     EXPECT_LT(driver.time, 600.0);
-    EXPECT_EQ(driver.explorer.leavesMuch(), world == &windows);
+    EXPECT_EQ(driver.explorer.isIncomplete(), world == &windows);
     const Plan& plan = driver.explorer.planner().plan();
     if (world == &kRooms) {
       EXPECT_LT(plan.unreachedArea(), 0.5);
@@ -521,7 +522,7 @@ struct OtherNavigation {
   bool is_localised = true;
 
   explicit OtherNavigation(const ExplorerParameters& parameters = {}) : explorer({}, parameters) {
-    explorer.leaveDriving();
+    explorer.delegateDriving();
   }
 
   /// Half a metre a step, on ways that are known, and turned to the goal's heading at its end.
@@ -536,7 +537,7 @@ struct OtherNavigation {
     if (!action.goal) return action;
     const Answer does = answer(*action.goal);
     GlobalPlanner planner = explorer.planner();
-    const auto path = planner.pathTo(T_map_robot.position(), *action.goal);
+    const auto path = planner.pathTo(explorer.world(), T_map_robot.position(), *action.goal);
     const Eigen::Vector2d next = path.size() > 2 ? path[1] : *action.goal;
     const Eigen::Vector2d way = next - T_map_robot.position();
     if (does == Answer::kFails) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "cca_mrpt/navigation/place/grid_paths.hpp"
+#include "cca_mrpt/navigation/world/grid_paths.hpp"
 
 #include <gtest/gtest.h>
 

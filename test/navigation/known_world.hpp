@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "cca_mrpt/geometry/cell.hpp"
-#include "cca_mrpt/navigation/place/exploration_grid.hpp"
-#include "cca_mrpt/navigation/place/known_place.hpp"
+#include "cca_mrpt/navigation/planning/planning_scene.hpp"
+#include "cca_mrpt/navigation/world/exploration_grid.hpp"
 #include "cca_mrpt/sensing/scan.hpp"
 
 namespace cca {
@@ -87,10 +87,21 @@ inline KnownWorld randomWorld(unsigned seed, int side, double share) {
   return world;
 }
 
-/// A corridor of 20 m that a place has seen, in squares of 20 cm, but not what is in the slots of
+/// A world model, with what a planner keeps beside it.
+struct KnownScene {
+  WorldModel world;
+  GoalBlacklist blacklist;
+  DistanceField distances;
+  PlanningScene scene{world, blacklist, distances};
+
+  explicit KnownScene(double clearance = 0.27) : world(clearance) {}
+  KnownScene(const KnownScene&) = delete;
+};
+
+/// A corridor of 20 m of which much is known, in squares of 20 cm; not what is in the slots of
 /// its upper wall.
 /// @param slots  the first of two squares of each.
-inline KnownWorld showCorridor(KnownPlace& place, const std::vector<std::size_t>& slots) {
+inline KnownWorld showCorridor(WorldModel& world, const std::vector<std::size_t>& slots) {
   std::string wall(100, '#');
   for (const std::size_t slot : slots) wall.replace(slot, 2, "..");
   std::vector<std::string> rows(8, '#' + std::string(98, '.') + '#');
@@ -100,8 +111,8 @@ inline KnownWorld showCorridor(KnownPlace& place, const std::vector<std::size_t>
   std::vector<Cell> known = corridor.freeCells();
   known.erase(std::remove_if(known.begin(), known.end(), [](Cell c) { return c.y >= 36; }),
               known.end());
-  place.seed(corridor.walls(), CellState::kOccupied);
-  place.seed(known, CellState::kFree);
+  world.seed(corridor.walls(), CellState::kOccupied);
+  world.seed(known, CellState::kFree);
   return corridor;
 }
 

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "cca_mrpt/navigation/drive/tangent_bug/tangent_bug.hpp"
+#include "cca_mrpt/navigation/control/tangent_bug/tangent_bug.hpp"
 
 #include <gtest/gtest.h>
 
+#include "cca_mrpt/sensing/range_noise.hpp"
 #include "tangent_run.hpp"
 #include "traps.hpp"
 
@@ -237,10 +238,9 @@ TEST(TangentBug, IsNotHeldByWhatItKnowsTooNear) {
     Velocity velocity;
     const Eigen::Vector2d known(0.24 * std::cos(bearing), 0.24 * std::sin(bearing));
     for (int i = 0; i < 200 && bug.state() != TangentBugState::kReached; ++i) {
-      bug.setKnownObstacles({known});
       const Scan scan = BoxWorld{}.scan(pose, 8.0, 121, 2.0 / 3.0 * M_PI);
-      drive(bug.step(scan, pose, velocity, kPeriod * i), RobotParameters{}, kPeriod, pose,
-            velocity);
+      const TangentBug::Surroundings around{scan, pose, kFinestSigma, {known}};
+      drive(bug.step(around, velocity, kPeriod * i), RobotParameters{}, kPeriod, pose, velocity);
       EXPECT_GE((pose.position() - known).norm(), 0.24 - 1e-3);
     }
     EXPECT_EQ(bug.state(), TangentBugState::kReached) << bearing;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "cca_mrpt/navigation/drive/tangent_bug/tangent_graph.hpp"
+#include "cca_mrpt/navigation/control/tangent_bug/tangent_graph.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "cca_mrpt/navigation/goals/view_points.hpp"
+#include "cca_mrpt/navigation/planning/view_points.hpp"
 
 #include <gtest/gtest.h>
 
@@ -30,9 +30,9 @@ ExplorationGrid room(bool has_gap) {
 }
 
 CellSet theGap() {
-  CellSet openings;
-  openings.insert(kGap);
-  return openings;
+  CellSet frontier_cells;
+  frontier_cells.insert(kGap);
+  return frontier_cells;
 }
 
 double gainFrom(const ExplorationGrid& grid, Cell from) {
@@ -77,24 +77,24 @@ TEST(ViewFrom, ExpectsLittleMoreOfALongWedgeThanOfItsFirstMetres) {
 TEST(ViewFrom, PromisesTheFaceOfAWallThatWasNotSeenUntilItIs) {
   KnownWorld world{std::vector<std::string>(40, "#" + std::string(58, '.') + "#")};
   world.rows.front() = world.rows.back() = std::string(60, '#');
-  KnownPlace place(0.27);
-  place.seed(world.walls(), CellState::kOccupied);
+  KnownScene place;
+  place.world.seed(world.walls(), CellState::kOccupied);
   for (std::string& row : world.rows) row[30] = '#';
-  place.seed(world.freeCells(), CellState::kFree);
-  place.observe(world.scanFrom({0.76, 1.01, 0.3}, 4.0), {0.76, 1.01});
+  place.world.seed(world.freeCells(), CellState::kFree);
+  place.world.observe(world.scanFrom({0.76, 1.01, 0.3}, 4.0), {0.76, 1.01});
   const auto promiseFrom = [&](Cell from) {
-    return viewFrom(place.grid(), from, 4.0, place.openings(5));
+    return viewFrom(place.world.grid(), from, 4.0, place.world.usefulFrontierCells(5));
   };
   const Cell near{15, 20}, beyond{45, 20};
   EXPECT_EQ(promiseFrom(near).gain, 0.0) << "the wall's own side was seen";
   const ViewPoint view = promiseFrom(beyond);
   EXPECT_NEAR(view.gain, 0.3, 0.1);  // a fifth of a square metre for a metre across the view
   EXPECT_NEAR(view.expected, 0.1 * 1.5, 0.05);
-  EXPECT_TRUE(place.isUnseen(view.target));
+  EXPECT_TRUE(place.world.isUnseen(view.target));
   EXPECT_EQ(view.target.x, 31);
-  place.observe(world.scanFrom({2.26, 1.01, 0.3}, 4.0), {2.26, 1.01});
+  place.world.observe(world.scanFrom({2.26, 1.01, 0.3}, 4.0), {2.26, 1.01});
   EXPECT_EQ(promiseFrom(beyond).gain, 0.0);
-  EXPECT_FALSE(place.isUnseen(view.target));
+  EXPECT_FALSE(place.world.isUnseen(view.target));
 }
 
 TEST(ScoreOf, OrdersPlacesAsEachStrategySaysItDoes) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "cca_mrpt/navigation/goals/view_search.hpp"
+#include "cca_mrpt/navigation/planning/view_search.hpp"
 
 #include <gtest/gtest.h>
 
@@ -22,20 +22,20 @@ const Eigen::Vector2d kBeforeTheGap{2.6, 1.8};
 constexpr double kPriceless = 1e3;  // m/m^2: worth any way
 
 /// Calls until all places have been asked.
-std::optional<ViewPoint> nextOf(ViewSearch& view_search, KnownPlace& place, Strategy strategy,
+std::optional<ViewPoint> nextOf(ViewSearch& view_search, KnownScene& place, Strategy strategy,
                                 const ViewSearch::Filter& filter) {
-  auto view = view_search.next(place, strategy, filter);
-  while (!view && view_search.isUnderWay()) view = view_search.next(place, strategy, filter);
+  auto view = view_search.next(place.scene, strategy, filter);
+  while (!view && view_search.isUnderWay()) view = view_search.next(place.scene, strategy, filter);
   return view;
 }
 
 struct Look {
-  KnownPlace place{0.27};
+  KnownScene place;
   ViewSearch view_search{0.1, 5, kPriceless};
 
   explicit Look(const Eigen::Vector2d& robot = kBeforeTheGap) {
-    place.observe(kRoomBehindAGap.scanFrom({robot.x(), robot.y(), 0.0}), robot);
-    place.findWays(robot);
+    place.world.observe(kRoomBehindAGap.scanFrom({robot.x(), robot.y(), 0.0}), robot);
+    place.scene.findPaths(robot);
   }
   std::optional<ViewPoint> next(Strategy strategy, const ViewSearch::Filter& filter = takesAll) {
     return nextOf(view_search, place, strategy, filter);
@@ -43,7 +43,9 @@ struct Look {
   static bool takesAll(const ViewPoint&) { return true; }
   /// m^2 that a place promises behind frontiers of five cells and more.
   double gainFrom(Cell from) {
-    return viewFrom(place.grid(), from, place.laserRange(), place.openings(5)).gain;
+    return viewFrom(place.world.grid(), from, place.world.laserRange(),
+                    place.world.usefulFrontierCells(5))
+        .gain;
   }
 };
 
@@ -51,18 +53,18 @@ TEST(ViewSearch, FindsReachedPlacesThatSeeMoreThroughAGap) {
   Look look;
   const auto view = look.next(Strategy::kGreedy);
   ASSERT_TRUE(view);
-  EXPECT_TRUE(look.place.ways().isReached(view->cell));
-  EXPECT_EQ(look.place.grid().at(view->target), CellState::kUnknown);
-  EXPECT_GT(look.place.grid().centreOf(view->target).x(), 3.4) << "behind the gap";
+  EXPECT_TRUE(look.place.scene.distances().isReached(view->cell));
+  EXPECT_EQ(look.place.world.grid().at(view->target), CellState::kUnknown);
+  EXPECT_GT(look.place.world.grid().centreOf(view->target).x(), 3.4) << "behind the gap";
   // What was promised is seen from there.
   EXPECT_NEAR(look.gainFrom(view->cell), view->gain, 1e-9);
-  const Eigen::Vector2d there = look.place.grid().centreOf(view->cell);
-  const std::size_t before = look.place.grid().revealed();
-  look.place.observe(kRoomBehindAGap.scanFrom({there.x(), there.y(), 0.0}), there);
+  const Eigen::Vector2d there = look.place.world.grid().centreOf(view->cell);
+  const std::size_t before = look.place.world.grid().revealed();
+  look.place.world.observe(kRoomBehindAGap.scanFrom({there.x(), there.y(), 0.0}), there);
   // Beside each of the two posts of the gap a ray may go between two beams of the scan.
-  const double one_ray = M_PI / 360.0 * std::pow(look.place.laserRange(), 2);
+  const double one_ray = M_PI / 360.0 * std::pow(look.place.world.laserRange(), 2);
   EXPECT_LT(look.gainFrom(view->cell), 2.0 * one_ray);
-  EXPECT_GT(look.place.grid().revealed(), before + 200);
+  EXPECT_GT(look.place.world.grid().revealed(), before + 200);
 }
 
 // A drive from place to place ends, and then no place sees more than was asked for.
@@ -71,16 +73,16 @@ TEST(ViewSearch, EndsWhenNoPlaceSeesMore) {
   int looks = 0;
   for (; const auto view = look.next(Strategy::kNearestFrontier); ++looks) {
     ASSERT_LT(looks, 50);
-    const Eigen::Vector2d there = look.place.grid().centreOf(view->cell);
-    look.place.observe(kRoomBehindAGap.scanFrom({there.x(), there.y(), 0.0}), there);
-    look.place.findWays(there);
+    const Eigen::Vector2d there = look.place.world.grid().centreOf(view->cell);
+    look.place.world.observe(kRoomBehindAGap.scanFrom({there.x(), there.y(), 0.0}), there);
+    look.place.scene.findPaths(there);
   }
   EXPECT_GT(looks, 1) << "a single place does not see it all";
   for (const Cell c : kRoomBehindAGap.freeCells()) {
     const Cell block = FreeSpace::blockOf(c);
     const bool is_first = c.x % FreeSpace::kBlock == 0 && c.y % FreeSpace::kBlock == 0;
-    if (!is_first || look.place.space().traversableCells(block) != 0xFFFF) continue;
-    if (!look.place.ways().isReached(c) || look.place.scanned().contains(c)) continue;
+    if (!is_first || look.place.world.space().traversableCells(block) != 0xFFFF) continue;
+    if (!look.place.scene.distances().isReached(c) || look.place.scene.isExhausted(c)) continue;
     EXPECT_LT(look.gainFrom(c), 0.1) << c.x << ", " << c.y;
   }
 }
@@ -88,27 +90,27 @@ TEST(ViewSearch, EndsWhenNoPlaceSeesMore) {
 TEST(ViewSearch, LeavesOutWhatTheFilterRefuses) {
   Look look;
   const auto refuses_above = [&](const ViewPoint& view) {
-    return look.place.grid().centreOf(view.cell).y() < 1.8;
+    return look.place.world.grid().centreOf(view.cell).y() < 1.8;
   };
   for (int k = 0; k < 20; ++k) {
     const auto view = look.next(Strategy::kGreedy, refuses_above);
     ASSERT_TRUE(view);
-    EXPECT_LT(look.place.grid().centreOf(view->cell).y(), 1.8);
+    EXPECT_LT(look.place.world.grid().centreOf(view->cell).y(), 1.8);
   }
   EXPECT_FALSE(look.next(Strategy::kGreedy, [](const ViewPoint&) { return false; }));
 }
 
 // What is behind a wall that lacks a few cells would be a promise that is never kept.
 TEST(ViewSearch, ExpectsNothingBehindASmallFrontier) {
-  KnownPlace place(0.27);
+  KnownScene place;
   std::vector<Cell> walls = kRoomBehindAGap.walls(), room;
   for (const Cell c : kRoomBehindAGap.freeCells()) {
     if (c.x < 64) room.push_back(c);
   }
   for (int y = 32; y < 37; ++y) walls.push_back({64, y});  // three cells of the gap are left
-  place.seed(walls, CellState::kOccupied);
-  place.seed(room, CellState::kFree);
-  place.findWays(kBeforeTheGap);
+  place.world.seed(walls, CellState::kOccupied);
+  place.world.seed(room, CellState::kFree);
+  place.scene.findPaths(kBeforeTheGap);
   for (const std::size_t smallest : {std::size_t{3}, std::size_t{5}}) {
     ViewSearch view_search(0.1, smallest, kPriceless);
     const auto view = nextOf(view_search, place, Strategy::kGreedy, Look::takesAll);
@@ -117,35 +119,37 @@ TEST(ViewSearch, ExpectsNothingBehindASmallFrontier) {
 }
 
 struct Corridor {
-  KnownPlace place{0.27};
+  KnownScene place;
   ViewSearch view_search{0.1, 5, kPriceless};
   std::vector<std::size_t> slots;
 
   Corridor() {
     for (std::size_t x = 5; x < 100; x += 6) slots.push_back(x);
-    showCorridor(place, slots);
-    place.findWays({10.0, 1.0});
+    showCorridor(place.world, slots);
+    place.scene.findPaths({10.0, 1.0});
   }
-  std::vector<ViewPoint> stops(const ViewSearch::Filter& filter) {
+  std::vector<ViewPoint> viewpoints(const ViewSearch::Filter& filter) {
     nextOf(view_search, place, Strategy::kGreedy, filter);
-    view_search.next(place, Strategy::kViewTour, filter);
-    return view_search.stops(place, filter);
+    view_search.next(place.scene, Strategy::kViewTour, filter);
+    return view_search.viewpoints(place.scene, filter);
   }
 };
 
 TEST(ViewSearch, StopsAreFewAndNoneSeesWhatAnotherIsThereToSee) {
   Corridor corridor;
   ASSERT_GT(corridor.slots.size(), 12u);
-  const auto stops = corridor.stops(Look::takesAll);
+  const auto stops = corridor.viewpoints(Look::takesAll);
   EXPECT_GT(stops.size(), 3u);
   EXPECT_LE(stops.size(), 12u);
-  const KnownPlace& place = corridor.place;
+  const KnownScene& place = corridor.place;
   for (std::size_t a = 0; a < stops.size(); ++a) {
     EXPECT_GT(stops[a].expected, 0.0);
-    EXPECT_DOUBLE_EQ(stops[a].distance, place.ways().distanceTo(stops[a].cell));
+    EXPECT_DOUBLE_EQ(stops[a].distance, place.scene.distances().distanceTo(stops[a].cell));
     for (std::size_t b = a + 1; b < stops.size(); ++b) {
-      EXPECT_FALSE(isInView(place.grid(), stops[a].cell, stops[b].edge, place.laserRange()));
-      EXPECT_FALSE(isInView(place.grid(), stops[a].cell, stops[b].target, place.laserRange()));
+      EXPECT_FALSE(
+          isInView(place.world.grid(), stops[a].cell, stops[b].edge, place.world.laserRange()));
+      EXPECT_FALSE(
+          isInView(place.world.grid(), stops[a].cell, stops[b].target, place.world.laserRange()));
     }
   }
 }
@@ -158,14 +162,14 @@ TEST(ViewSearch, PlacesThatLookThroughOneOpeningAreHardlyMoreThanOneStop) {
   rows.push_back(wall);
   const KnownWorld corridor{rows, 8};
   const Eigen::Vector2d robot{2.0, 1.4};
-  KnownPlace place{0.27};
-  place.observe(corridor.scanFrom({robot.x(), robot.y(), 0.0}), robot);
-  place.findWays(robot);
+  KnownScene place;
+  place.world.observe(corridor.scanFrom({robot.x(), robot.y(), 0.0}), robot);
+  place.scene.findPaths(robot);
   ViewSearch view_search{0.1, 5, kPriceless};
   nextOf(view_search, place, Strategy::kGreedy, Look::takesAll);
-  view_search.next(place, Strategy::kViewTour, Look::takesAll);
+  view_search.next(place.scene, Strategy::kViewTour, Look::takesAll);
   ASSERT_GT(view_search.left().size(), 12u);
-  const std::size_t stops = view_search.stops(place, Look::takesAll).size();
+  const std::size_t stops = view_search.viewpoints(place.scene, Look::takesAll).size();
   EXPECT_GT(stops, 0u);
   EXPECT_LT(stops, 4u);
 }
@@ -173,7 +177,7 @@ TEST(ViewSearch, PlacesThatLookThroughOneOpeningAreHardlyMoreThanOneStop) {
 TEST(ViewSearch, StopsAreOpenAndStillPromiseWhatTheySay) {
   Corridor corridor;
   const auto is_right = [](const ViewPoint& view) { return view.cell.x > 200; };
-  const auto before = corridor.stops(is_right);
+  const auto before = corridor.viewpoints(is_right);
   ASSERT_FALSE(before.empty());
   for (const ViewPoint& stop : before) EXPECT_TRUE(is_right(stop));
   // What has been seen since promises nothing.
@@ -181,42 +185,43 @@ TEST(ViewSearch, StopsAreOpenAndStillPromiseWhatTheySay) {
   for (int x = 200; x < 400; ++x) {
     for (int y = 36; y < 40; ++y) seen.push_back({x, y});
   }
-  corridor.place.seed(seen, CellState::kOccupied);
-  corridor.place.findWays({10.0, 1.0});
-  corridor.view_search.next(corridor.place, Strategy::kViewTour, Look::takesAll);
-  for (const ViewPoint& stop : corridor.view_search.stops(corridor.place, is_right))
+  corridor.place.world.seed(seen, CellState::kOccupied);
+  corridor.place.scene.findPaths({10.0, 1.0});
+  corridor.view_search.next(corridor.place.scene, Strategy::kViewTour, Look::takesAll);
+  for (const ViewPoint& stop : corridor.view_search.viewpoints(corridor.place.scene, is_right))
     EXPECT_LT(stop.target.x, 200 + 8);
 }
 
 TEST(ViewSearch, WhatIsSeenInPassingLiesOnTheWayAndIsNotSeenFromItsEnd) {
   Corridor corridor;
-  const KnownPlace& place = corridor.place;
+  const KnownScene& place = corridor.place;
   const double robot_x = 10.0;
   int found = 0;
-  for (const ViewPoint& goal : corridor.stops(Look::takesAll)) {
-    const auto passed = corridor.view_search.inPassing(place, Look::takesAll, goal);
+  for (const ViewPoint& goal : corridor.viewpoints(Look::takesAll)) {
+    const auto passed = corridor.view_search.onTheWay(place.scene, Look::takesAll, goal);
     if (!passed) continue;
     ++found;
-    const double line = distanceBetween(passed->cell, goal.cell) * place.grid().resolution();
+    const double line = distanceBetween(passed->cell, goal.cell) * place.world.grid().resolution();
     EXPECT_LT(passed->distance, goal.distance);
     EXPECT_LE(passed->distance + line, goal.distance + 1.0);
-    EXPECT_FALSE(isInView(place.grid(), goal.cell, passed->target, place.laserRange()));
-    const double x = place.grid().centreOf(passed->cell).x();
-    EXPECT_EQ(x > robot_x, place.grid().centreOf(goal.cell).x() > robot_x);
-    EXPECT_FALSE(corridor.view_search.inPassing(
-        place, [](const ViewPoint&) { return false; }, goal));
+    EXPECT_FALSE(isInView(place.world.grid(), goal.cell, passed->target, place.world.laserRange()));
+    const double x = place.world.grid().centreOf(passed->cell).x();
+    EXPECT_EQ(x > robot_x, place.world.grid().centreOf(goal.cell).x() > robot_x);
+    EXPECT_FALSE(corridor.view_search.onTheWay(
+        place.scene, [](const ViewPoint&) { return false; }, goal));
   }
   EXPECT_GT(found, 1);
 }
 
 TEST(ViewSearch, GoesThroughALargePlaceAFewAtATime) {
   const KnownWorld hall{std::vector<std::string>(30, std::string(30, '.')), 10};
-  KnownPlace place(0.27);
-  place.seed(hall.freeCells(), CellState::kFree);  // nothing is known of what is around it
-  place.findWays({7.5, 7.5});
+  KnownScene place;
+  place.world.seed(hall.freeCells(), CellState::kFree);  // nothing is known of what is around it
+  place.scene.findPaths({7.5, 7.5});
   ViewSearch view_search(0.1, 5, kPriceless);
   int calls = 0;
-  while (!view_search.next(place, Strategy::kGreedy, Look::takesAll) && view_search.isUnderWay())
+  while (!view_search.next(place.scene, Strategy::kGreedy, Look::takesAll) &&
+         view_search.isUnderWay())
     ++calls;
   EXPECT_GT(calls, 5) << "of 1400 places";
   EXPECT_LT(calls, 50);
@@ -232,18 +237,18 @@ TEST(ViewSearch, AsksThoseFartherOffWhenTheBestProvesWorse) {
     }
     return cells;
   };
-  KnownPlace place(0.27);
-  place.seed(block(0, 20, 0, 20), CellState::kFree);
-  place.findWays({0.5, 0.5});
+  KnownScene place;
+  place.world.seed(block(0, 20, 0, 20), CellState::kFree);
+  place.scene.findPaths({0.5, 0.5});
   ViewSearch view_search(0.1, 5, kPriceless);
   ASSERT_FALSE(
       nextOf(view_search, place, Strategy::kViewTour, [](const ViewPoint&) { return false; }));
   ASSERT_FALSE(view_search.left().empty());
   // Presumed only, so nothing is seen: walls around it, and a corridor whose far end is open.
-  for (const int y : {-1, 20}) place.seed(block(-1, 250, y, y + 1), CellState::kPresumedWall);
-  place.seed(block(-1, 0, 0, 20), CellState::kPresumedWall);
-  place.seed(block(20, 300, 0, 20), CellState::kPresumedFree);
-  place.findWays({0.5, 0.5});
+  for (const int y : {-1, 20}) place.world.seed(block(-1, 250, y, y + 1), CellState::kPresumedWall);
+  place.world.seed(block(-1, 0, 0, 20), CellState::kPresumedWall);
+  place.world.seed(block(20, 300, 0, 20), CellState::kPresumedFree);
+  place.scene.findPaths({0.5, 0.5});
   const auto view = nextOf(view_search, place, Strategy::kViewTour,
                            [](const ViewPoint& v) { return v.gain >= 1.0 || v.cell.x >= 260; });
   ASSERT_TRUE(view);
@@ -261,41 +266,14 @@ TEST(ViewSearch, LeavesWhatIsNotWorthItsWay) {
 
 TEST(ViewSearch, FindsNothingBeforeItBeginsOrWhereAllIsKnown) {
   ViewSearch view_search(0.1, 5, kPriceless);
-  KnownPlace nowhere(0.27);
-  EXPECT_FALSE(view_search.next(nowhere, Strategy::kGreedy, Look::takesAll));
-  EXPECT_FALSE(view_search.next(nowhere, Strategy::kGreedy, Look::takesAll));
+  KnownScene nowhere;
+  EXPECT_FALSE(view_search.next(nowhere.scene, Strategy::kGreedy, Look::takesAll));
+  EXPECT_FALSE(view_search.next(nowhere.scene, Strategy::kGreedy, Look::takesAll));
   EXPECT_FALSE(view_search.isUnderWay());
   Look look;
-  look.place.seed(kRoomBehindAGap.walls(), CellState::kOccupied);
-  look.place.seed(kRoomBehindAGap.freeCells(), CellState::kFree);
+  look.place.world.seed(kRoomBehindAGap.walls(), CellState::kOccupied);
+  look.place.world.seed(kRoomBehindAGap.freeCells(), CellState::kFree);
   EXPECT_FALSE(look.next(Strategy::kGreedy));
-}
-
-TEST(UnpaidWay, GrowsWhereNothingNewIsSeenAndIsPaidByWhatIs) {
-  UnpaidWay unpaid(80.0);
-  unpaid.note({0, 0}, 20.0);
-  EXPECT_EQ(unpaid.metres(), 0.0);
-  unpaid.note({30, 0}, 20.0);
-  unpaid.note({30, 40}, 20.0);
-  EXPECT_DOUBLE_EQ(unpaid.metres(), 70.0);
-  unpaid.note({30, 40}, 20.5);
-  EXPECT_DOUBLE_EQ(unpaid.metres(), 30.0);
-}
-
-TEST(UnpaidWay, IsNotPaidInAdvance) {
-  UnpaidWay unpaid(80.0);
-  unpaid.note({0, 0}, 0.0);
-  unpaid.note({1, 0}, 500.0);
-  unpaid.note({11, 0}, 500.0);
-  EXPECT_DOUBLE_EQ(unpaid.metres(), 10.0);
-}
-
-TEST(UnpaidWay, TakesAPlaceThatWasMadeAnewForNothingNew) {
-  UnpaidWay unpaid(80.0);
-  unpaid.note({0, 0}, 50.0);
-  unpaid.note({5, 0}, 49.0);
-  unpaid.note({9, 0}, 49.0);
-  EXPECT_DOUBLE_EQ(unpaid.metres(), 9.0);
 }
 
 }  // namespace

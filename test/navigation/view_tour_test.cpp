@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "cca_mrpt/navigation/goals/view_tour.hpp"
+#include "cca_mrpt/navigation/planning/view_tour.hpp"
 
 #include <gtest/gtest.h>
 
@@ -83,7 +83,7 @@ constexpr Cell kRobot{205, 60};  // in the middle of the corridor
 
 /// Squares of half a metre: rooms along both sides of a corridor of 19 m.
 struct Rooms {
-  KnownPlace place{0.27};
+  KnownScene place;
   Rooms() {
     const KnownWorld rooms{
         {"#########################################", "#......#......#......#......#......#....#",
@@ -93,16 +93,16 @@ struct Rooms {
          "#......#......#......#......#......#....#", "#......#......#......#......#......#....#",
          "#......#......#......#......#......#....#", "#########################################"},
         10};
-    place.seed(rooms.walls(), CellState::kOccupied);
-    place.seed(rooms.freeCells(), CellState::kFree);
-    place.findWays(place.grid().centreOf(kRobot));
+    place.world.seed(rooms.walls(), CellState::kOccupied);
+    place.world.seed(rooms.freeCells(), CellState::kFree);
+    place.scene.findPaths(place.world.grid().centreOf(kRobot));
   }
   ViewPoint at(Cell cell, double expected) const {
-    return {cell, cell, cell, place.ways().distanceTo(cell), expected, expected};
+    return {cell, cell, cell, place.scene.distances().distanceTo(cell), expected, expected};
   }
 };
 
-TEST(FirstOfTour, IsNoneOfNone) { EXPECT_FALSE(firstOfTour(Rooms{}.place, {}, {})); }
+TEST(FirstOfTour, IsNoneOfNone) { EXPECT_FALSE(firstOfTour(Rooms{}.place.scene, {}, {})); }
 
 // Two stops in rooms at one end of the corridor, one as much and as near towards the other end.
 TEST(FirstOfTour, IsWhereMoreWillBeSeenSoon) {
@@ -111,7 +111,7 @@ TEST(FirstOfTour, IsWhereMoreWillBeSeenSoon) {
   for (const bool has_second : {false, true}) {
     std::vector<ViewPoint> stops{alone, first};
     if (has_second) stops.push_back(rooms.at({305, 60}, 0.5));
-    const auto chosen = firstOfTour(rooms.place, stops, alone.target);
+    const auto chosen = firstOfTour(rooms.place.scene, stops, alone.target);
     ASSERT_TRUE(chosen);
     EXPECT_EQ(stops[chosen->first].cell, has_second ? first.cell : alone.cell);
   }
@@ -120,7 +120,7 @@ TEST(FirstOfTour, IsWhereMoreWillBeSeenSoon) {
 TEST(FirstOfTour, IsTheOneThatMostIsExpectedFromAmongTheNear) {
   const Rooms rooms;
   const std::vector<ViewPoint> stops{rooms.at({125, 60}, 0.2), rooms.at({290, 60}, 0.6)};
-  EXPECT_EQ(firstOfTour(rooms.place, stops, {})->first, 1u);
+  EXPECT_EQ(firstOfTour(rooms.place.scene, stops, {})->first, 1u);
 }
 
 // Two goals as far off as each other: the present one is kept. Not so where the other one is near.
@@ -128,9 +128,9 @@ TEST(FirstOfTour, SeesThePresentGoalWhereAnotherTourIsHardlyCheaper) {
   const Rooms rooms;
   const std::vector<ViewPoint> even{rooms.at({44, 60}, 1.0), rooms.at({366, 60}, 1.0)};
   for (std::size_t present = 0; present < even.size(); ++present)
-    EXPECT_EQ(firstOfTour(rooms.place, even, even[present].target)->first, present);
+    EXPECT_EQ(firstOfTour(rooms.place.scene, even, even[present].target)->first, present);
   const std::vector<ViewPoint> uneven{rooms.at({44, 60}, 1.0), rooms.at({300, 60}, 1.0)};
-  EXPECT_EQ(firstOfTour(rooms.place, uneven, uneven[0].target)->first, 1u);
+  EXPECT_EQ(firstOfTour(rooms.place.scene, uneven, uneven[0].target)->first, 1u);
 }
 
 }  // namespace

@@ -28,12 +28,14 @@ Scan turnInACorridor(int beams, double range_sigma, double bearing_sigma, std::m
   return scan;
 }
 
+void add(SensorNoise& noise, const Scan& scan) { noise.add(scan, rangeNoise(scan).range_sigma); }
+
 TEST(SensorNoise, IsLearnedAlongAndAcrossTheBeams) {
   for (const int beams : {181, 361, 541}) {
     for (const double bearing_sigma : {0.25 * kDeg, 0.5 * kDeg}) {
       std::mt19937 random(1);
       SensorNoise noise;
-      for (int k = 0; k < 50; ++k) noise.add(turnInACorridor(beams, 0.02, bearing_sigma, &random));
+      for (int k = 0; k < 50; ++k) add(noise, turnInACorridor(beams, 0.02, bearing_sigma, &random));
       EXPECT_NEAR(noise.rangeSigma(), 0.02, 0.005) << beams;
       EXPECT_NEAR(noise.bearingSigma() / bearing_sigma, 1.0, 0.3) << beams;
       EXPECT_DOUBLE_EQ(noise.variance(20.0), std::pow(20.0 * noise.bearingSigma(), 2));
@@ -46,7 +48,7 @@ TEST(SensorNoise, TakesRangeNoiseForNoneOfTheBearing) {
   std::mt19937 random(2);
   for (const double range_sigma : {0.0, 0.01, 0.03}) {
     SensorNoise noise;
-    for (int k = 0; k < 50; ++k) noise.add(turnInACorridor(361, range_sigma, 0.0, &random));
+    for (int k = 0; k < 50; ++k) add(noise, turnInACorridor(361, range_sigma, 0.0, &random));
     EXPECT_LT(noise.bearingSigma(), 0.1 * kDeg) << range_sigma;
   }
 }
@@ -59,7 +61,7 @@ TEST(SensorNoise, LearnsNothingOfTheBearingFromClutter) {
     Scan scan;
     scan.angle_increment = 2.0 * kDeg;
     for (int i = 0; i < 180; ++i) scan.ranges.push_back(anywhere(random));
-    noise.add(scan);
+    add(noise, scan);
   }
   EXPECT_EQ(noise.bearingSigma(), 0.0);
 }
@@ -67,11 +69,11 @@ TEST(SensorNoise, LearnsNothingOfTheBearingFromClutter) {
 TEST(SensorNoise, BearsScansOfAnyKind) {
   SensorNoise noise;
   Scan scan;
-  noise.add(scan);
+  add(noise, scan);
   scan.ranges.assign(20, std::numeric_limits<double>::quiet_NaN());
-  noise.add(scan);
+  add(noise, scan);
   scan.ranges = {1, 2, 3, 4, 5, 6, 7, 8};  // without a spacing
-  noise.add(scan);
+  add(noise, scan);
   EXPECT_TRUE(std::isfinite(noise.rangeSigma()));
   EXPECT_EQ(noise.bearingSigma(), 0.0);
 }

@@ -5,6 +5,7 @@
 
 #include "../navigation/known_world.hpp"
 #include "cca_mrpt/localisation/given_poses.hpp"
+#include "cca_mrpt/sensing/range_noise.hpp"
 
 namespace cca {
 namespace {
@@ -33,6 +34,20 @@ TEST(ExplorationSession, MapsAndExploresTillNothingIsLeft) {
   for (const MapLine& line : session.mapping().lineMap().lines()) length += line.segment.length();
   EXPECT_GT(length, 14.0);  // of 16 m around both rooms and 4 m of faces between them
   EXPECT_EQ(session.mapping().agreement().overall(), 1.0);
+}
+
+TEST(ExplorationSession, HandsTheNoiseOfAnAnalysedScanOn) {
+  ExplorationSession session(std::make_unique<GivenPoses>(), {});
+  Measurement measurement;
+  measurement.T_map_robot = Pose2{1.5, 1.7, 0.0};
+  measurement.scan = kTwoRooms.scanFrom(*measurement.T_map_robot, 4.0);
+  for (std::size_t k = 0; k < measurement.scan.size(); ++k) {
+    measurement.scan.ranges[k] += k % 2 ? 0.02 : -0.02;
+  }
+  const Observation seen = session.sense(measurement, {});
+  ASSERT_TRUE(seen.range_sigma);
+  EXPECT_GT(*seen.range_sigma, 0.01);
+  EXPECT_EQ(*seen.range_sigma, rangeNoise(seen.scan).range_sigma);
 }
 
 TEST(ExplorationSession, AScanOfASecondLaserIsMappedAndSeen) {

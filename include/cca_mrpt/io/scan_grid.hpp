@@ -5,7 +5,7 @@
 
 #include <memory>
 
-#include "cca_mrpt/navigation/place/exploration_grid.hpp"
+#include "cca_mrpt/navigation/world/exploration_grid.hpp"
 #include "cca_mrpt/sensing/scan.hpp"
 
 namespace cca {

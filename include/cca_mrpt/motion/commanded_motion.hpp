@@ -46,10 +46,16 @@ Velocity obey(const Velocity& velocity, const Velocity& command, const Velocity&
 /// observation predicts the next one; squared errors, in units of an odometry's, are added up for
 /// the last hundred observations or so. A latency stays possible while its sum is not worse than
 /// the least by more than chance. Where the base does not respond at all nothing is learned.
-class ShownMotion {
+class ActuationModel {
  public:
   /// Until something is shown, the latency is believed to within kUnsure of the robot's.
-  explicit ShownMotion(const RobotParameters& robot);
+  explicit ActuationModel(const RobotParameters& robot);
+
+  /// The parameters that all of this starts from; the only copy below an Explorer.
+  const RobotParameters& robot() const { return robot_; }
+  /// The robot moves by other parameters from now on. What was learned is forgotten where
+  /// accelerations or latency change.
+  void changeMotion(const RobotParameters& robot);
 
   /// @param sent      until now. @param measured  the velocity now.
   /// @param time      s; gaps of more than 0.3 s are passed over.
@@ -96,7 +102,7 @@ class ShownMotion {
 };
 
 /// Where the robot is when a command begins to act.
-struct Onset {
+struct PredictedState {
   Pose2 T_now_then;    ///< by the commands under way
   Velocity velocity;   ///< then
   double delay = 0.0;  ///< s from now
@@ -105,11 +111,11 @@ struct Onset {
 /// Follows the commands that are under way, and learns from what they do how the base obeys.
 class CommandedMotion {
  public:
-  explicit CommandedMotion(const RobotParameters& robot) : robot_(robot), shown_(robot) {}
+  explicit CommandedMotion(const RobotParameters& robot) : actuation_(robot) {}
 
-  /// The robot moves otherwise from now on: what was shown is learned anew where accelerations or
-  /// latency change.
-  void changeMotion(const RobotParameters& robot);
+  const RobotParameters& robot() const { return actuation_.robot(); }
+  /// See ActuationModel::changeMotion().
+  void changeMotion(const RobotParameters& robot) { actuation_.changeMotion(robot); }
 
   /// To be called before the command for this moment is chosen. @param measured  velocity now; what
   /// no robot of these limits can have (half as fast again, or not finite) is passed over.
@@ -120,27 +126,26 @@ class CommandedMotion {
 
   /// The command chosen now acts here: after the robot's latency, or the one it has shown,
   /// whichever is longer.
-  Onset expected() const { return after(latency()); }
+  PredictedState expected() const { return after(latency()); }
   /// The same if it acted as early, and as late, as is still possible; empty where that is known.
-  std::vector<Onset> otherwise() const;
+  std::vector<PredictedState> latencyHypotheses() const;
 
   /// The robot's parameters, with accelerations that it can brake with.
   RobotParameters believed() const;
-  double latency() const { return std::max(robot_.latency, shown_.latency()); }  ///< s
+  double latency() const { return std::max(robot().latency, actuation_.latency()); }  ///< s
   /// Whether that is no more than half a control period.
   bool actsAtOnce() const;
   double time() const { return time_; }  ///< s, of the last observation
   /// s, how long a command stands until the next one: the longest time between two of the last six
   /// observations, 0.1 to 1.
   double period() const;
-  const ShownMotion& shown() const { return shown_; }
+  const ActuationModel& actuation() const { return actuation_; }
 
  private:
-  Onset after(double latency) const;
+  PredictedState after(double latency) const;
 
-  RobotParameters robot_;
   SentCommands sent_;
-  ShownMotion shown_;
+  ActuationModel actuation_;
   Velocity measured_;
   double time_ = -1.0;
   std::deque<double> intervals_;  ///< s, the last ones

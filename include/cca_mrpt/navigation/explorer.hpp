@@ -2,34 +2,20 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include "cca_mrpt/navigation/drive/progress.hpp"
-#include "cca_mrpt/navigation/drive/tangent_bug/tangent_bug.hpp"
-#include "cca_mrpt/navigation/goals/global_planner.hpp"
+#include "cca_mrpt/navigation/control/delegated_driver.hpp"
+#include "cca_mrpt/navigation/control/tangent_bug_driver.hpp"
+#include "cca_mrpt/navigation/observation.hpp"
+#include "cca_mrpt/navigation/planning/global_planner.hpp"
+#include "cca_mrpt/navigation/world/world_model.hpp"
 #include "cca_mrpt/sensing/past_scans.hpp"
-#include "cca_mrpt/sensing/scan.hpp"
 
 namespace cca {
-
-/// What the robot knows at one moment.
-struct Observation {
-  Scan scan;  ///< taken at scan.T_map_sensor
-  Pose2 T_map_robot;
-  Velocity velocity;  ///< as measured
-  double time = 0.0;  ///< s, never falling
-  /// Whether T_map_robot is known. Where it is not, the robot drives on by its wheels and what it
-  /// sees, and nothing is added to the map.
-  bool is_localised = true;
-  /// m, map frame: what other sensors see of what the laser may see, too (other lasers). The robot
-  /// does not drive into it.
-  std::vector<Eigen::Vector2d> seen_elsewhere{};
-  /// m, map frame: what no laser sees (bumpers, cliff sensors). Ways lead around it, too.
-  std::vector<Eigen::Vector2d> hazards{};
-};
 
 enum class ExplorationStatus {
   kExploring,
@@ -50,16 +36,14 @@ struct Action {
   std::optional<Eigen::Vector2d> goal;  ///< m, map frame
   ExplorationStatus status = ExplorationStatus::kExploring;
   std::string reason;  ///< one sentence for people: why it drives there, or why it has finished
-  double goal_heading = 0.0;  ///< rad, map frame: where to look from the goal, see leaveDriving()
+  double goal_heading =
+      0.0;  ///< rad, map frame: where to look from the goal, see delegateDriving()
 };
 
-/// What has become of a goal that somebody else was to drive to.
-enum class DriveOutcome { kReached, kFailed };
-
-/// What drives between the robot and its goal.
+/// What leads Tangent Bug to the goals of the exploration.
 enum class PathKind {
-  kKnownSpace,  ///< the corners of the shortest known way, Tangent Bug between them
-  kPaper,       ///< Tangent Bug alone, straight to the goal
+  kKnownSpace,  ///< the corners of the shortest known path
+  kPaper,       ///< the goal alone: straight to it
 };
 
 /// As options and files name them.
@@ -86,11 +70,12 @@ void describe(ExplorerParameters& p, Field&& field) {
   field("return_to_start", p.return_to_start, "drive back to where it began when all is explored");
 }
 
-/// From what the robot knows at a moment to a velocity: scan -> exploration grid -> goal -> Tangent
-/// Bug -> velocity. It does not map: see ExplorationSession.
+/// From what the robot knows at a moment to a velocity. A step senses, plans and acts: the world
+/// model takes the observation, the planner sets the goal by that model and by what has become of
+/// the last goal, the driver drives. It does not map: see ExplorationSession.
 ///
 /// It ends by itself: each goal has its time, a goal that is not reached in time or proves
-/// unreachable is set aside, and a place of finite size has finitely many goals.
+/// unreachable is blacklisted, and a place of finite size has finitely many goals.
 class Explorer {
  public:
   Explorer(const RobotParameters& robot, const ExplorerParameters& parameters);
@@ -100,20 +85,20 @@ class Explorer {
 
   /// Takes a scan of another laser than the one that the robot drives by: it adds to all that is
   /// known. @param scan  at scan.T_map_sensor. @param T_map_robot  at its time.
-  void observe(const Scan& scan, const Pose2& T_map_robot);
+  /// @param range_sigma  m, of the scan's ranges.
+  void observe(const Scan& scan, const Pose2& T_map_robot, double range_sigma);
 
   /// Takes a correction of the past, of which the next observation knows already. All that is
   /// remembered of places is made anew or moves along; the robot drives on as it did. Cost: that of
   /// the scans.
   void correct(const PastScans& past);
 
-  /// Somebody else drives to the goals of the actions, whose velocities are zero: a navigation that
-  /// knows of footprints that are no discs. Without an outcome, a goal has its time as any other.
-  /// Where the robot's pose is unknown there is no goal. To be called before the first step.
-  void leaveDriving() { leaves_driving_ = true; }
-  /// What has become of the goal of the last action; heeded by the next step. One that failed is
-  /// set aside as one that proved unreachable.
-  void noteOutcome(DriveOutcome outcome) { outcome_ = outcome; }
+  /// Somebody else drives to the goals of the actions, see DelegatedDriver. Where the robot's pose
+  /// is unknown there is no goal. To be called before the first step.
+  void delegateDriving();
+  /// What has become of the goal of the last action, where somebody else drives; the next step
+  /// takes it into account. One that failed is blacklisted as one that proved unreachable.
+  void noteOutcome(DriveOutcome outcome);
 
   /// See GlobalPlanner::explainTo().
   void explainTo(DecisionObserver observer) { planner_.explainTo(std::move(observer)); }
@@ -127,9 +112,10 @@ class Explorer {
   /// Gives up exploring and drives back to where it began.
   void returnToStart() { is_returning_ = true; }
   /// Drives to a place of the map and turns to its heading, before all else and though paused; then
-  /// all is as it was before. A place that for ten seconds no known way has led to (the robot
+  /// all is as it was before. A place that for ten seconds no known path has led to (the robot
   /// stands there no nearer than kBesideGoal), or where the robot has got no farther twice, is
-  /// given up. The place moves along where the past is corrected. Not together with leaveDriving().
+  /// given up. The place moves along where the past is corrected. Not together with
+  /// delegateDriving().
   void sendTo(const Pose2& T_map_goal);
   /// Not any more.
   void recall() { errand_.reset(); }
@@ -141,50 +127,47 @@ class Explorer {
   void limitTo(std::vector<Eigen::Vector2d> polygon) { planner_.limitTo(std::move(polygon)); }
 
   /// What the odometry has shown of how the base obeys.
-  const ShownMotion& shownMotion() const { return tangent_bug_.motion().shown(); }
-  const ExplorationGrid& grid() const { return planner_.place().grid(); }
+  const ActuationModel& actuation() const { return driver_->actuation(); }
+  const WorldModel& world() const { return world_; }
+  const ExplorationGrid& grid() const { return world_.grid(); }
   const GlobalPlanner& planner() const { return planner_; }
   /// Whether it has finished although a way that the robot's own radius may admit leads to much
   /// that is in view: a square metre at least, and a twentieth of all that was seen. What no robot
   /// of its size gets to is not missing.
-  bool leavesMuch() const;
+  bool isIncomplete() const;
 
  private:
-  void excuse(double time);
-  Action decide(const Observation& observation);
-  void heedOutcome(const Eigen::Vector2d& robot_map);
-  void turnTowards(const Eigen::Vector2d& p_map, const Pose2& T_map_robot, Action& action) const;
-  void turnOnTheSpot(double rate, Action& action) const;
-  Action explore(const Observation& observation);
-  Action lookAround(const Observation& observation);
-  Action goHome(const Observation& observation);
-  Action runErrand(const Observation& observation);
-  Action endErrand(ExplorationStatus status, const std::string& reason);
-  void followWay(const std::vector<Eigen::Vector2d>& way, const Eigen::Vector2d& end,
-                 const Observation& observation, Action& action);
-  Velocity driveTo(const Eigen::Vector2d& way_point_map, const Observation& observation);
+  /// What to do in this step, and why.
+  struct Intent {
+    ExplorationStatus status;
+    std::string reason;
+    std::optional<Pose2> T_map_goal{};  ///< to be shown
+    std::optional<DriveTask> task{};    ///< empty: to stand
+  };
+  void sense(const Observation& seen);
+  Intent plan(const Observation& seen);
+  Action act(const Intent& intent, const Observation& seen);
+
+  Intent stand(ExplorationStatus status, const std::string& reason, double time);
+  Intent explore(const Observation& seen);
+  Intent goHome(const Observation& seen);
+  Intent runErrand(const Observation& seen);
+  Intent endErrand(ExplorationStatus status, const std::string& reason);
+  DriveTask taskTo(int goal, const Pose2& T_map_goal, std::vector<Eigen::Vector2d> path,
+                   const Observation& seen) const;
 
   ExplorerParameters parameters_;
-  RobotParameters robot_;
+  WorldModel world_;
   GlobalPlanner planner_;
-  /// The frame that the local planner drives in: where the map is corrected, the robot goes on
-  /// smoothly in it.
-  Pose2 T_drive_map_;
-  TangentBug tangent_bug_;  ///< in the drive frame
-  WayProgress progress_;
+  std::unique_ptr<Driver> driver_;
   std::optional<Pose2> T_map_start_;
-  std::optional<Eigen::Vector2d> way_point_;  ///< drive frame
-  std::optional<Pose2> T_map_turned_;  ///< where somebody else is to turn it to, looking around
-  std::optional<DriveOutcome> outcome_;
-  bool leaves_driving_ = false;
   bool is_paused_ = false;
   bool is_returning_ = false;
-  bool was_returning_ = false;  ///< at the last step
   std::string why_finished_;
   /// A place that it was sent to.
   struct Errand {
     Pose2 T_map_goal;
-    ProgressClock without_way;
+    ProgressClock without_path;
     int held = 0;  ///< how often it got no farther
   };
   std::optional<Errand> errand_;

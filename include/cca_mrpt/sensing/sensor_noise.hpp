@@ -17,8 +17,9 @@ namespace cca {
 /// look like one surface, is the bearing noise, once the range noise is taken off.
 class SensorNoise {
  public:
+  /// @param range_sigma  m, of rangeNoise(scan).
   /// Cost: O(beams), and O(kKept) where the scan shows a slanted surface.
-  void add(const Scan& scan);
+  void add(const Scan& scan, double range_sigma);
 
   /// m, of a range; 0 before the first scan.
   double rangeSigma() const { return range_sigma_; }

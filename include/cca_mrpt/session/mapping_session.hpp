@@ -95,6 +95,8 @@ class MappingSession {
 
   /// The last scan, of whichever laser, of one instant, at its T_map_sensor where that is known.
   const Scan& scan() const { return analysed_.scan; }
+  /// The same with what it shows.
+  const AnalysedScan& analysed() const { return analysed_; }
   /// The lines of that scan, sensor frame.
   const std::vector<LineSegment>& scanLines() const { return analysed_.lines; }
   /// s, with its sign: what the last scan of a laser was undistorted by.

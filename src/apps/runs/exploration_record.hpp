@@ -8,7 +8,7 @@
 #include "cca_mrpt/io/map_products.hpp"
 #include "cca_mrpt/io/parameters.hpp"
 #include "cca_mrpt/io/scan_grid.hpp"
-#include "cca_mrpt/navigation/goals/global_planner.hpp"
+#include "cca_mrpt/navigation/planning/global_planner.hpp"
 #include "cca_mrpt/session/exploration_session.hpp"
 #include "cca_mrpt/simulation/coverage.hpp"
 #include "cca_mrpt/simulation/simulation.hpp"
@@ -26,8 +26,8 @@ class ExplorationRecord : public MapRecorder {
     bool finished = false;
     std::string reason;
     double wall_s = 0.0;
-    Plan plan;                 ///< the last one
-    bool leaves_much = false;  ///< see Explorer::leavesMuch()
+    Plan plan;                   ///< the last one
+    bool is_incomplete = false;  ///< see Explorer::isIncomplete()
   };
 
   /// Names of the files of its own, beside those of a map.

@@ -37,7 +37,7 @@ ExplorationSession::Settings settingsOf(const Parameters& parameters,
 /// How far the robot still has to go, as far as it knows: to each frontier.
 double metresLeft(const Simulation& simulation, const Explorer& explorer) {
   std::vector<Eigen::Vector2d> frontier;
-  for (const Cell& cell : explorer.planner().place().frontierCells().cells()) {
+  for (const Cell& cell : explorer.world().frontierCells().cells()) {
     frontier.push_back(explorer.grid().centreOf(cell));
   }
   return tourLeft(simulation.T_map_robot().position(), frontier);
@@ -129,7 +129,7 @@ bool ExplorationRun::hasEnded(const Action& action) {
   }
   if (action.status != ExplorationStatus::kFinished) return false;
   const Plan& plan = session_.explorer().planner().plan();
-  end_ = {true, action.reason, 0.0, plan, session_.explorer().leavesMuch()};
+  end_ = {true, action.reason, 0.0, plan, session_.explorer().isIncomplete()};
   return true;
 }
 
@@ -245,7 +245,7 @@ std::string ExplorationRun::shortcomings() const {
     tell(part);
   }
   if (end_.plan.gave_up) tell(end_.reason);
-  if (end_.leaves_much) {
+  if (end_.is_incomplete) {
     std::snprintf(part, sizeof part, "%.1f m^2 in view that the robot may fit through to",
                   end_.plan.passableArea());
     tell(part);

@@ -77,7 +77,7 @@ RobotDriver::RobotDriver(ros::NodeHandle& node, ros::NodeHandle& private_node,
   exploration_.begin(std::move(localiser), settings_.resume, [this] { standWhileCorrecting(); });
   exploration_.note("pose", settings_.pose);
   if (settings_.driver == "move_base") {
-    leaveDriving();
+    delegateDriving();
   } else {
     commands_ = node.advertise<geometry_msgs::Twist>("cmd_vel", 1);
   }
@@ -109,8 +109,8 @@ std::vector<ReconfigureServer::Number> RobotDriver::changeable() {
   return numbers;
 }
 
-void RobotDriver::leaveDriving() {
-  exploration_.leaveDriving();
+void RobotDriver::delegateDriving() {
+  exploration_.delegateDriving();
   move_base_.emplace(
       settings_.frames.map, [this](DriveOutcome outcome) { exploration_.noteOutcome(outcome); },
       [this] {
@@ -154,7 +154,7 @@ Velocity RobotDriver::measuredVelocity(const ros::Time& stamp) const {
 }
 
 void RobotDriver::checkLatency() {
-  const ShownMotion& shown = exploration_.shownMotion();
+  const ActuationModel& shown = exploration_.actuation();
   const bool is_later = shown.earliest() > settings_.robot.latency + kWorthTelling;
   if (has_told_latency_ || !shown.knowsLatency() || !is_later) return;
   has_told_latency_ = true;

@@ -78,7 +78,7 @@ class RobotDriver {
   void command(const Velocity& velocity);
   Velocity measuredVelocity(const ros::Time& stamp) const;
   void checkLatency();
-  void leaveDriving();
+  void delegateDriving();
   std::vector<ReconfigureServer::Number> changeable();
   void publishMapToOdom(ros::NodeHandle& node);
 

@@ -220,7 +220,7 @@ void Exploration::finish(const ros::Time& stamp) {
   publisher_.showAll(*session_, *recorder_.grid().grid(), stamp);
   const Explorer& explorer = session_->explorer();
   if (explorer.planner().plan().gave_up) ROS_WARN("%s", explorer.planner().plan().reason.c_str());
-  if (explorer.leavesMuch()) {
+  if (explorer.isIncomplete()) {
     ROS_WARN("%.1f m^2 in view were not reached, though the robot may fit through to them",
              explorer.planner().plan().passableArea());
   }
@@ -291,7 +291,7 @@ Exploration::Answer Exploration::returnHome() {
 
 void Exploration::heed(const RunCommand& command) {
   using Kind = RunCommand::Kind;
-  if (command.kind == Kind::kGo && leaves_driving_) {
+  if (command.kind == Kind::kGo && is_delegated_) {
     ROS_WARN("the page's command: move_base takes its goals itself");
     return;
   }

@@ -57,10 +57,10 @@ class Exploration {
   /// observation.time may do what it likes: the explorer's own clock stands while it waits.
   Velocity step(Observation observation, const ros::Time& stamp);
 
-  /// See Explorer::leaveDriving(), noteOutcome().
-  void leaveDriving() {
-    session_->explorer().leaveDriving();
-    leaves_driving_ = true;
+  /// See Explorer::delegateDriving(), noteOutcome().
+  void delegateDriving() {
+    session_->explorer().delegateDriving();
+    is_delegated_ = true;
   }
   void noteOutcome(DriveOutcome outcome) { session_->explorer().noteOutcome(outcome); }
   /// Where the last step wants the robot, and where to it shall look there: only while it drives.
@@ -96,7 +96,7 @@ class Exploration {
   bool finished() const { return finished_; }
   const ExplorationSession& session() const { return *session_; }
   const ScanAgreement& agreement() const { return session_->mapping().agreement(); }
-  const ShownMotion& shownMotion() const { return session_->explorer().shownMotion(); }
+  const ActuationModel& actuation() const { return session_->explorer().actuation(); }
   /// Told as the status while the robot has to stand: why.
   void wait(const std::string& reason) { publisher_.showStatus("waiting: " + reason); }
   const std::string& state() const { return state_; }
@@ -151,7 +151,7 @@ class Exploration {
   RunPage page_;
   ros::WallTimer page_timer_;  ///< of a robot that waits, viewers are told why
   Mode mode_;
-  bool finished_ = false, failed_ = false, leaves_driving_ = false;
+  bool finished_ = false, failed_ = false, is_delegated_ = false;
   std::optional<Action> end_;                ///< that waits for conclude()
   double own_time_ = 0.0, last_time_ = 0.0;  // s
   double contradicted_for_ = 0.0;            // s, that scans and map have been at odds

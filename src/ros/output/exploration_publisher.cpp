@@ -79,7 +79,7 @@ void ExplorationPublisher::showAll(const ExplorationSession& session,
   std::vector<Eigen::Vector2d> frontier;
   const Explorer& explorer = session.explorer();
   const auto& exploration_grid = explorer.grid();
-  for (const Cell cell : explorer.planner().place().frontierCells().cells()) {
+  for (const Cell cell : explorer.world().frontierCells().cells()) {
     frontier.push_back(exploration_grid.centreOf(cell));
   }
   frontiers_.publish(frontierMarkers(frontier, exploration_grid.resolution(), header(stamp)));
