@@ -12,10 +12,10 @@ ros="catkin libactionlib-dev libdiagnostic-updater-dev libdynamic-reconfigure-co
   libtopic-tools-dev libvisualization-msgs-dev python3-diagnostic-msgs python3-nav-msgs python3-pil python3-rosbag
   python3-roslaunch python3-rospy python3-sensor-msgs python3-std-srvs python3-tf2-ros
   python3-visualization-msgs python3-yaml ros-core-dev rosbash rosout rviz"
-tests="catkin-lint chromium clang clang-format ffmpeg gdal-bin git imagemagick libbenchmark-dev libclang-rt-14-dev
+tests="catkin-lint chromium clang clang-format clang-tidy ffmpeg gdal-bin git imagemagick libbenchmark-dev libclang-rt-14-dev
   libgl1-mesa-dri libgmock-dev libgtest-dev librostest-dev mrpt-apps python3-actionlib python3-dev
   python3-dynamic-reconfigure python3-matplotlib python3-move-base-msgs python3-numpy python3-pandas python3-rostest
-  python3-scipy python3-statsmodels python3-venv x11-utils xauth xvfb"
+  python3-scipy python3-statsmodels python3-venv shellcheck x11-utils xauth xvfb"
 case "${1:-}" in
   --ros) packages="$packages $ros" ;;
   --tests) packages="$packages $ros $tests" ;;
@@ -38,5 +38,6 @@ if [ "$(id -u)" -ne 0 ]; then
 fi
 echo "Installing:$missing"
 $as_root apt-get update -qq
+# shellcheck disable=SC2086  # a list
 $as_root env DEBIAN_FRONTEND=noninteractive \
   apt-get install -y -qq --no-install-recommends $missing >/dev/null

@@ -77,6 +77,9 @@ part dependencies ./launch_scripts/install_dependencies.sh --tests
 part layers test/checks/layers.sh
 part format test/checks/format.sh
 part pages test/checks/pages.sh
+part scripts test/checks/scripts.sh
+part constants test/checks/constants.py
+part tidy test/checks/tidy.sh
 part build release
 if [ $all = ON ]; then
   part tests tests

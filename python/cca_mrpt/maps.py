@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, Dict, Iterable, List, NamedTuple, Optional, Sequence, Tuple, Union
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import NDArray
 
 from ._core import MAP_LINE, Estimate, LogRecord, MappingSession, PolyLine, map_records, merge_maps, read_chains, replay_with_rooms, write_files_into
 from .grids import Grid, read_grid

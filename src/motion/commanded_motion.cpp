@@ -16,11 +16,11 @@ double towards(double from, double to, double speeds_up, double brakes, double d
 
 constexpr double kLongestGap = 0.3;  // s; between readings farther apart anything may have happened
 constexpr double kSubstep = 0.0125;  // s, half of what latencies differ by
-constexpr Velocity kError{0.02, 0.05};   // of a usual odometry
-constexpr double kResponse = 3.0;        // errors: more than noise
-constexpr double kChance = 9.0;          // three sigma, squared: what fits worse is not by chance
-constexpr double kAsGood = 0.1;          // of an error's square
-constexpr double kForget = 0.99;         // of the sums, an observation
+constexpr Velocity kError{0.02, 0.05};  // m/s, rad/s: the deviation of a usual odometry's velocity
+constexpr double kResponse = 3.0;       // kError: a change of this much is no noise, at three sigma
+constexpr double kChance = 9.0;         // three sigma, squared: what fits worse is not by chance
+constexpr double kAsGood = 0.1;   // squares of kError: shares that fit within this fit equally well
+constexpr double kForget = 0.99;  // of the sums, an observation
 constexpr double kLongestPending = 0.7;  // s, longer than any latency that is learned
 constexpr double kReliable = 0.5;        // of the linear brakes that are told
 
@@ -28,8 +28,8 @@ constexpr double kOverSpeed = 1.5;     // of full speed: what says more is broke
 constexpr double kSameLatency = 0.05;  // s: half a control period
 
 constexpr double kShortestPeriod = 0.1, kLongestPeriod = 1.0;  // s; slower, nobody drives by it
-constexpr double kStampRounding = 1e-6;                        // s, of stamps
-constexpr std::size_t kIntervals = 5;  // between commands; their median bears two that are odd
+constexpr double kStampRounding = 1e-6;  // s: stamps of microseconds make no interval longer
+constexpr std::size_t kIntervals = 5;    // between commands; their median bears two that are odd
 
 }  // namespace
 

@@ -13,7 +13,7 @@ constexpr std::size_t kPeriods = 31,
                       kLeastPeriods = 5;  // some seconds; a median of five bears two gaps
 constexpr double kIrregular = 0.1;  // of the median period, within which half of them have to lie
 constexpr double kShortest = 0.02;  // of the period: below, a driver's duration is nonsense
-constexpr double kLongest = 1.1;    // likewise, above
+constexpr double kLongest = 1.1;    // of the period: above, likewise; periods waver by a tenth
 constexpr double kSlowestLaser = 1.0;  // s; no sweep lasts longer
 constexpr double kOther = 0.1;  // of a duration: another one is another question to identification
 

@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kAge = 0.45;  // s, of the scan to compare with: a walker has gone its own depth
 constexpr double kLongAge = 1.35;  // s, of another: somebody of 0.2 m/s has come by kClearly
-constexpr double kClearly = 0.12;  // m, beyond the noise
+constexpr double kClearly = 0.12;  // m, beyond the noise: a walker of 0.3 m/s goes farther in kAge
 constexpr int kBeamsAround = 2;    // of the other scan, to each side
 constexpr int kLeastBeams = 3;     // of a mover: noise makes up two at times, hardly three
 constexpr double kJoined = 0.2;    // m, between neighbouring returns of a mover

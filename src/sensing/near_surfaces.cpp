@@ -23,7 +23,7 @@ constexpr double kSure = 3.5, kAllowedFor = 0.008;
 // that reads far must never be enough to go a step nearer: a robot that waits beside a wall would
 // creep into it, scan by scan.
 constexpr double kClose = 0.3, kWanted = 0.002;
-constexpr std::size_t kLeastScans = 5;
+constexpr std::size_t kLeastScans = 5;  // of which one that reads far weighs a fifth at most
 
 double patchOf(double range_sigma) { return std::min(kPatchSigmas * range_sigma, kWidestPatch); }
 
@@ -59,7 +59,7 @@ class LineEnd {
 double nearestPlace(const LineEnd& left, const LineEnd& right) {
   const double apart = left.at() - right.at();
   const double variance = left.variance() + right.variance();
-  double place, of_place;
+  double place = 0.0, of_place = 0.0;
   if (apart * apart > kDisagree * kDisagree * variance) {
     const LineEnd& nearer = apart < 0.0 ? left : right;
     place = nearer.at();

@@ -9,7 +9,8 @@
 namespace cca {
 namespace {
 
-constexpr double kUniformToSigma = 0.28867513459481287;  // 1 / sqrt 12
+constexpr double kUniformToSigma =
+    0.28867513459481287;  // deviation of the unit interval, 1 / sqrt 12
 /// Deviation of a beam's bearing, in spacings: a beam lies somewhere in a quarter of its own
 /// sector.
 constexpr double kBearingShare = 0.25 * kUniformToSigma;
@@ -68,7 +69,7 @@ double medianDeviation(std::vector<Deviation>* all) {
 }
 
 constexpr double kWantedSigma = 0.005;  // m; the clearance of the driver allows for it
-constexpr double kPatch = 0.03;         // m, to each side
+constexpr double kPatch = 0.03;         // m, to each side: no corner is rounded farther
 constexpr double kFarther = 0.75;       // sigmas; beyond, an edge has been smoothed away
 constexpr double kGate = 3.0 * 2.45;    // sigmas, of a second difference
 

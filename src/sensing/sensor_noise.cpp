@@ -10,8 +10,8 @@
 namespace cca {
 namespace {
 
-constexpr std::size_t kHalf = 3;         // neighbours to each side
-constexpr std::size_t kEnough = 100;     // deviations, for a median to be told
+constexpr std::size_t kHalf = 3;      // neighbours to each side: the slant is that of six spacings
+constexpr std::size_t kEnough = 100;  // deviations, for a median to be told
 constexpr std::size_t kLeastAtOnce = 5;  // in a scan: clutter looks slanted, too
 constexpr std::size_t kScansKept = 50;   // scans: the mean follows in five seconds
 constexpr double kLeastSlant = 1.0;      // tangent of the angle of incidence

@@ -22,7 +22,8 @@ constexpr std::size_t kPoints = 180;    // of a scan that are compared
 constexpr double kLeastCommon = 0.4;    // of them, that the reference has to see
 constexpr double kSearch = 0.06;        // rad, of heading, from where the last scan fitted
 constexpr double kCoarse = 0.01, kFine = 0.002;  // rad: half a beam of a cheap laser; a tenth
-constexpr int kLeastTests = 4, kSettled = 30, kMostTests = 200;  // scans; see isSettled()
+// Scans: the fewest that have a spread; enough for a sense that shows; enough to say none shows.
+constexpr int kLeastTests = 4, kSettled = 30, kMostTests = 200;
 // Scans that follow each other do not err independently; of a few, the spread is not known well.
 constexpr double kSigmas = 4.0, kSigmasOfFew = 16.0;
 constexpr double kLeastGain = 0.03;  // of the mean difference, that a sense is worth telling
@@ -94,6 +95,7 @@ double leastDifference(const std::vector<Polar>& seen, const Scan& reference, do
 }
 
 Scan under(std::size_t hypothesis, const Scan& scan, double duration, const Twist& sensor) {
+  // Of the sweep: as one instant, with the beams, against them; by the number of the hypothesis.
   constexpr double kSign[] = {0.0, 1.0, -1.0};
   Scan swept = scan;
   swept.sweep_duration = kSign[hypothesis] * duration;
@@ -135,7 +137,7 @@ bool SweepIdentification::isComparable(const Twist& sensor, const Pose2& T_odom_
 
 void SweepIdentification::begin(const Scan& scan, double duration, const Twist& sensor,
                                 const Pose2& T_odom_sensor) {
-  reference_.emplace();
+  reference_ = Reference();
   for (std::size_t h = 0; h < kHypotheses; ++h) {
     reference_->scans[h] = under(h, scan, duration, sensor);
   }

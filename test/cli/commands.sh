@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# shellcheck shell=bash
+# shellcheck shell=bash disable=SC2034
 # What the tests of commands share: an empty folder that they work in, and commands that must succeed or refuse. The
 # caller ends with status $failed.
 work=$(mktemp -d)

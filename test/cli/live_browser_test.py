@@ -11,8 +11,8 @@ import tempfile
 import time
 
 sys.dont_write_bytecode = True
-from live_page_test import Run
-from replay_page_test import SIZES, Browser, check, failures, place_of
+from live_page_test import Run  # noqa: E402
+from replay_page_test import SIZES, Browser, check, failures, place_of  # noqa: E402
 
 STATE = "document.getElementById('state').textContent"
 

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Localisation as a user gets it: localize_command_test.sh PROGRAM MAPS
 set -u
-program=$1 maps=$2
+program=$1
 . "$(dirname "$0")/commands.sh"
 
 # A room of 8 x 6 m with a niche and a slanted wall: like none of its turns.

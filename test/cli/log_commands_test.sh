@@ -224,7 +224,8 @@ interrupt_when() {  # interrupt_when FOLDER CONDITION...: maps long.log to FOLDE
   wait $pid
   status=$?
 }
-is_read() { ls -l /proc/$pid/fd 2>/dev/null | grep -q long.log; }
+# shellcheck disable=SC2317  # called by interrupt_when
+is_read() { find "/proc/$pid/fd" -lname "*long.log" 2>/dev/null | grep -q .; }
 interrupt_when opened is_read
 if [ -e opened ]; then
   echo "the log was open before it could be interrupted"

@@ -19,7 +19,7 @@ mv copy kept && mkdir copy && mv kept copy/map
 check "plan makes it from the map alone" "$program" plan copy/map
 grep -q '^2 rooms, ' last.out || { echo "FAILED: plan does not tell of two rooms"; cat last.out; failed=1; }
 for file in $files; do
-  check "explore and plan write the same $file" cmp map/$file copy/map/$file
+  check "explore and plan write the same $file" cmp "map/$file" "copy/map/$file"
 done
 check "the same plan once more overwrites nothing" "$program" plan map --quiet
 [ ! -s last.out ] || { echo "FAILED: --quiet prints"; failed=1; }

@@ -21,13 +21,16 @@ with_depends() {
     sed -n 's/^\([a-z0-9][^ :]*\).*/\1/p' | sort -u
 }
 # What every machine has counts as needed, too.
+# shellcheck disable=SC2046,SC2086,SC2154  # lists, of the script that is read above
 needed=$(with_depends $packages $ros $(dpkg-query -W -f '${Package} ${Priority}\n' | sed -n 's/ \(required\|important\)$//p'))
+# shellcheck disable=SC2086,SC2154
 surplus=$(comm -23 <(with_depends $tests) <(printf '%s\n' "$needed"))
 layer=$(mktemp -d)
 mount -t tmpfs tmpfs "$layer"
 mkdir "$layer/upper" "$layer/work"
 mount -t overlay -o "lowerdir=/usr,upperdir=$layer/upper,workdir=$layer/work" overlay /usr 2>/dev/null ||
   { echo "no overlay file system here"; exit 77; }
+# shellcheck disable=SC2086
 removed=$(dpkg -L $surplus 2>/dev/null | grep '^/usr/\(include\|lib\|share\|src\)/' | sort -u |
   while read -r file; do [ -d "$file" ] || [ ! -e "$file" ] || { rm -f "$file"; echo .; }; done | wc -l)
 echo "without $removed files of $(wc -w <<<"$surplus") packages"

@@ -4,7 +4,6 @@
 import math
 import os
 import subprocess
-import unittest
 
 import yaml
 

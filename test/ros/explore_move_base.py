@@ -5,7 +5,6 @@ project's, see move_base_robot.py."""
 import json
 import os
 import signal
-import unittest
 
 from own_master import OwnMaster, main, until
 

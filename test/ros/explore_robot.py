@@ -50,7 +50,7 @@ class ExploreRobot(unittest.TestCase):
     def test_5_lines_are_the_true_walls(self):
         truth = read_segments(rospy.get_param("~truth"))
         lines = rospy.wait_for_message("lines", LineMap, 20).lines  # the last: status may overtake it
-        mapped = numpy.array([[l.start.x, l.start.y, l.end.x, l.end.y] for l in lines])
+        mapped = numpy.array([[line.start.x, line.start.y, line.end.x, line.end.y] for line in lines])
         middles = 0.5 * (mapped[:, :2] + mapped[:, 2:])
         self.assertLess(distance_to(truth, middles).max(), 0.1)
         seen = in_view(truth, places(rospy.wait_for_message("trajectory", Path, 20)))

@@ -21,7 +21,7 @@ from visualization_msgs.msg import Marker, MarkerArray
 
 from cca_mrpt.msg import LineMap
 from cca_mrpt.srv import RoomAt
-from ros_watch import Watch, places, yaw
+from ros_watch import Watch, places
 from segments import cast, distance_to, in_view, read_segments
 
 
@@ -72,7 +72,7 @@ class ExploreSimulated(unittest.TestCase):
         # By the stamps: how late a loaded machine brings the messages is not the node's affair.
         for watch, rate in ((self.scan, 10.0), (self.odom, 50.0)):
             watch.clear()
-            self.assertIsNotNone(watch.wait(lambda m: len(watch.messages) > 60, 60))
+            self.assertIsNotNone(watch.wait(lambda m, watch=watch: len(watch.messages) > 60, 60))
             stamps = numpy.array([m.header.stamp.to_sec() for m in watch.messages])
             self.assertAlmostEqual((len(stamps) - 1) / (stamps[-1] - stamps[0]), rate,
                                    delta=0.1 * rate)
@@ -196,7 +196,7 @@ class ExploreSimulated(unittest.TestCase):
             a, b, c, d = line.covariance
             self.assertTrue(a >= 0 and d >= 0 and a * d >= b * c, "a covariance")
             self.assertGreater(line.support, 2)
-        mapped = numpy.array([[l.start.x, l.start.y, l.end.x, l.end.y] for l in lines])
+        mapped = numpy.array([[line.start.x, line.start.y, line.end.x, line.end.y] for line in lines])
         seen = in_view(self.walls, places(Watch("trajectory", Path).wait(seconds=5)))
         self.assertGreater(len(seen), 100)
         self.assertGreater((distance_to(mapped, seen) < 0.05).mean(), 0.9)

@@ -6,7 +6,6 @@ import math
 import os
 import subprocess
 import time
-import unittest
 
 import actionlib
 import rospy
@@ -118,7 +117,7 @@ class Goals(OwnMaster):
             path = Path(poses=[stamped(*places[0], 0.0), stamped(*IN_A_WALL, 0.0), stamped(*places[1], 0.0)])
             patrol.publish(path)
             for place in (*places, places[0]):  # and round again
-                self.assertTrue(until(lambda: self.robot.off(*place) < 0.25, 60), place)
+                self.assertTrue(until(lambda place=place: self.robot.off(*place) < 0.25, 60), place)
             patrol.publish(Path())
             time.sleep(2.0)
             self.assertTrue(self.status.messages[-1].data.startswith("finished"), self.status.messages[-1])

@@ -4,7 +4,6 @@
 import csv
 import os
 import signal
-import subprocess
 
 from own_master import OwnMaster, main, until
 

@@ -4,7 +4,6 @@
 import glob
 import math
 import os
-import unittest
 
 import rospy
 from sensor_msgs.msg import LaserEcho, MultiEchoLaserScan

@@ -3,7 +3,6 @@
 """localizer_topics.py DEVEL_SPACE: a robot in a plan that is drawn as DXF: found without being told, then told."""
 import math
 import os
-import unittest
 
 import rospy
 from geometry_msgs.msg import PoseWithCovarianceStamped

@@ -1,7 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
 """reconfigure.py DEVEL_SPACE: what dynamic_reconfigure changes of `explore` while it drives a robot."""
-import unittest
 
 import dynamic_reconfigure.client
 import rospy

@@ -78,7 +78,8 @@ class ActuationModel {
  private:
   /// Up to .6 s, and down to a fifth of the brakes.
   static constexpr std::size_t kLatencies = 25, kShares = 8;
-  static constexpr double kStep = 0.025;  // s, between two latencies
+  static constexpr double kStep = 0.025;  // s, between two latencies: a quarter of a control period
+  // Of the accelerations of the robot's parameters: those that the base may in truth have.
   static constexpr std::array<double, kShares> kShare{1.0, 0.85, 0.7, 0.6, 0.5, 0.4, 0.3, 0.2};
   enum Motion : std::size_t { kDrivesFaster, kBrakes, kTurnsFaster, kTurnsLess, kMotions };
   /// Squared errors by latency, motion that was asked for, share of the acceleration.
