@@ -10,7 +10,7 @@
 namespace cca {
 namespace {
 
-constexpr double kPlaceSize = 0.1;       // m: two posts' width
+constexpr double kPlaceSize = 0.1;       // m: two posts' width; neighbours of a row stay apart
 constexpr double kFloorCell = 1.0;       // m, in which scans are counted
 constexpr std::size_t kMostLooks = 4;    // one more than the fewest: bounds the memory
 constexpr double kNewLook = 0.5;         // m, from the last scan kept in a cell

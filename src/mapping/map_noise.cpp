@@ -7,7 +7,7 @@
 namespace cca {
 namespace {
 
-constexpr double kMedianOfMagnitude = 0.6745;  // of a normal deviate
+constexpr double kMedianOfMagnitude = 0.6745;  // of a normal deviate, in its sigmas
 constexpr double kFinestOffset = 0.003;        // m; nothing is known better than that
 constexpr double kFinestAngle = 0.001;         // rad: the same 3 mm over three metres
 constexpr double kLongestMemory = 500.0;  // innovations; a step is then 0.4 %, and may still follow

@@ -16,7 +16,7 @@ constexpr double kGapOfLine = 0.4, kGapOfWall = 1.0;
 /// they fall to [m]. On one side: each has its own pose error. Opposite: the line between them lies
 /// within two deviations of either.
 constexpr double kOneFront = 3.0 * M_SQRT2, kOneFrontLeast = 0.10;
-constexpr double kTwoFronts = 4.0, kTwoFrontsLeast = 0.06;
+constexpr double kTwoFronts = 4.0, kTwoFrontsLeast = 0.06;  // two of either, on each side
 /// The same of a place that one wall holds, and the line of another.
 constexpr double kPlace = 2.4, kPlaceLeast = 0.08;
 /// Deviations of a return from the common line, as the mean over all that one of the two holds.

@@ -17,7 +17,7 @@ namespace {
 
 using SparseFactor = Eigen::SimplicialLLT<Eigen::SparseMatrix<double>>;
 
-constexpr double kPatch = 2.0;  // m, about
+constexpr double kPatch = 2.0;  // m, about: walls of 20 m as one unknown are too stiff
 /// Fewer returns are no sighting of a patch.
 constexpr double kFewestReturns = 0.5;
 /// Where nothing else does, this holds poses and walls: to a hundred metres and as many radians.

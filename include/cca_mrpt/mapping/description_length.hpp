@@ -33,7 +33,7 @@ inline constexpr int kFewestPoints = 3;
 /// noise along it, and once the noise across, do not explain its extent. (The many returns of one
 /// spot are a streak along the beam, and would else make a line of it.)
 inline bool isDrawnOut(double points, double spread_sum_sq, const LineNoise& noise) {
-  constexpr double kSigmas = 2.0;
+  constexpr double kSigmas = 2.0;  // deviations: 95 % of what noise alone spreads
   return spread_sum_sq > noise.across && spread_sum_sq > points * kSigmas * kSigmas * noise.along;
 }
 
