@@ -31,15 +31,6 @@ std::string contentOf(const fs::path& path) {
   return text.str();
 }
 
-/// The lines of a CSV but the dotted ones: a row of posts parts no rooms.
-std::vector<MapLine> wallsOf(const std::string& text, const std::string& name) {
-  std::vector<MapLine> walls = readLinesCsv(text, name);
-  walls.erase(std::remove_if(walls.begin(), walls.end(),
-                             [](const MapLine& line) { return line.kind != LineKind::kWall; }),
-              walls.end());
-  return walls;
-}
-
 /// Each file but the picture, and what it will hold.
 std::vector<std::pair<std::string, std::string>> drawn(const FloorPlan& plan,
                                                        const std::string& title) {
@@ -94,7 +85,7 @@ OccupancyRaster occupancyOf(const mrpt::maps::COccupancyGridMap2D& grid,
 FloorPlan planOfFolder(const std::string& folder) {
   if (!fs::is_directory(folder)) throw std::runtime_error(folder + ": is no folder of a map");
   const fs::path lines_csv = fs::path(folder) / "lines.csv", yaml = fs::path(folder) / "map.yaml";
-  const std::vector<MapLine> lines = wallsOf(contentOf(lines_csv), lines_csv.string());
+  const std::vector<MapLine> lines = readLinesCsv(contentOf(lines_csv), lines_csv.string());
   contentOf(yaml);
   std::vector<Eigen::Vector2d> places;
   for (const MapLine& line : lines) places.push_back(line.segment.start);
@@ -117,7 +108,7 @@ std::string titleOfFolder(const std::string& folder) {
 
 FloorPlan planOfMap(const std::vector<MapLine>& lines, const mrpt::maps::COccupancyGridMap2D& grid,
                     const Eigen::Vector2d& p_frame) {
-  return floorPlan(occupancyOf(grid, p_frame), wallsOf(linesCsv(lines), "lines.csv"));
+  return floorPlan(occupancyOf(grid, p_frame), readLinesCsv(linesCsv(lines), "lines.csv"));
 }
 
 void writePlanFiles(const std::string& folder, const FloorPlan& plan, const std::string& title,
