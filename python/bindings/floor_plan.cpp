@@ -26,7 +26,7 @@ std::string geoJsonOfPlan(const std::string& lines_csv, const Cells& cells, doub
   const OccupancyRaster grid = rasterOf(cells, resolution, origin);
   try {
     const nb::gil_scoped_release others_may_run;
-    return planGeoJson(floorPlan(grid, wallsOfCsv(lines_csv, "lines.csv")));
+    return planGeoJson(floorPlan(grid, readLinesCsv(lines_csv, "lines.csv")));
   } catch (const std::runtime_error& error) {
     throw nb::value_error(error.what());
   }
@@ -40,7 +40,7 @@ std::string replayWithRooms(const std::string& packed, std::pair<double, double>
   const nb::gil_scoped_release others_may_run;
   std::vector<PlanRoom> rooms;
   try {
-    rooms = floorPlan(grid, wallsOfCsv(lines_csv, "lines.csv")).rooms;
+    rooms = floorPlan(grid, readLinesCsv(lines_csv, "lines.csv")).rooms;
   } catch (const std::exception&) {  // a map is a map without a plan, too
   }
   const Eigen::Vector2d p_frame(origin_replay.first, origin_replay.second);

@@ -32,7 +32,20 @@ std::vector<Passage> candidatePassages(const Structure& structure, const Raster<
   std::vector<Passage> narrow = narrowings(structure.solid, clearance, ends, tuning);
   for (Passage& gap : gaps) gap = centred(structure.solid, gap, tuning);
   for (Passage& gap : narrow) gap = centred(structure.solid, gap, tuning);
-  return joinPassages(std::move(gaps), narrow, tuning);
+  std::vector<Passage> passages = joinPassages(std::move(gaps), narrow, tuning);
+  for (Passage& passage : passages) passage.support = wallSupport(passage, lines, tuning);
+  return passages;
+}
+
+/// Cells that no beam reached, and no line crosses.
+Mask hiddenFloor(const OccupancyRaster& grid, const std::vector<MapLine>& lines) {
+  Mask hidden = grid.alike(std::uint8_t{0});
+  for (std::size_t k = 0; k < grid.values.size(); ++k)
+    hidden.values[k] = grid.values[k] == Occupancy::kUnknown;
+  for (const MapLine& line : lines) {
+    for (const Cell c : cellsAlong(hidden, line.segment.start, line.segment.end)) hidden[c] = 0;
+  }
+  return hidden;
 }
 
 OpeningKind kindOf(double width) {
@@ -187,12 +200,13 @@ std::vector<MapLine> withoutLeaning(const std::vector<MapLine>& lines, const Flo
   return walls;
 }
 
-/// The part of each line that lies in the box [Liang & Barsky 1984]; lines outside of it are left
-/// out. Work along a line is then bounded by the grid.
+/// The part of each wall's line that lies in the box [Liang & Barsky 1984]; lines outside of it are
+/// left out, as are dotted ones. Work along a line is then bounded by the grid.
 std::vector<MapLine> linesWithin(const Eigen::AlignedBox2d& box,
                                  const std::vector<MapLine>& lines) {
   std::vector<MapLine> within;
   for (const MapLine& line : lines) {
+    if (line.kind != LineKind::kWall) continue;
     const Eigen::Vector2d start = line.segment.start, way = line.segment.end - start;
     double from = 0.0, to = 1.0;
     for (int axis = 0; axis < 2; ++axis) {
@@ -237,7 +251,8 @@ FloorPlan floorPlan(const OccupancyRaster& whole, const std::vector<MapLine>& ma
   const Raster<float> clearance = distanceTransform(structure.solid);
   RoomRegions regions = partitionIntoRooms(
       spaceForRooms(structure, clearance, tuning.structure), clearance,
-      candidatePassages(structure, clearance, lines, tuning.passages), tuning.rooms);
+      hiddenFloor(grid, all_lines), candidatePassages(structure, clearance, lines, tuning.passages),
+      tuning.rooms);
   for (RoomBorder& border : regions.borders)
     border.passage = withJambsOfLines(border.passage, lines);
   plan.openings = openingsOf(regions);

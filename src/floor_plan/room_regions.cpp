@@ -2,6 +2,7 @@
 #include "cca_mrpt/floor_plan/room_regions.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <numeric>
 #include <utility>
@@ -86,8 +87,10 @@ std::array<int, 2> sidesOf(const Raster<int>& labels, const Passage& passage) {
 
 /// m, how wide the space is beside a passage: the median over sections parallel to it.
 /// @param is_open  bool(Eigen::Vector2d): whether a point belongs to the space.
-template <class IsOpen>
-double widthBeside(const Passage& passage, double resolution, bool left, IsOpen&& is_open) {
+/// @param may_be   bool(Eigen::Vector2d): whether it may do, for all that was seen.
+template <class IsOpen, class MayBe>
+double widthBeside(const Passage& passage, double resolution, bool left, IsOpen&& is_open,
+                   MayBe&& may_be) {
   const Eigen::Vector2d way = (passage.b - passage.a).normalized();
   const Eigen::Vector2d across = (left ? 1.0 : -1.0) * Eigen::Vector2d(-way.y(), way.x());
   const double step = 0.5 * resolution;
@@ -98,7 +101,7 @@ double widthBeside(const Passage& passage, double resolution, bool left, IsOpen&
     double width = 0.0;
     for (const double sign : {-1.0, 1.0}) {
       double s = 0.0;
-      while (s < kWidest && is_open(p + sign * s * way)) s += step;
+      while (s < kWidest && may_be(p + sign * s * way)) s += step;
       width += s;
     }
     widths.push_back(width);
@@ -119,6 +122,16 @@ double depthBeside(const Passage& passage, double resolution, bool left, IsOpen&
   return depth;
 }
 
+/// Whether a passage is a gap in a wall: as much wall as gap in its line, or more.
+bool isInWall(const Passage& passage, const RoomTuning& tuning) {
+  return passage.evidence >= PassageEvidence::kCollinear && passage.support >= tuning.in_wall;
+}
+
+/// Whether the wall that ends at a passage leads elsewhere than across it.
+bool isBesideWall(const Passage& passage, const RoomTuning& tuning) {
+  return passage.evidence == PassageEvidence::kAbutting && passage.support < tuning.least_support;
+}
+
 /// Relative width up to which a passage may be a door.
 double widestDoor(const Passage& passage, const RoomTuning& tuning) {
   switch (passage.evidence) {
@@ -126,7 +139,7 @@ double widestDoor(const Passage& passage, const RoomTuning& tuning) {
     case PassageEvidence::kAtCorner:
       return tuning.widest_narrowing;
     case PassageEvidence::kAbutting:
-      return tuning.widest_abutting;
+      return isBesideWall(passage, tuning) ? tuning.widest_narrowing : tuning.widest_abutting;
     case PassageEvidence::kCollinear:
       if (passage.width() > tuning.door_leaf) return tuning.widest_abutting;
       break;
@@ -138,6 +151,7 @@ double widestDoor(const Passage& passage, const RoomTuning& tuning) {
 
 /// Relative width, on the other side, up to which a passage may be a corridor's mouth.
 double widestMouth(const Passage& passage, const RoomTuning& tuning) {
+  if (isBesideWall(passage, tuning)) return 0.0;
   return passage.evidence == PassageEvidence::kBetweenEnds ? tuning.widest_front
                                                            : tuning.widest_mouth;
 }
@@ -159,14 +173,19 @@ bool leadsThrough(const Mask& space, const Passage& passage) {
 }
 
 /// The passages that are narrower than the space on one side at least; of mere narrowings, on both.
-std::vector<Passage> plausible(const Mask& space, const std::vector<Passage>& passages,
-                               const RoomTuning& tuning) {
+std::vector<Passage> plausible(const Mask& space, const Mask& hidden,
+                               const std::vector<Passage>& passages, const RoomTuning& tuning) {
   const auto isOpen = [&](const Eigen::Vector2d& p) { return space.at(space.cellOf(p), 0) != 0; };
   std::vector<Passage> kept;
   for (const Passage& passage : passages) {
     if (!leadsThrough(space, passage)) continue;
-    const double q0 = passage.width() / widthBeside(passage, space.resolution, false, isOpen);
-    const double q1 = passage.width() / widthBeside(passage, space.resolution, true, isOpen);
+    const auto mayBeOpen = [&](const Eigen::Vector2d& p) {
+      return isOpen(p) || (isInWall(passage, tuning) && hidden.at(hidden.cellOf(p), 0) != 0);
+    };
+    const double q0 =
+        passage.width() / widthBeside(passage, space.resolution, false, isOpen, mayBeOpen);
+    const double q1 =
+        passage.width() / widthBeside(passage, space.resolution, true, isOpen, mayBeOpen);
     const bool is_door = std::max(q0, q1) <= widestDoor(passage, tuning);
     const bool is_mouth = passage.evidence != PassageEvidence::kNarrowing &&
                           std::min(q0, q1) <= widestMouth(passage, tuning);
@@ -179,9 +198,10 @@ std::vector<Passage> plausible(const Mask& space, const std::vector<Passage>& pa
 class RegionGraph {
  public:
   RegionGraph(const Raster<int>& labels, int count, const Raster<float>& clearance,
-              const std::vector<Passage>& passages, const RoomTuning& tuning)
+              const Mask& hidden, const std::vector<Passage>& passages, const RoomTuning& tuning)
       : tuning_(tuning),
         labels_(labels),
+        hidden_(hidden),
         joined_(static_cast<std::size_t>(count)),
         peak_(static_cast<std::size_t>(count), 0.0),
         area_(peak_) {
@@ -227,7 +247,11 @@ class RegionGraph {
         const int label = labels_.at(labels_.cellOf(p), -1);
         return label >= 0 && root(label) == region;
       };
-      beside_[k][left] = widthBeside(borders_[k].passage, labels_.resolution, left, isIn);
+      const auto mayBeIn = [&](const Eigen::Vector2d& p) {
+        return isIn(p) ||
+               (isInWall(borders_[k].passage, tuning_) && hidden_.at(hidden_.cellOf(p), 0) != 0);
+      };
+      beside_[k][left] = widthBeside(borders_[k].passage, labels_.resolution, left, isIn, mayBeIn);
       depth_[k][left] = depthBeside(borders_[k].passage, labels_.resolution, left, isIn);
     }
   }
@@ -237,16 +261,23 @@ class RegionGraph {
     const RoomBorder& border = borders_[k];
     const int a = root(border.rooms[0]), b = root(border.rooms[1]);
     const double width = border.passage.width();
-    const auto besideOf = [&](int side) {  // m
-      const double region = 2.0 * peak_[at(side ? b : a)];
-      return std::max(1e-9, std::min(region, beside_[k][static_cast<std::size_t>(side)]));
+    // A shallow room with its door in the long side is as wide as a square of its area.
+    const bool is_gap =
+        isInWall(border.passage, tuning_) ||
+        (border.passage.evidence != PassageEvidence::kNarrowing && width <= tuning_.door_leaf);
+    const auto besideOf = [&](std::size_t side, bool is_door) {  // m
+      const std::size_t region = at(side ? b : a);
+      const double extent = is_door && is_gap
+                                ? std::max(2.0 * peak_[region], std::sqrt(area_[region]))
+                                : 2.0 * peak_[region];
+      return std::max(1e-9, std::min(extent, beside_[k][side]));
     };
-    const double q0 = width / besideOf(0), q1 = width / besideOf(1);  // relative width
-    const double as_door =
-        std::max(std::max(q0, q1) / widestDoor(border.passage, tuning_),
-                 (width + tuning_.least_step) / std::min(besideOf(0), besideOf(1)));
+    const double narrower = std::min(besideOf(0, true), besideOf(1, true));
+    const double as_door = std::max(width / narrower / widestDoor(border.passage, tuning_),
+                                    (width + tuning_.least_step) / narrower);
     if (border.passage.evidence == PassageEvidence::kNarrowing) return as_door;
     // A corridor's mouth.
+    const double q0 = width / besideOf(0, false), q1 = width / besideOf(1, false);
     const int arm = q0 > q1 ? a : b;
     const double arm_area = area_[at(arm)];
     const double other = width / depth_[k][q0 > q1 ? 1 : 0];
@@ -287,6 +318,7 @@ class RegionGraph {
 
   RoomTuning tuning_;
   const Raster<int>& labels_;
+  const Mask& hidden_;
   std::vector<int> joined_;
   std::vector<double> peak_, area_;
   std::vector<RoomBorder> borders_;
@@ -296,12 +328,14 @@ class RegionGraph {
 }  // namespace
 
 RoomRegions partitionIntoRooms(const Mask& space, const Raster<float>& clearance,
-                               const std::vector<Passage>& passages, const RoomTuning& tuning) {
-  const std::vector<Passage> cuts = plausible(space, passages, tuning);
+                               const Mask& hidden, const std::vector<Passage>& passages,
+                               const RoomTuning& tuning) {
+  const std::vector<Passage> cuts = plausible(space, hidden, passages, tuning);
   Components parts =
       connectedComponents(cutSpace(space, clearance, cuts, tuning.least_clearance), 4);
   growLabels(space, parts.labels);
-  RegionGraph graph(parts.labels, static_cast<int>(parts.sizes.size()), clearance, cuts, tuning);
+  RegionGraph graph(parts.labels, static_cast<int>(parts.sizes.size()), clearance, hidden, cuts,
+                    tuning);
   graph.joinAll();
   RoomRegions rooms;
   rooms.labels = parts.labels;

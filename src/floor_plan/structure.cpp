@@ -122,7 +122,8 @@ OccupancyRaster cropToKnown(const OccupancyRaster& grid, int margin_cells) {
   high = high + Cell{margin_cells, margin_cells};
   part.columns = high.x - low.x + 1;
   part.rows = high.y - low.y + 1;
-  part.origin = grid.inMetres({low.x, low.y});
+  // To a micrometre, as map.yaml has it: the same cells, however they were cut out, give one plan.
+  part.origin = (1e6 * grid.inMetres({low.x, low.y})).array().round() / 1e6;
   part.values.reserve(static_cast<std::size_t>(part.columns) * static_cast<std::size_t>(part.rows));
   for (int y = low.y; y <= high.y; ++y) {
     for (int x = low.x; x <= high.x; ++x)

@@ -168,10 +168,13 @@ Raster<float> clearanceOf(const Mask& space) {
   return distanceTransform(solid);
 }
 
+Mask nothingHidden(const Mask& space) { return space.alike(std::uint8_t{0}); }
+
 TEST(RoomRegions, HaveNoDoorAlongTheFlankOfAThinWall) {
   const Mask space = twoRoomsOfCells();
   const Passage along{{4.03, 1.0}, {4.03, 2.0}, PassageEvidence::kCollinear};
-  const RoomRegions rooms = partitionIntoRooms(space, clearanceOf(space), {along});
+  const RoomRegions rooms =
+      partitionIntoRooms(space, clearanceOf(space), nothingHidden(space), {along});
   EXPECT_EQ(rooms.count, 2);
   EXPECT_TRUE(rooms.borders.empty());
 }
@@ -181,7 +184,8 @@ TEST(RoomRegions, ArePartedByGapsThatNobodyPasses) {
   for (int y = 20; y < 24; ++y) space[{81, y}] = 1;  // 0.2 m
   for (int y = 50; y < 68; ++y) space[{81, y}] = 1;  // 0.9 m
   const Passage door{{4.08, 2.5}, {4.08, 3.4}, PassageEvidence::kCollinear};
-  const RoomRegions rooms = partitionIntoRooms(space, clearanceOf(space), {door});
+  const RoomRegions rooms =
+      partitionIntoRooms(space, clearanceOf(space), nothingHidden(space), {door});
   EXPECT_EQ(rooms.count, 2);
   EXPECT_EQ(rooms.borders.size(), 1u);
 }
@@ -196,7 +200,7 @@ TEST(RoomRegions, AreNotPartedByTheNoiseOfCellsInANarrowCorridor) {
     for (int x = 1; x < 241; ++x) space[{x, y}] = x < 120 || x > 122 || (y > 2 && y < 25);
   }
   const Passage narrow{{6.08, 0.15}, {6.08, 1.25}, PassageEvidence::kCollinear};
-  EXPECT_EQ(partitionIntoRooms(space, clearanceOf(space), {narrow}).count, 1);
+  EXPECT_EQ(partitionIntoRooms(space, clearanceOf(space), nothingHidden(space), {narrow}).count, 1);
 }
 
 TEST(Walls, OfOneFaceHaveNoThickness) {

@@ -123,6 +123,67 @@ TEST_P(FloorPlanAt, PartsRoomsAtAPillarBetweenTwoOpenings) {
   for (const PlanOpening& opening : plan.openings) EXPECT_NEAR(opening.width(), 1.7, 0.1);
 }
 
+TEST_P(FloorPlanAt, KeepsAHallWholeWhereASlantedWallEndsBeforeItsOtherSide) {
+  // The wall leads past the gap of 2.6 m at its end, not across it.
+  const DrawnMap map = drawMap(
+      {{{0, 0}, {20, 0}, {20, 12}, {14.2, 12}, {6.2, 2.6}, {6.0, 2.8}, {13.8, 12}, {0, 12}}},
+      GetParam());
+  EXPECT_EQ(floorPlan(map.grid, map.lines).rooms.size(), 1u);
+}
+
+TEST_P(FloorPlanAt, PartsAShallowRoomFromTheCorridorThatItLiesAlong) {
+  // 5 m x 1.5 m, its opening of 1.7 m in the long side: wider than the room is deep.
+  const DrawnMap map = drawMap({{{0, 0},
+                                 {14, 0},
+                                 {14, 2},
+                                 {8.2, 2},
+                                 {8.2, 2.12},
+                                 {10, 2.12},
+                                 {10, 3.62},
+                                 {5, 3.62},
+                                 {5, 2.12},
+                                 {6.5, 2.12},
+                                 {6.5, 2},
+                                 {0, 2}}},
+                               GetParam());
+  const FloorPlan plan = floorPlan(map.grid, map.lines);
+  ASSERT_EQ(plan.rooms.size(), 2u);
+  EXPECT_NEAR(std::min(plan.rooms[0].area, plan.rooms[1].area), 7.6, 0.2);
+}
+
+TEST_P(FloorPlanAt, KnowsARoomThatWasGlimpsedThroughItsDoor) {
+  // Seen from (6, -3.6): little more than the door is wide, the sides of the room are unknown.
+  DrawnMap map = drawMap({{{0, -4},
+                           {12, -4},
+                           {12, 2},
+                           {6.8, 2},
+                           {6.8, 2.12},
+                           {9, 2.12},
+                           {9, 5},
+                           {3, 5},
+                           {3, 2.12},
+                           {5.2, 2.12},
+                           {5.2, 2},
+                           {0, 2}}},
+                         GetParam());
+  const auto isSeen = [](const Eigen::Vector2d& p) {
+    return p.y() < 2.1 || std::abs(p.x() - 6.0) < 0.8 * (p.y() + 3.6) / 5.72;
+  };
+  for (std::size_t k = 0; k < map.grid.values.size(); ++k) {
+    const Eigen::Vector2d p = map.grid.centreOf(map.grid.cell(k));
+    if (!isSeen(GetParam().inverse() * p)) map.grid.values[k] = Occupancy::kUnknown;
+  }
+  std::vector<MapLine> seen;
+  for (const MapLine& line : map.lines) {
+    const Pose2 back = GetParam().inverse();
+    if (isSeen(back * line.segment.start) && isSeen(back * line.segment.end)) seen.push_back(line);
+  }
+  const FloorPlan plan = floorPlan(map.grid, seen);
+  ASSERT_EQ(plan.rooms.size(), 2u);
+  ASSERT_EQ(plan.openings.size(), 1u);
+  EXPECT_NEAR(plan.openings[0].width(), 1.6, 0.1);
+}
+
 TEST_P(FloorPlanAt, LeavesOutWhatBeamsThroughAWindowShow) {
   const DrawnMap map = drawMap(
       {{{0, 0}, {4, 0}, {4, 1.9}, {12, 1.9}, {12, 2.1}, {4, 2.1}, {4, 4}, {0, 4}}}, GetParam());
@@ -326,6 +387,37 @@ TEST(FloorPlan, IsTheSameEachTime) {
     for (std::size_t i = 0; i < one.rooms[k].outline.size(); ++i)
       EXPECT_EQ(one.rooms[k].outline[i], other.rooms[k].outline[i]);
   }
+}
+
+TEST(FloorPlan, IsTheSameHoweverTheCellsWereCutOut) {
+  // The origin of the larger grid, plus 27 cells, is that of the smaller but for the last bit.
+  const DrawnMap map = drawMap({twoRooms()}, {-24.15, -7.75, 0.0});
+  OccupancyRaster larger = map.grid.alike(Occupancy::kUnknown);
+  larger.columns += 27;
+  larger.values.assign(larger.values.size() + static_cast<std::size_t>(27 * larger.rows),
+                       Occupancy::kUnknown);
+  larger.origin.x() = -26.0;
+  OccupancyRaster smaller = map.grid;
+  smaller.origin.x() = 0.05 * -493.0;  // -24.650000000000002
+  for (std::size_t k = 0; k < smaller.values.size(); ++k) {
+    const Cell c = smaller.cell(k);
+    larger[c + Cell{27, 0}] = smaller.values[k];
+  }
+  const FloorPlan one = floorPlan(smaller, map.lines), other = floorPlan(larger, map.lines);
+  ASSERT_EQ(one.rooms.size(), 2u);
+  ASSERT_EQ(other.rooms.size(), 2u);
+  for (std::size_t k = 0; k < 2; ++k) EXPECT_EQ(one.rooms[k].outline, other.rooms[k].outline);
+}
+
+TEST(FloorPlan, TakesNoDottedLineForAWall) {
+  DrawnMap map = drawMap({twoRooms()}, {0.0, 0.0, 0.0});
+  const FloorPlan plan = floorPlan(map.grid, map.lines);
+  MapLine pane = map.lines.front();
+  pane.id = 99;
+  pane.kind = LineKind::kDotted;
+  pane.segment = {{2.5, 0.5}, {2.5, 3.5}};
+  map.lines.push_back(pane);
+  EXPECT_EQ(floorPlan(map.grid, map.lines).walls.size(), plan.walls.size());
 }
 
 TEST(FloorPlan, TellsTheRoomOfAPoint) {

@@ -22,6 +22,7 @@ enum class PassageEvidence {
 struct Passage {
   Eigen::Vector2d a, b;  ///< m, map frame: the jambs
   PassageEvidence evidence = PassageEvidence::kNarrowing;
+  double support = 0.0;  ///< see wallSupport()
   double width() const { return (b - a).norm(); }
   Eigen::Vector2d middle() const { return 0.5 * (a + b); }
 };
@@ -54,6 +55,12 @@ std::vector<Passage> gapsBetweenEnds(const Mask& solid, const std::vector<WallEn
 /// lines.
 std::vector<Passage> gapsAtCorners(const Mask& solid, const std::vector<MapLine>& lines,
                                    const PassageTuning& tuning = {});
+
+/// How much of a passage's line is wall: the walls in line that lead up to both jambs, over these
+/// and the width; 0 .. 1. The support ratio of a contour that an eye completes [Shipley & Kellman
+/// 1992]. Cost: O(n log n) for n lines.
+double wallSupport(const Passage& passage, const std::vector<MapLine>& lines,
+                   const PassageTuning& tuning = {});
 
 /// Moves a passage along its way to the middle of the stretch that is as narrow: into the middle of
 /// the wall. One whose stretch is longer than `deepest` stays.

@@ -90,7 +90,7 @@ PlanFile readGridPlan(const std::string& yaml_path) {
 FloorPlan planOfFolder(const std::string& folder) {
   if (!fs::is_directory(folder)) throw std::runtime_error(folder + ": is no folder of a map");
   const fs::path lines_csv = fs::path(folder) / "lines.csv", yaml = fs::path(folder) / "map.yaml";
-  const std::vector<MapLine> lines = wallsOfCsv(contentOf(lines_csv), lines_csv.string());
+  const std::vector<MapLine> lines = readLinesCsv(contentOf(lines_csv), lines_csv.string());
   contentOf(yaml);
   std::vector<Eigen::Vector2d> places;
   for (const MapLine& line : lines) places.push_back(line.segment.start);
@@ -113,7 +113,7 @@ std::string titleOfFolder(const std::string& folder) {
 
 FloorPlan planOfMap(const std::vector<MapLine>& lines, const mrpt::maps::COccupancyGridMap2D& grid,
                     const Eigen::Vector2d& p_frame) {
-  return floorPlan(occupancyOf(grid, p_frame), wallsOfCsv(linesCsv(lines), "lines.csv"));
+  return floorPlan(occupancyOf(grid, p_frame), readLinesCsv(linesCsv(lines), "lines.csv"));
 }
 
 void writePlanFiles(const std::string& folder, const FloorPlan& plan, const std::string& title,

@@ -54,8 +54,4 @@ RoomLabels readRoomLabels(const std::string& text, const std::string& file);
 /// @return  the labels that lie in no room.
 RoomLabels nameRooms(FloorPlan& plan, const RoomLabels& labels);
 
-/// What a plan is made of: the lines of a lines.csv but the dotted ones. A row of posts parts no
-/// rooms. @param name  of the file, for messages. @throws std::runtime_error as readLinesCsv().
-std::vector<MapLine> wallsOfCsv(const std::string& text, const std::string& name);
-
 }  // namespace cca

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "cca_mrpt/floor_plan/passages.hpp"
+#include "cca_mrpt/geometry/cross.hpp"
+
+namespace cca {
+namespace {
+
+constexpr double kCosInLine = 0.97;  // 14 degrees
+constexpr double kAside = 0.3;       // m; a wall's other face, and the thicker wall beyond a gap
+constexpr double kLongWall = 6.0;    // m; a wall that is longer tells no more
+
+/// m of wall that leads up to a jamb from beyond, in the line of the passage, without a break.
+double wallBeyond(const Eigen::Vector2d& jamb, const Eigen::Vector2d& outwards,
+                  const std::vector<MapLine>& lines, double longest_break) {
+  std::vector<std::pair<double, double>> pieces;  // m from the jamb: begin, end
+  for (const MapLine& line : lines) {
+    const LineSegment& s = line.segment;
+    if (std::abs(s.direction().dot(outwards)) < kCosInLine) continue;
+    const Eigen::Vector2d start = s.start - jamb, end = s.end - jamb;
+    if (std::min(std::abs(cross(outwards, start)), std::abs(cross(outwards, end))) > kAside)
+      continue;
+    const auto [near, far] = std::minmax({start.dot(outwards), end.dot(outwards)});
+    if (far > 0.0) pieces.emplace_back(std::max(near, 0.0), far);
+  }
+  std::sort(pieces.begin(), pieces.end());
+  double length = 0.0, reached = 0.0;
+  for (const auto& [begin, end] : pieces) {
+    if (begin > reached + longest_break) break;
+    length += std::max(0.0, end - std::max(begin, reached));
+    reached = std::max(reached, end);
+  }
+  return std::min(length, kLongWall);
+}
+
+}  // namespace
+
+double wallSupport(const Passage& passage, const std::vector<MapLine>& lines,
+                   const PassageTuning& tuning) {
+  const Eigen::Vector2d way = (passage.b - passage.a).normalized();
+  const double wall = wallBeyond(passage.a, -way, lines, tuning.end_error) +
+                      wallBeyond(passage.b, way, lines, tuning.end_error);
+  return wall / (wall + passage.width());
+}
+
+}  // namespace cca
