@@ -58,9 +58,8 @@ void ExplorationRecord::add(const Cycle& cycle) {
     look(cycle.T_map_robot, cycle.time, cycle.distance);
   if (cycle.goal && (!goal_ || *goal_ != *cycle.goal)) ++goals_;
   goal_ = cycle.goal;
-  const Scan& scan = cycle.believed.scan;
-  const Pose2& T_map_robot = cycle.believed.T_map_robot;
-  rawlog_.insert(scan, T_map_robot.inverse() * scan.T_map_sensor,
+  const Scan& believed = cycle.believed.scan;
+  rawlog_.insert(cycle.scan, cycle.believed.T_map_robot.inverse() * believed.T_map_sensor,
                  seenFrom(-origin_, cycle.T_odom_robot), cycle.believed.time);
   work_us_.push_back(cycle.work_us + std::exchange(mapping_us_, 0.0));
 }
@@ -86,6 +85,19 @@ void ExplorationRecord::writeTrajectory(const Simulation& simulation) const {
     text += line;
   }
   writeFile(folder_ + "/" + kTrajectory, text);
+}
+
+/// By the scans' numbers, as openLog() takes what stands beside a log for the truth.
+void ExplorationRecord::writeTruth() const {
+  std::string text;
+  for (std::size_t k = 0; k < truth_.size(); ++k) {
+    const Pose2 T_map_robot = seenFrom(-origin_, truth_[k].T_map_robot);
+    char line[120];
+    std::snprintf(line, sizeof line, "%zu %.6f %.6f %.8f\n", k, T_map_robot.x, T_map_robot.y,
+                  T_map_robot.theta);
+    text += line;
+  }
+  writeFile(folder_ + "/" + kTruth, text);
 }
 
 void ExplorationRecord::writeCoverage() {
@@ -165,6 +177,7 @@ void ExplorationRecord::write(const Simulation& simulation, const MappingSession
   look(simulation.T_map_robot(), simulation.time(), simulation.distance());
   withdrawSummary(folder_);
   rawlog_.commit();
+  writeTruth();
   writeTrajectory(simulation);
   writeCoverage();
   MapProducts all = products(simulation, mapping);

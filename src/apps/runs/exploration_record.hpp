@@ -31,7 +31,7 @@ class ExplorationRecord : public MapRecorder {
   };
 
   /// Names of the files of its own, beside those of a map.
-  static std::vector<const char*> files() { return {kLog, kTrajectory, kCoverage}; }
+  static std::vector<const char*> files() { return {kLog, kTruth, kTrajectory, kCoverage}; }
 
   /// @param parameters  as they are told in summary.json.
   /// @param origin  m, map frame: where the simulation's frame lies; files are in the map frame.
@@ -44,6 +44,7 @@ class ExplorationRecord : public MapRecorder {
     double time, distance;            ///< s, m, since the start
     Pose2 T_map_robot, T_odom_robot;  ///< the truth, and what the wheels say
     Observation believed;             ///< what the explorer was given
+    Scan scan;                        ///< as the laser gave it, sweep and all
     std::optional<Eigen::Vector2d> goal;
     double work_us;  ///< to localise and decide
   };
@@ -69,13 +70,14 @@ class ExplorationRecord : public MapRecorder {
   MapProducts products(const Simulation& simulation, const MappingSession& mapping) const;
 
  private:
-  static constexpr const char *kLog = "run.rawlog", *kTrajectory = "trajectory.csv",
-                              *kCoverage = "coverage.csv";
+  static constexpr const char *kLog = "run.rawlog", *kTruth = "run_GT.txt",
+                              *kTrajectory = "trajectory.csv", *kCoverage = "coverage.csv";
   struct Look {
     double time, distance;
   };
   void look(const Pose2& T_map_robot, double time, double distance);
   void writeTrajectory(const Simulation& simulation) const;
+  void writeTruth() const;
   void writeCoverage();
   std::string packedReplay(const Simulation& simulation, const std::vector<MapLine>& lines);
   nlohmann::ordered_json summary(const Simulation& simulation, const MappingSession& mapping,

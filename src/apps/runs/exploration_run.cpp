@@ -100,13 +100,9 @@ Action ExplorationRun::step() {
   observation_ = session_.sense(
       measurementOf(seen, scanned.T_odom_robot, simulation_.sweepMotion()), seen.velocity);
   const Action action = session_.decide(asOfNow(observation_));
-  ExplorationRecord::Cycle cycle{scanned.time,
-                                 simulation_.distance(),
-                                 scanned.T_map_robot,
-                                 scanned.T_odom_robot,
-                                 observation_,
-                                 action.goal,
-                                 microsecondsSince(start)};
+  ExplorationRecord::Cycle cycle{
+      scanned.time, simulation_.distance(), scanned.T_map_robot, scanned.T_odom_robot,
+      observation_, std::move(seen.scan),   action.goal,         microsecondsSince(start)};
   std::optional<ReplayMoment> moment;
   if (keepIfMoved(last_moment_, observation_.T_map_robot) ||
       action.status == ExplorationStatus::kFinished) {

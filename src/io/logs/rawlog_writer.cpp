@@ -5,6 +5,8 @@
 #include <mrpt/obs/CActionRobotMovement2D.h>
 #include <mrpt/obs/CSensoryFrame.h>
 
+#include <algorithm>
+
 #include "io/mrpt/mrpt_scan.hpp"
 
 namespace cca {
@@ -27,6 +29,7 @@ RawlogWriter::RawlogWriter(const std::string& path, double max_range)
 
 void RawlogWriter::insert(const Scan& scan, const Pose2& T_robot_sensor, const Pose2& T_odom_robot,
                           double time) {
+  time = std::max(0.0, time);  // MRPT's stamps have no sign
   const Pose2 moved = last_ ? last_->inverse() * T_odom_robot : T_odom_robot;
   last_ = T_odom_robot;
   mrpt::obs::CSensoryFrame frame;

@@ -18,7 +18,9 @@ class RawlogWriter {
   RawlogWriter(const std::string& path, double max_range);
 
   /// One scan, and where the wheels say that the robot is.
-  /// @param time  s, rising; 0 is the start of the run (written as 1970, as simulators do).
+  /// @param time  s, rising; 0 is the start of the run (written as 1970, as simulators do), also
+  /// for
+  ///              a sweep whose middle was before.
   /// @throws std::runtime_error naming the file, e.g. where the disk is full.
   void insert(const Scan& scan, const Pose2& T_robot_sensor, const Pose2& T_odom_robot,
               double time);

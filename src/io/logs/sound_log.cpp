@@ -4,10 +4,10 @@
 #include <cstdio>
 #include <map>
 #include <string>
-#include <tuple>
 #include <utility>
 
 #include "cca_mrpt/sensing/scan_faults.hpp"
+#include "laser_place.hpp"
 
 namespace cca {
 namespace {
@@ -60,7 +60,7 @@ class SoundLog : public LogReader {
   std::optional<LogRecord> nextSound() {
     while (auto record = log_->next()) {
       const auto fault =
-          faults_[placeOf(record->T_robot_sensor)].check(record->scan, record->odometry);
+          faults_[laserPlace(record->T_robot_sensor)].check(record->scan, record->odometry);
       ++read_;
       if (fault == ScanFault::kNone) return record;
       if (fault == ScanFault::kRepeated && repeated_++ == 0) first_repeated_ = read_ - 1;
@@ -69,12 +69,8 @@ class SoundLog : public LogReader {
     return std::nullopt;
   }
 
-  /// Logs tell lasers apart by where they are on the robot.
-  using Place = std::tuple<double, double, double>;
-  static Place placeOf(const Pose2& T) { return {T.x, T.y, T.theta}; }
-
   std::unique_ptr<LogReader> log_;
-  std::map<Place, ScanFaults> faults_;
+  std::map<LaserPlace, ScanFaults> faults_;
   std::size_t read_ = 0, repeated_ = 0, first_repeated_ = 0, long_ = 0;
   double median_ = 0.0;  ///< m, of the first scan that looks like millimetres
   std::optional<LogRecord> ahead_;

@@ -3,10 +3,10 @@
 
 #include <algorithm>
 #include <map>
-#include <tuple>
 #include <utility>
 
 #include "cca_mrpt/sensing/motion_compensation.hpp"
+#include "laser_place.hpp"
 
 namespace cca {
 namespace {
@@ -14,7 +14,7 @@ namespace {
 /// Scans of the first pass: at ten a second, that a robot turns in, and that it turns often in.
 constexpr std::size_t kToBegin = 100, kToSettle = 5000;
 
-/// One for each laser: logs tell them apart by where they are on the robot.
+/// One for each laser.
 class Lasers {
  public:
   explicit Lasers(const std::optional<double>& sweep) : sweep_(sweep) {}
@@ -36,12 +36,11 @@ class Lasers {
  private:
   MotionCompensation& of(const Pose2& T_robot_sensor) {
     const auto fresh = sweep_ ? MotionCompensation(*sweep_) : MotionCompensation();
-    const Pose2& T = T_robot_sensor;
-    return lasers_.emplace(std::tuple(T.x, T.y, T.theta), fresh).first->second;
+    return lasers_.emplace(laserPlace(T_robot_sensor), fresh).first->second;
   }
 
   std::optional<double> sweep_;
-  std::map<std::tuple<double, double, double>, MotionCompensation> lasers_;
+  std::map<LaserPlace, MotionCompensation> lasers_;
 };
 
 /// What a first pass over the log tells.
