@@ -9,7 +9,7 @@
 namespace cca {
 namespace {
 
-constexpr double kCosInLine = 0.97;  // 14 degrees
+constexpr double kCosInLine = 0.97;  // 14 degrees: more is another wall
 constexpr double kAside = 0.3;       // m; a wall's other face, and the thicker wall beyond a gap
 constexpr double kLongWall = 6.0;    // m; a wall that is longer tells no more
 
