@@ -59,6 +59,7 @@ int main(int argc, char** argv) {
   cca::apps::addGenerateWorldCommand(program);
 #ifdef CCA_EVIDENCE
   cca::apps::addCompareExtractorsCommand(program);
+  cca::apps::addCompareLocalisationCommand(program);
   cca::apps::addCompareSlamCommand(program);
   cca::apps::addCompareStrategiesCommand(program);
   cca::apps::addTuneCommand(program);
@@ -66,8 +67,8 @@ int main(int argc, char** argv) {
   cca::apps::addEvaluateCommand(program);
 #else
   missing =
-      "\n\nThis build has no ablate, evaluate, compare-extractors, compare-slam,\n"
-      "compare-strategies and tune\n"
+      "\n\nThis build has no ablate, evaluate, compare-extractors,\n"
+      "compare-localisation, compare-slam, compare-strategies and tune\n"
       "(cmake -D CCA_WITH_EVIDENCE=ON, as launch_scripts/test.sh builds it).";
 #endif
   program.footer(kStatuses + missing);

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# compare-extractors, compare-slam, tune and ablate as a user runs them: evidence_test.sh PROGRAM MAPS
+# compare-extractors, compare-slam, compare-localisation, tune and ablate as a user runs them: evidence_test.sh PROGRAM MAPS
 set -eu
 program=$1 maps=$2
 tmp=$(mktemp -d)
@@ -33,6 +33,12 @@ done
 cmp "$tmp/slam.txt" "$tmp/slam/slam.md" || fail "compare-slam: slam.md is not what was printed"
 awk -F'|' '/line-slam/ { exit !($3 < 0.02) }' "$tmp/slam.txt" || fail "compare-slam: $(cat "$tmp/slam.txt")"
 "$program" compare-slam "$tmp/run/run.rawlog" --methods nobody >/dev/null 2>&1 && fail "unknown method"
+
+# compare-localisation: ours and MRPT's particles, in the lines that the drive has made.
+"$program" compare-localisation "$tmp/run/run.rawlog" --in "$tmp/run" >"$tmp/localised.txt" || fail "compare-localisation"
+[ "$(grep -c '^| mrpt-mcl' "$tmp/localised.txt")" -eq 3 ] || fail "compare-localisation: $(cat "$tmp/localised.txt")"
+awk -F'|' '/^. lines/ { exit !($3 < 0.02 && $6 == 0) }' "$tmp/localised.txt" ||
+  fail "compare-localisation: $(cat "$tmp/localised.txt")"
 
 # tune: shards merged leave the table that one run leaves; a killed run goes on; another design is refused.
 tune() {

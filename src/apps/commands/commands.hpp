@@ -26,6 +26,7 @@ void addPlanCommand(CLI::App& program);
 void addRenderCommand(CLI::App& program);
 void addGenerateWorldCommand(CLI::App& program);
 void addCompareExtractorsCommand(CLI::App& program);
+void addCompareLocalisationCommand(CLI::App& program);
 void addCompareSlamCommand(CLI::App& program);
 void addCompareStrategiesCommand(CLI::App& program);
 void addTuneCommand(CLI::App& program);
