@@ -9,6 +9,7 @@ namespace cca::bench {
 
 void addAblateCommand(CLI::App& program);
 void addCompareExtractorsCommand(CLI::App& program);
+void addCompareLocalisationCommand(CLI::App& program);
 void addCompareSlamCommand(CLI::App& program);
 void addCompareStrategiesCommand(CLI::App& program);
 void addTuneCommand(CLI::App& program);

@@ -56,7 +56,7 @@ Locate scanByScan(PoseSource source) {
   };
 }
 
-Locate byGraph(ScanMatcher match) {
+Locate byGraph(cca::ScanMatcher match) {
   return [match](const Log& log) {
     Slam slam(startOf(log), match);
     for (const LogRecord& record : log) {

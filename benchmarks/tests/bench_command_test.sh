@@ -34,6 +34,12 @@ cmp "$tmp/slam.txt" "$tmp/slam/slam.md" || fail "compare-slam: slam.md is not wh
 awk -F'|' '/line-slam/ { exit !($3 < 0.02) }' "$tmp/slam.txt" || fail "compare-slam: $(cat "$tmp/slam.txt")"
 "$program" compare-slam "$tmp/run/run.rawlog" --methods nobody >/dev/null 2>&1 && fail "unknown method"
 
+# compare-localisation: ours and MRPT's particles, in the lines that the drive has made.
+"$program" compare-localisation "$tmp/run/run.rawlog" --in "$tmp/run" >"$tmp/localised.txt" || fail "compare-localisation"
+[ "$(grep -c '^| mrpt-mcl' "$tmp/localised.txt")" -eq 3 ] || fail "compare-localisation: $(cat "$tmp/localised.txt")"
+awk -F'|' '/^. lines/ { exit !($3 < 0.02 && $6 == 0) }' "$tmp/localised.txt" ||
+  fail "compare-localisation: $(cat "$tmp/localised.txt")"
+
 # tune: shards merged leave the table that one run leaves; a killed run goes on; another design is refused.
 tune() {
   "$program" tune "$maps/two_rooms.yaml" "$maps/maze.yaml" --similarity-cut 0.3,0.5 \

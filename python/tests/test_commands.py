@@ -128,6 +128,7 @@ def test_the_program_localises_to_the_same_bytes(log, kind, tmp_path):
         assert (tmp_path / "program" / name).read_bytes() == (tmp_path / "python" / name).read_bytes(), name
     told = [json.loads((tmp_path / what / "summary.json").read_text()) for what in ("program", "python")]
     assert told[0].pop("program")
+    assert all(summary.pop("localise_us")["mean"] > 0 for summary in told)
     assert told[0] == told[1]
 
 

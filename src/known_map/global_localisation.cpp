@@ -29,8 +29,11 @@ constexpr double kCandidateDistance = 0.5, kCandidateTurn = 0.26;  // m, rad
 constexpr double kOwnWord = 0.35;
 constexpr double kCoarse = 0.6;  // m, reach of the match of a candidate
 constexpr double kCandidateSigma = 0.3, kCandidateTurnSigma = 0.1;  // m, rad
-constexpr double kHopeless = -3.0;                                  // nats, of one view
-constexpr double kBehindBest = 25.0;                                // nats
+/// Rays that a room is worth, with what is seen through its door: 40 m of walls, it and the
+/// corridor before it.
+constexpr double kRoomRays = 160.0;
+constexpr double kHopeless = -3.0;    // nats, of one view
+constexpr double kBehindBest = 25.0;  // nats
 constexpr std::size_t kMostHypotheses = 150;
 /// m; places beside the best one, out to twice what the search keeps one place of.
 constexpr double kNeighbourStep = 0.2;
@@ -94,13 +97,17 @@ std::int64_t seenCell(const Eigen::Vector2d& p) {
 
 }  // namespace
 
-double Hypothesis::total() const { return std::accumulate(evidence.begin(), evidence.end(), 0.0); }
+double Hypothesis::total() const {
+  return std::accumulate(evidence.begin(), evidence.end(), prior);
+}
 
 GlobalLocalisation::GlobalLocalisation(const PlanLines& plan)
     : plan_(plan), pyramid_(pyramidOf(plan)) {}
 
 void GlobalLocalisation::begin(const std::optional<SearchWindow>& window) {
   window_ = window;
+  expectation_.reset();
+  expected_evidence_ = 0.0;
   views_.clear();
   seen_.clear();
   search_.reset();
@@ -117,6 +124,7 @@ std::optional<GlobalLocalisation::Found> GlobalLocalisation::add(const ScanSurfa
   matches_ = 0;
   if (isNewView(T_wheels_sensor)) {
     addView(surface, T_wheels_sensor);
+    askExpected(model);
     for (Hypothesis& h : hypotheses_) judgeAfter(views_.size() - 2, views_.size() - 1, model, h);
     sortOut();
   }
@@ -250,7 +258,23 @@ std::optional<Hypothesis> GlobalLocalisation::judgedByAll(std::size_t at, const 
   there.seen = earlier.seen;
   there.evidence.insert(there.evidence.begin(), earlier.evidence.begin(), earlier.evidence.end());
   judgeAfter(at, views_.size() - 1, model, there);
+  there.prior = priorOf(there, model);
   return there;
+}
+
+/// What a room that looks like another one would explain, where the robot must have been carried.
+double GlobalLocalisation::priorOf(const Hypothesis& hypothesis, const SightModel& model) const {
+  if (!expectation_) return 0.0;
+  const View& last = views_.back();
+  const Eigen::Vector3d off =
+      difference(hypothesis.T_map_sensor, expectation_->T_map_wheels * last.T_wheels_sensor);
+  if (off.head<2>().norm() < expectation_->reach && std::abs(off.z()) < expectation_->turn)
+    return 0.0;
+  SightShares room = model.usual();
+  const double sigma = std::hypot(kPlanNoise, last.surface.range_sigma);
+  room.distance_sq = room.explained * sigma * sigma;
+  const double tolerance = sightTolerance(last.surface.range_sigma);
+  return -kOwnWord * kRoomRays * std::max(0.0, model.evidence(room, sigma, tolerance));
 }
 
 /// Along a corridor the place beside the right one fits nearly as well, and the search keeps one of
@@ -286,10 +310,23 @@ void GlobalLocalisation::sortOut() {
   hypotheses_ = std::move(kept);
 }
 
+/// What the last view says of the place that the wheels lead to: at worst nothing, since the plan
+/// may not go on there.
+void GlobalLocalisation::askExpected(const SightModel& model) {
+  if (!expectation_) return;
+  const View& last = views_.back();
+  const Pose2 there = expectation_->T_map_wheels * last.T_wheels_sensor;
+  Hypothesis expected;
+  judge(last, there, beliefOf(there, expectation_->reach, expectation_->turn), kCoarse, model,
+        expected);
+  expected_evidence_ += std::max(0.0, expected.total());
+}
+
 bool GlobalLocalisation::standsAlone() const {
   if (hypotheses_.empty()) return false;
   const Hypothesis& best = hypotheses_.front();
-  const double rival = hypotheses_.size() > 1 ? std::max(0.0, hypotheses_[1].total()) : 0.0;
+  double rival = hypotheses_.size() > 1 ? std::max(0.0, hypotheses_[1].total()) : 0.0;
+  if (best.prior < 0.0) rival = std::max(rival, expected_evidence_);
   return best.total() >= rival + kClear && best.seen.agreement() >= kLeastAgreement &&
          best.seen.explained >= kLeastExplained * best.seen.count();
 }

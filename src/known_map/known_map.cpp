@@ -21,12 +21,26 @@ constexpr double kOfSweepError = 0.15, kScanSigma = 0.003, kScanTurnSigma = 0.00
 constexpr double kReachSigmas = 3.0, kArmOfReach = 3.0;  // m
 constexpr double kLeastMatchReach = 0.15;                // m
 
-constexpr double kDoubt = 0.1;        // nats a beam, below which a scan is in doubt
+/// nats a beam, below which a scan is in doubt; and of what is usual here: where the plan explains
+/// nearly all, a scan of which it explains half is from elsewhere.
+constexpr double kDoubt = 0.1, kDoubtOfUsual = 0.5;
 constexpr double kFewestRays = 8;     // that may put it there
 constexpr double kBetterThere = 0.3;  // nats a beam, for a place found by a search
 constexpr int kLostScansInDoubt = 3, kLostStandingInDoubt = 15;
 constexpr double kLostWayInDoubt = 0.5;                      // m
 constexpr double kVagueSigma = 1.0, kVagueTurnSigma = 0.35;  // m, rad: who knows no more is lost
+
+/// m, of way that a place has been followed for, to be trusted: out of the room that it was found
+/// in.
+constexpr double kTrustedAfter = 3.0;
+/// What wheels may err by while the robot is lost: at once, of the way, and of turns.
+constexpr double kWheelReach = 0.5, kWheelTurn = 0.25;          // m, rad
+constexpr double kWheelPerWay = 0.15, kWheelTurnPerWay = 0.05;  // m/m, rad/m
+constexpr double kWheelTurnPerTurn = 0.05;
+constexpr double kWidestReach = 3.0, kWidestTurn = 0.8;  // m, rad
+
+/// Of a scan in doubt: the robot may have slipped by a part of what is searched.
+constexpr double kSlipSigma = 0.3, kSlipTurnSigma = 0.2;  // m, rad
 
 constexpr double kSearchHalfWidth = 1.0, kSearchHalfTurn = 0.8;  // m, rad: of a robot that slips
 constexpr double kMostToldWidth = 3.0;                           // m
@@ -66,8 +80,9 @@ double newsOf(const Pose2& step) {
 
 }  // namespace
 
-KnownMap::KnownMap(const std::vector<PlanLine>& plan, const LocalisationEffort& effort)
-    : plan_(plan),
+KnownMap::KnownMap(const std::vector<PlanLine>& plan, const std::vector<LineSigma>& sigmas,
+                   const LocalisationEffort& effort)
+    : plan_(plan, sigmas),
       effort_(effort),
       global_(plan_),
       plan_sigma_(kFirstPlanSigma),
@@ -88,6 +103,9 @@ Estimate KnownMap::update(const Measurement& measurement, const AnalysedScan& an
   if (odom_sensor && last_odom_sensor_) wheel_step = last_odom_sensor_->inverse() * *odom_sensor;
   last_odom_sensor_ = odom_sensor;
   const MotionBelief motion = motion_.predict(wheel_step);
+  T_wheels_sensor_ = T_wheels_sensor_ * motion.T_before_after;
+  wheels_way_ += motion.T_before_after.position().norm();
+  wheels_turn_ += std::abs(motion.T_before_after.theta);
   scan_covariance_ = kOfSweepError * inMapAxes(motion.covariance, T_map_sensor_.theta);
   scan_covariance_.diagonal() +=
       Eigen::Vector3d(kScanSigma, kScanSigma, kScanTurnSigma).cwiseAbs2();
@@ -117,6 +135,10 @@ KnownMap::Fit KnownMap::fitAt(const ScanSurface& surface, const Pose2& start,
   return fit;
 }
 
+double KnownMap::doubt() const {
+  return std::max(kDoubt, kDoubtOfUsual * sights_.evidence(sights_.usual()));
+}
+
 /// Downhill from the wheels' word; where that does not fit, from what fits best around.
 KnownMap::Fit KnownMap::fitAbout(const ScanSurface& surface, const PoseBelief& prior,
                                  double share) const {
@@ -124,7 +146,7 @@ KnownMap::Fit KnownMap::fitAbout(const ScanSurface& surface, const PoseBelief& p
   const double reach = std::clamp(kReachSigmas * (spread.position + kArmOfReach * spread.turn),
                                   kLeastMatchReach, PlanLines::kMostReach);
   const Fit here = fitAt(surface, prior.mean, prior, reach, share);
-  if (here.evidence >= kDoubt || here.seen.count() < kFewestRays) return here;
+  if (here.evidence >= doubt() || here.seen.count() < kFewestRays) return here;
   SearchWindow window;
   window.centre = prior.mean;
   window.half_width = kSearchHalfWidth;
@@ -134,7 +156,7 @@ KnownMap::Fit KnownMap::fitAbout(const ScanSurface& surface, const PoseBelief& p
   PoseBelief vague = prior;
   vague.information *= 0.01;
   const Fit there = fitAt(surface, *elsewhere, vague, PlanLines::kMostReach, 1.0);
-  return there.evidence > std::max(kDoubt, here.evidence) + kBetterThere ? there : here;
+  return there.evidence > std::max(doubt(), here.evidence) + kBetterThere ? there : here;
 }
 
 void KnownMap::track(const ScanSurface& surface, const std::optional<Pose2>& wheel_step,
@@ -147,13 +169,18 @@ void KnownMap::track(const ScanSurface& surface, const std::optional<Pose2>& whe
   prior.information = predicted.inverse();
   const double share = is_fresh_ ? 1.0 : newsOf(motion.T_before_after);
   const Fit fit = fitAbout(surface, prior, share);
-  const bool is_doubtful = fit.evidence < kDoubt && fit.seen.count() >= kFewestRays;
+  const bool is_doubtful = fit.evidence < doubt() && fit.seen.count() >= kFewestRays;
   const bool is_matched = fit.match.paired > 0.0 && !is_doubtful;
   T_map_sensor_ = is_matched ? fit.match.T_map_sensor : prior.mean;
   covariance_ = is_matched ? fit.match.posterior.inverse().eval() : predicted;
   seen_ = fit.seen;
   residual_ = fit.match.sigma;
+  followed_way_ += motion.T_before_after.position().norm();
   if (is_matched) {
+    map_sigma_ = fit.match.map_sigma;
+    if (followed_way_ > kTrustedAfter) {
+      trusted_ = {T_map_sensor_ * T_wheels_sensor_.inverse(), wheels_way_, wheels_turn_};
+    }
     motion_.learn(wheel_step, motion, before.inverse() * T_map_sensor_,
                   inMapAxes(covariance_, -before.theta));
     learn(surface, fit, share);
@@ -203,20 +230,31 @@ void KnownMap::countDoubt(bool is_doubtful, const Pose2& step) {
 void KnownMap::lose() {
   is_localised_ = false;
   ++times_lost_;
-  T_wheels_sensor_ = {};
   global_.begin();
 }
 
+void KnownMap::expectAlongWheels() {
+  if (!trusted_) return;
+  const double way = wheels_way_ - trusted_->wheels_way;
+  const double turn = wheels_turn_ - trusted_->wheels_turn;
+  Expectation expectation;
+  expectation.T_map_wheels = trusted_->T_map_wheels;
+  expectation.reach = std::min(kWheelReach + kWheelPerWay * way, kWidestReach);
+  expectation.turn =
+      std::min(kWheelTurn + kWheelTurnPerWay * way + kWheelTurnPerTurn * turn, kWidestTurn);
+  global_.expect(expectation);
+}
+
 void KnownMap::search(const ScanSurface& surface, const MotionBelief& motion) {
-  T_wheels_sensor_ = T_wheels_sensor_ * motion.T_before_after;
   T_map_sensor_ = T_map_sensor_ * motion.T_before_after;
+  expectAlongWheels();
   const auto found = global_.add(surface, T_wheels_sensor_, sights_, effort_);
   if (!found) return;
   PoseBelief vague;
   vague.mean = found->T_map_sensor;
   vague.information.diagonal() << 25.0, 25.0, 400.0;  // .2 m, 3 degrees since the last view
   const Fit fit = fitAbout(surface, vague, 1.0);
-  if (fit.evidence < kDoubt) return;
+  if (fit.evidence < doubt()) return;
   T_map_sensor_ = fit.match.T_map_sensor;
   covariance_ = fit.match.posterior.inverse();
   follow(fit);
@@ -225,6 +263,8 @@ void KnownMap::search(const ScanSurface& surface, const MotionBelief& motion) {
 void KnownMap::follow(const Fit& found) {
   seen_ = found.seen;
   residual_ = found.match.sigma;
+  map_sigma_ = found.match.map_sigma;
+  followed_way_ = 0.0;
   is_localised_ = true;
   is_fresh_ = false;
   doubtful_scans_ = 0;
@@ -259,10 +299,15 @@ Estimate KnownMap::estimate(const Pose2& T_robot_sensor) const {
   estimate.T_map_robot = T_map_sensor_ * T_robot_sensor.inverse();
   estimate.is_known = is_localised_;
   estimate.agreement = is_localised_ ? seen_.agreement() : 0.0;
-  if (is_localised_) {
-    estimate.covariance =
-        atArm(covariance_, estimate.T_map_robot.position() - T_map_sensor_.position());
-  }
+  if (!is_localised_) return estimate;
+  Eigen::Matrix3d covariance = covariance_;
+  const auto widen = [&](double shift, double turn) {
+    covariance.diagonal() += Eigen::Vector3d(shift, shift, turn).cwiseAbs2();
+  };
+  widen(map_sigma_.offset, map_sigma_.angle);
+  if (doubtful_scans_ > 0) widen(kSlipSigma, kSlipTurnSigma);
+  estimate.covariance =
+      atArm(covariance, estimate.T_map_robot.position() - T_map_sensor_.position());
   return estimate;
 }
 

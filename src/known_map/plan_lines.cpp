@@ -17,8 +17,10 @@ constexpr double kRim = 0.15;        // m, of a line's end, which a ray may well
 
 }  // namespace
 
-PlanLines::PlanLines(const std::vector<PlanLine>& lines) {
-  for (const auto& [from, to] : lines) {
+PlanLines::PlanLines(const std::vector<PlanLine>& lines, const std::vector<LineSigma>& sigmas) {
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    const auto& [from, to] = lines[i];
+    const LineSigma sigma = i < sigmas.size() ? sigmas[i] : LineSigma();
     const double length = (to - from).norm();
     if (!(length > kShortest)) continue;
     bounds_.extend(from);
@@ -26,7 +28,8 @@ PlanLines::PlanLines(const std::vector<PlanLine>& lines) {
     const int parts = static_cast<int>(std::ceil(length / kLongestPiece));
     for (int k = 0; k < parts; ++k) {
       const Eigen::Vector2d start = from + (to - from) * (static_cast<double>(k) / parts);
-      pieces_.push_back({start, (to - from) / length, length / parts, k == 0, k + 1 == parts});
+      pieces_.push_back(
+          {start, (to - from) / length, length / parts, k == 0, k + 1 == parts, sigma});
     }
   }
   std::vector<WallIndex::Cell> cells;

@@ -22,6 +22,7 @@ constexpr int kFewPieces = 4;
 /// Of the returns that lie on one piece.
 struct PieceSums {
   PlanLines::Slot slot = -1;
+  double sigma = 0.0;  ///< m, of its line, as the map tells it
   Eigen::Matrix3d JJ = Eigen::Matrix3d::Zero();
   Eigen::Vector3d Je = Eigen::Vector3d::Zero(), J = Eigen::Vector3d::Zero();
   double weight = 0.0, e = 0.0, ee = 0.0;
@@ -35,23 +36,35 @@ struct PlanQuadric {
   double weight = 0.0, ee = 0.0;
   double mean_sq = 0.0, noise_of_mean = 0.0;  ///< m^2, sums over pieces
   int pieces = 0;
+  double offset_worth = 0.0, angle_worth = 0.0;  ///< m^-2, rad^-2, sums over returns
 
-  /// Takes a piece's returns, which have the plan's error there in common.
+  /// Takes a piece's returns, which have the plan's error there in common: what is usual, or what
+  /// the map says of a line that it knows less well, as of one that stands for both faces of a
+  /// wall.
   void take(const PieceSums& s, double sigma, double plan_sigma) {
     if (s.weight <= 0.0) return;
-    const double unit = 1.0 / (sigma * sigma), common = plan_sigma * plan_sigma;
+    const double off = std::max(plan_sigma, s.sigma);
+    const double unit = 1.0 / (sigma * sigma), common = off * off;
     const double taken = common / (sigma * sigma + s.weight * common);
     H += unit * (s.JJ - taken * s.J * s.J.transpose());
     g += unit * (s.Je - taken * s.J * s.e);
     weight += s.weight;
     ee += s.ee;
-    if (s.weight < kFewOnPiece) return;
+    if (s.weight < kFewOnPiece || s.sigma > plan_sigma) return;  // of what is usual
     ++pieces;
     const double mean = s.e / s.weight;
     mean_sq += mean * mean;
     noise_of_mean += std::max(0.0, s.ee / s.weight - mean * mean) / s.weight;
   }
 };
+
+/// What lines err by together is no more than the best known ones do: the harmonic mean, of which a
+/// line that does not tell (infinite worth) makes nothing.
+LineSigma mapSigma(const PlanQuadric& quadric) {
+  if (quadric.weight <= 0.0) return {};
+  return {std::sqrt(quadric.weight / quadric.offset_worth),
+          std::sqrt(quadric.weight / quadric.angle_worth)};
+}
 
 /// What is left of a match's information by an error of the whole scan: (H^-1 + R)^-1, and the
 /// gradient alike, also where H has no inverse.
@@ -81,6 +94,7 @@ PlanQuadric planQuadric(const ScanSurface& surface, const Pose2& pose, const Pla
       quadric.take(sums, sigma, plan_sigma);
       sums = {};
       sums.slot = slot;
+      sums.sigma = plan[slot].sigma.offset;
     }
     const PlanLines::Piece& piece = plan[slot];
     const double e = cross(piece.direction, p - piece.start);
@@ -93,6 +107,8 @@ PlanQuadric planQuadric(const ScanSurface& surface, const Pose2& pose, const Pla
     sums.weight += weight;
     sums.e += weight * e;
     sums.ee += weight * e * e;
+    quadric.offset_worth += weight / (piece.sigma.offset * piece.sigma.offset);
+    quadric.angle_worth += weight / (piece.sigma.angle * piece.sigma.angle);
     ++quadric.paired;
   }
   quadric.take(sums, sigma, plan_sigma);
@@ -121,6 +137,7 @@ PlanMatch matchPlan(const ScanSurface& surface, const Pose2& start, const PoseBe
         prior.information * std::min(1.0, (kPriorFreedom + 3.0) / (kPriorFreedom + off_sq));
     const double points = static_cast<double>(surface.points.size());
     match.paired = points > 0.0 ? quadric.paired / points : 0.0;
+    match.map_sigma = mapSigma(quadric);
     if (quadric.weight > 0.0) match.sigma = std::sqrt(quadric.ee / quadric.weight);
     if (quadric.pieces >= kFewPieces) {
       match.piece_variance = (quadric.mean_sq - quadric.noise_of_mean) / quadric.pieces;

@@ -199,7 +199,7 @@ inline Starts startsOn(const Drive& drive, const std::vector<PlanLine>& plan, in
   for (int k = 0; k < count; ++k) {
     const auto first = static_cast<std::size_t>((k + 0.5) * 0.95 / count *
                                                 static_cast<double>(drive.truth.size()));
-    KnownMap localiser(plan, at_once);
+    KnownMap localiser(plan, {}, at_once);
     ++starts.all;
     for (std::size_t i = first; i < drive.truth.size() && drive.wayBetween(first, i) <= 3.0; ++i) {
       const Estimate estimate = localiser.localise(drive.measurements[i]);

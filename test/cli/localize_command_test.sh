@@ -44,6 +44,22 @@ assert os.path.getsize(out + "/localisation.png") > 1000
 assert os.path.getsize(out + "/poses.tum") > 100
 EOF
 done
+check "it knows how far it is off" python3 - <<'EOF'
+import csv, json
+error = json.load(open("in_room.yaml/summary.json"))["pose_error"]
+assert error["rms_m"] < 0.03 and error["max_m"] < 0.1 and error["nees"] < 9, error
+rows = list(csv.DictReader(open("in_room.yaml/covariances.csv")))
+assert len(rows) == json.load(open("in_room.yaml/summary.json"))["localised"]
+assert all(0 < float(row["xx"]) < 0.04 and float(row["tt"]) > 0 for row in rows), rows[0]
+EOF
+check "a laser that sweeps explores" "$program" explore room.yaml --laser rplidar_a1 --out swept --quiet
+check "its log is localised" "$program" localize swept/run.rawlog --in room.yaml --out in_swept --start 2.5,2,40
+check "it is never lost" python3 - <<'EOF'
+import json
+summary = json.load(open("in_swept/summary.json"))
+assert summary["lost_times"] == 0 and summary["localised_share"] == 1.0, summary
+assert summary["pose_error"]["max_m"] < 0.1, summary
+EOF
 cp -r map untouched
 check "with a start" "$program" localize map/run.rawlog --in room.yaml --out started --start 2.6,1.9,45 --quiet
 [ ! -s last.out ] || { echo "FAILED: --quiet prints"; failed=1; }

@@ -135,6 +135,92 @@ TEST(KnownMap, IsLostWhereThePlanDoesNotGoOn) {
   EXPECT_FALSE(estimate.is_known);
 }
 
+/// A corridor with two rooms that are alike, of which the plan shows the first alone.
+PlannedWorld corridorWithAnUndrawnRoom() {
+  PlannedWorld place;
+  const auto room = [](PlannedWorld& to, double x) {
+    to.addWall({x, 2.0}, {x, 6.0});
+    to.addWall({x, 6.0}, {x + 4.0, 6.0});
+    to.addWall({x + 4.0, 6.0}, {x + 4.0, 2.0});
+    to.addBox(x + 0.5, 5.2, x + 1.3, 6.0);
+  };
+  const double doors[] = {0.0, 3.5, 4.5, 15.5, 16.5, 24.0};
+  for (int k = 0; k < 6; k += 2) place.addWall({doors[k], 2.0}, {doors[k + 1], 2.0});
+  place.addWall({0.0, 0.0}, {24.0, 0.0});
+  place.addWall({0.0, 0.0}, {0.0, 2.0});
+  place.addWall({24.0, 0.0}, {24.0, 2.0});
+  place.addBox(8.0, 0.0, 9.0, 0.6);
+  room(place, 2.0);
+  PlannedWorld undrawn;
+  room(undrawn, 14.0);
+  for (const auto& [a, b] : undrawn.plan) place.world.addWall(a, b);
+  return place;
+}
+
+TEST(KnownMap, ARobotThatLeavesThePlanIsNotToldToBeInARoomThatIsAlike) {
+  PlannedWorld place = corridorWithAnUndrawnRoom();
+  std::vector<Pose2> way;
+  for (int k = 0; k <= 150; ++k) way.push_back({1.0 + 0.1 * k, 1.0, 0.0});
+  for (int k = 0; k < 16; ++k) way.push_back({16.0, 1.0, 0.1 * k});
+  for (int k = 0; k <= 30; ++k) way.push_back({16.0, 1.0 + 0.1 * k, M_PI_2});
+  for (int k = 0; k < 63; ++k) way.push_back({16.0, 4.0, wrapAngle(M_PI_2 + 0.1 * k)});
+  // Who has not come along the corridor is deceived: no scan tells the rooms apart.
+  KnownMap deceived(place.plan);
+  Estimate estimate;
+  for (int k = 0; k < 63; ++k) {
+    const Pose2 turned{16.0, 4.0, 0.1 * k};
+    estimate = deceived.localise(test::measurementAt(place.world, turned, turned));
+  }
+  ASSERT_TRUE(estimate.is_known);
+  EXPECT_NEAR(estimate.T_map_robot.x, 4.0, 0.1);
+  KnownMap localiser(place.plan);
+  localiser.place(way[0], kAbout);
+  const Followed run = drive(localiser, place.world, way);
+  for (std::size_t k = 0; k < way.size(); ++k) {
+    const double off = (run.estimates[k].T_map_robot.position() - way[k].position()).norm();
+    EXPECT_TRUE(!run.estimates[k].is_known || off < 0.3) << "scan " << k << ", off by " << off;
+  }
+}
+
+TEST(KnownMap, WhatTheLinesErrByTogetherIsInTheCovariance) {
+  const double offset = 0.03, angle = 0.01;
+  PlannedWorld place = ring();
+  const std::vector<Pose2> way = test::driveAroundRing(0.1);
+  KnownMap sure(place.plan);
+  KnownMap unsure(place.plan, std::vector<LineSigma>(place.plan.size(), {offset, angle}));
+  Eigen::Matrix3d difference = Eigen::Matrix3d::Zero();
+  for (std::size_t k = 0; k < 50; ++k) {
+    if (k == 0) sure.place(way[0], kAbout);
+    if (k == 0) unsure.place(way[0], kAbout);
+    const Measurement seen = test::measurementAt(place.world, way[k], way[k]);
+    const Estimate b = unsure.localise(seen), a = sure.localise(seen);
+    EXPECT_NEAR(a.T_map_robot.x, b.T_map_robot.x, 0.02);
+    difference = b.covariance - a.covariance;
+  }
+  EXPECT_GE(difference(0, 0), offset * offset);
+  EXPECT_GE(difference(1, 1), offset * offset);
+  EXPECT_GE(difference(2, 2), angle * angle);
+}
+
+TEST(KnownMap, ALineThatTheMapKnowsLessWellPullsLess) {
+  PlannedWorld room = test::roomWithNiche();
+  std::vector<LineSigma> sigmas(room.plan.size(), {0.005, 0.001});
+  sigmas[0].offset = 0.05;  // both faces of a wall, drawn as one line between them
+  for (auto* end : {&room.plan[0].first, &room.plan[0].second}) end->y() -= 0.04;
+  const Pose2 truth{2.5, 2.0, 0.7};
+  double off[2];
+  for (int knows = 0; knows < 2; ++knows) {
+    KnownMap localiser(room.plan, knows ? sigmas : std::vector<LineSigma>());
+    localiser.place(truth, kAbout);
+    Estimate estimate;
+    for (int k = 0; k < 10; ++k) {
+      estimate = localiser.localise(test::measurementAt(room.world, truth, truth));
+    }
+    off[knows] = std::abs(estimate.T_map_robot.y - truth.y);
+  }
+  EXPECT_LT(off[1], 0.6 * off[0]);
+}
+
 TEST(KnownMap, EmptyPlansAndEmptyScansLocaliseNothing) {
   PlannedWorld room = test::roomWithNiche();
   KnownMap nowhere({});

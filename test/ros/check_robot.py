@@ -3,6 +3,7 @@
 """check_robot.py DEVEL_SPACE: `check_robot` listens to a robot that shares no code with the project."""
 import math
 import os
+import re
 import subprocess
 
 import yaml
@@ -29,7 +30,7 @@ class CheckRobot(OwnMaster):
     def check(self, *arguments):
         """@return status, and the lines that it prints."""
         node = self.node("check_robot", *arguments)
-        output, _ = node.communicate(timeout=60)
+        output, _ = node.communicate(timeout=120)
         print(output)
         return node.returncode, output
 
@@ -42,7 +43,31 @@ class CheckRobot(OwnMaster):
         self.assertIn("one sweep takes 0.175 s, the first beam first", output)
         self.assertIn("its stamps are the odometry's", output)
         self.assertIn("the laser is at 0.12, 0.05 m, 5 deg", output)
+        self.assertIn("the laser moves as its place there has it", output)
         self.assertIn("nobody tells map -> odom (pose: slam)", output)
+
+    def test_a_laser_that_is_not_where_tf_has_it(self):
+        self.robot("--turning-laser", "--bend", "0", "--stretch", "1.0", "--told-mount=-0.08,0.05,-25")  # it is at 0.12, 0.05, 5 degrees
+        status, output = self.check("_seconds:=20")
+        self.assertEqual(status, 1, output)
+        told = re.search(r"static_transform_publisher (\S+) (\S+) Z (\S+) PITCH ROLL base_link laser", output)
+        self.assertTrue(told, output)
+        x, y, yaw = (float(word) for word in told.groups())
+        self.assertLess(math.hypot(x - 0.12, y - 0.05), 0.05, output)
+        self.assertAlmostEqual(yaw, math.radians(5.0), delta=0.05)
+
+    def test_stamps_that_are_behind_wheels_that_count_too_much_and_a_slow_laser(self):
+        self.robot("--turning-laser", "--bend", "0", "--stretch", "1.1", "--late", "0.1")
+        status, output = self.check("_seconds:=12")
+        self.assertEqual(status, 1, output)
+        late = re.search(r"move the driver's stamps by (\S+) s", output)
+        self.assertTrue(late, output)
+        self.assertAlmostEqual(float(late.group(1)), 0.1, delta=0.031)
+        ways = re.search(r"ways of the scans are (\S+) of its own", output)
+        self.assertTrue(ways, output)
+        self.assertAlmostEqual(float(ways.group(1)), 1.0 / 1.1, delta=0.02)
+        self.assertIn("calibrate the wheels' radius", output)
+        self.assertIn("the robot is stopped 0.", output)
 
     def test_each_fault_comes_with_what_mends_it(self):
         self.robot()

@@ -65,6 +65,18 @@ class ExploreMoveBase(OwnMaster):
     def test_two_rooms_where_the_first_goals_are_aborted(self):
         self.assertEqual(self.explore(TWO_ROOMS, "--abort", "2")["goals"]["aborted"], 2)
 
+    def test_two_rooms_where_the_first_goals_are_rejected(self):
+        self.assertEqual(self.explore(TWO_ROOMS, "--reject", "2")["goals"]["rejected"], 2)
+
+    def test_two_rooms_where_the_first_goals_are_lost(self):
+        goals = self.explore(TWO_ROOMS, "--lose", "2")["goals"]
+        self.assertEqual((goals["lost"], goals["aborted"]), (2, 0))
+
+    def test_a_move_base_that_takes_no_goal_ends_the_exploration_and_is_said(self):
+        self.begin(TWO_ROOMS, SPEED, "--reject", "1000")
+        self.assertTrue(self.says("/status", "move_base"), "nobody is told why the robot stands")
+        self.assertEqual(self.report()["goals"]["accepted"], 0)
+
     def test_the_goal_is_cancelled_where_the_robot_is_to_stand(self):
         self.begin(CORRIDOR_LOOP, 1)  # minutes: it has not explored all before the last word here
         self.assertTrue(self.has_goal(True))

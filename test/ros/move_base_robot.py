@@ -1,11 +1,12 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""move_base_robot.py WORLD.yaml X,Y,DEG REPORT.json [--speed N] [--abort N]
+"""move_base_robot.py WORLD.yaml X,Y,DEG REPORT.json [--speed N] [--abort N] [--reject N] [--lose N]
 
 A robot that is driven by a move_base of its own: the action takes goals in the map, knows the world as it is,
 and leads the robot there on its cells. It shares no code with the project, and does not listen to cmd_vel.
 Gives /clock, scan, odom and tf with true poses. --abort: that many goals, the first ones, are aborted a second
-after they came. SIGUSR1 silences its laser, and gives it back.
+after they came; --reject: refused as they come; --lose: forgotten a second after they came, as by a move_base that
+was started anew. SIGUSR1 silences its laser, and gives it back.
 
 Its time stands for up to PATIENCE where the explorer's lines are older than BEHIND: how fast the machine is
 decides nothing. REPORT: contacts, share of the cells that it can see and has seen, metres, seconds, goals by what became
@@ -94,6 +95,28 @@ def wrap(angle):
     return math.remainder(angle, 2.0 * math.pi)
 
 
+class PickyServer(actionlib.SimpleActionServer):
+    """Refuses goals, and forgets that it had one."""
+
+    def __init__(self, reject, goals):
+        self.to_reject, self.goals = reject, goals
+        super().__init__("move_base", MoveBaseAction, auto_start=False)
+
+    def internal_goal_callback(self, goal):
+        if self.goals["rejected"] < self.to_reject:
+            self.goals["rejected"] += 1
+            return goal.set_rejected(text="it does not please me")
+        return super().internal_goal_callback(goal)
+
+    def forget(self):
+        with self.lock:
+            wanted = self.current_goal.get_goal_id().id
+            kept = [tracker for tracker in self.action_server.status_list if tracker.status.goal_id.id != wanted]
+            self.action_server.status_list[:] = kept
+            self.current_goal, self.preempt_request = actionlib.ServerGoalHandle(), False
+        self.action_server.publish_status()
+
+
 class MoveBaseRobot:
     def __init__(self, options):
         self.options, self.world = options, World(options.world)
@@ -105,7 +128,7 @@ class MoveBaseRobot:
         self.v = self.w = self.time = self.metres = 0.0
         self.contacts, self.touches, self.sees, self.mapped_at = 0, False, True, None
         self.goal, self.way, self.accepted_at = None, [], 0.0
-        self.goals = {"accepted": 0, "reached": 0, "aborted": 0, "preempted": 0}
+        self.goals = {"accepted": 0, "reached": 0, "aborted": 0, "preempted": 0, "rejected": 0, "lost": 0}
         self.clock = rospy.Publisher("/clock", Clock, queue_size=10)
         self.tf = rospy.Publisher("/tf", TFMessage, queue_size=100)
         self.tf_static = rospy.Publisher("/tf_static", TFMessage, queue_size=1, latch=True)
@@ -113,7 +136,7 @@ class MoveBaseRobot:
         self.scan = rospy.Publisher("scan", LaserScan, queue_size=10)
         self.tf_static.publish([transform("base_link", "laser", LASER, self.now())])
         rospy.Subscriber("lines", LineMap, self.take_lines, tcp_nodelay=True)
-        self.server = actionlib.SimpleActionServer("move_base", MoveBaseAction, auto_start=False)
+        self.server = PickyServer(options.reject, self.goals)
         self.server.start()
         signal.signal(signal.SIGUSR1, lambda *_: setattr(self, "sees", not self.sees))
 
@@ -144,6 +167,10 @@ class MoveBaseRobot:
     def steer(self):
         """Speeds towards the goal; zero where there is none."""
         if self.goal is None:
+            return 0.0, 0.0
+        if self.goals["lost"] < self.options.lose:
+            if self.time - self.accepted_at > 1.0:
+                self.end("lost", self.server.forget)
             return 0.0, 0.0
         if not self.way or self.goals["aborted"] < self.options.abort:
             if not self.way or self.time - self.accepted_at > 1.0:
@@ -225,7 +252,8 @@ def main():
     for name in ("world", "start", "report"):
         parser.add_argument(name)
     parser.add_argument("--speed", type=float, default=1.0)
-    parser.add_argument("--abort", type=int, default=0)
+    for name in ("--abort", "--reject", "--lose"):
+        parser.add_argument(name, type=int, default=0)
     rospy.init_node("move_base_robot")
     MoveBaseRobot(parser.parse_args(rospy.myargv()[1:])).run()
 

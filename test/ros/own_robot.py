@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSD-3-Clause
 """own_robot.py WORLD.yaml X,Y,DEG REPORT.json [--latency S] [--localised] [--wrong-until S [--path]] [--speed N]
-             [--seed N] [--bend DEG] [--stretch F] [--two-lasers | --turning-laser]
+             [--seed N] [--bend DEG] [--stretch F] [--late S] [--told-mount X,Y,DEG] [--two-lasers | --turning-laser]
              [--bar X1,Y1,X2,Y2 --bar-seen-by points|range]
 
 A robot that shares no code with the project: a disc on two wheels, whose base answers late and has limits,
@@ -10,7 +10,8 @@ centre, and errs by 1 cm. Gives /clock, scan, odom and tf, takes cmd_vel; --loca
 truth, which it is WRONG by for the first --wrong-until seconds; --path: then it tells where the robot has been,
 as corrected_path. --two-lasers: one looks ahead, one back, 150 degrees each, as scan_front and scan_rear.
 --turning-laser: a cheap one that looks all around in SLOW_SWEEP, beam by beam, clockwise, and loses LOST of them (+inf).
---bar: lies
+--late: stamps of scans are
+so much behind. --told-mount: where tf has the laser, whatever is so. --bar: lies
 below their plane; hazard_points or hazard_range tell what is within SHORT_SIGHT ahead. Time stands until a
 scan has been answered: how fast the machine is decides nothing. REPORT: contacts, share of the cells that it
 can see at all and has seen, metres, seconds, the last true pose, where it was, every APART metres and at the end."""
@@ -227,7 +228,11 @@ class OwnRobot:
             lasers = [("scan_rear", "laser_rear", REAR, HALF_FIELD, HALF_BEAMS),
                       ("scan_front", "laser_front", FRONT, HALF_FIELD, HALF_BEAMS)]
         self.lasers = [(rospy.Publisher(laser[0], LaserScan, queue_size=10), *laser[1:]) for laser in lasers]
-        frames = [transform("base_link", laser[1], laser[2], self.now()) for laser in lasers]
+        told = [laser[2] for laser in lasers]
+        if options.told_mount:
+            mx, my, degrees = map(float, options.told_mount.split(","))
+            told = [(mx, my, math.radians(degrees))]
+        frames = [transform("base_link", laser[1], mount, self.now()) for laser, mount in zip(lasers, told)]
         frames += [transform("base_link", "ranger_%d" % k, (0, 0, bearing), self.now())
                    for k, bearing in enumerate(SHORT_BEARINGS)]
         self.tf_static.publish(frames)
@@ -308,12 +313,14 @@ class OwnRobot:
         time.sleep(SETTLING)
         self.answer.clear()
         if self.options.turning_laser:
-            self.lasers[0][0].publish(self.turn_round())
+            scan = self.turn_round()
+            scan.header.stamp -= rospy.Duration(self.options.late)
+            self.lasers[0][0].publish(scan)
             self.answer.wait(PATIENCE if self.has_heard else FIRST_PATIENCE)
             return
         for publisher, frame, T_robot_laser, field, beams in self.lasers:
             scan = LaserScan()
-            scan.header.stamp, scan.header.frame_id = self.now(), frame
+            scan.header.stamp, scan.header.frame_id = self.now() - rospy.Duration(self.options.late), frame
             scan.angle_min, scan.angle_max = -0.5 * field, 0.5 * field
             scan.angle_increment = field / (beams - 1)
             scan.scan_time, scan.range_min, scan.range_max = self.ticks_a_scan * TICK, 0.02, RANGE
@@ -393,6 +400,8 @@ def main():
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--bend", type=float, default=1.0)
     parser.add_argument("--stretch", type=float, default=STRETCH)
+    parser.add_argument("--late", type=float, default=0.0)
+    parser.add_argument("--told-mount")
     parser.add_argument("--turning-laser", action="store_true")
     parser.add_argument("--localised", action="store_true")
     parser.add_argument("--wrong-until", type=float, default=0.0)

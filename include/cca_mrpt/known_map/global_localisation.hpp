@@ -16,9 +16,16 @@ namespace cca {
 struct Hypothesis {
   Pose2 T_map_sensor;            ///< at the last view
   Eigen::Matrix3d information;   ///< of the last match
+  double prior = 0.0;            ///< nats: how likely it was before anything was seen of it
   std::vector<double> evidence;  ///< nats, of each view
   SightShares seen;              ///< of all views
   double total() const;
+};
+
+/// Where the robot would be if nobody had carried it: in the frame in which the wheels count.
+struct Expectation {
+  Pose2 T_map_wheels;
+  double reach = 0.0, turn = 0.0;  ///< m, rad, that the wheels may have erred by meanwhile
 };
 
 /// How much a localisation from anywhere works in one scan.
@@ -37,6 +44,11 @@ struct LocalisationEffort {
 /// wheels, and each further view is asked of all of them. One is believed when it is more likely
 /// than every other one, and than chance, by kClear. Until then the robot is not localised: rooms
 /// that are alike stay so until the robot has seen what tells them apart.
+///
+/// A robot that was localised and is no longer has more likely left what the plan shows than been
+/// carried away, and rooms of a building are alike: a place that the wheels do not lead to has to
+/// explain a room more than any other place, and than the wheels' place, where a view that shows
+/// nothing of the plan says nothing.
 class GlobalLocalisation {
  public:
   /// @param plan  outlives this. Builds a likelihood pyramid of it: the memory grows with its area.
@@ -44,6 +56,8 @@ class GlobalLocalisation {
 
   /// Forgets all views. @param window  where the robot is; nothing: anywhere in the plan.
   void begin(const std::optional<SearchWindow>& window = {});
+  /// Where the wheels have it by the next scan. @param expectation  nothing: nobody knows.
+  void expect(const std::optional<Expectation>& expectation) { expectation_ = expectation; }
 
   struct Found {
     Pose2 T_map_sensor;
@@ -85,6 +99,8 @@ class GlobalLocalisation {
   std::optional<Hypothesis> judgedByAll(std::size_t at, const Pose2& T_map_sensor,
                                         const SightModel& model);
   void askNeighbours(const SightModel& model);
+  double priorOf(const Hypothesis& hypothesis, const SightModel& model) const;
+  void askExpected(const SightModel& model);
   bool standsAlone() const;
   void sortOut();
   std::optional<Found> decided(const Pose2& T_wheels_sensor, const SightModel& model);
@@ -92,6 +108,9 @@ class GlobalLocalisation {
   const PlanLines& plan_;
   LikelihoodPyramid pyramid_;
   std::optional<SearchWindow> window_;
+  std::optional<Expectation> expectation_;
+  double expected_evidence_ =
+      0.0;  ///< nats: of all views, where the wheels lead; see standsAlone()
   std::deque<View> views_;
   std::unordered_set<std::int64_t> seen_;  ///< cells of the wheels' frame
   std::optional<PoseSearch> search_;

@@ -22,7 +22,9 @@ namespace cca {
 /// Deterministic. The memory is that of the plan; nothing grows with the drive.
 class KnownMap : public Localiser {
  public:
-  explicit KnownMap(const std::vector<PlanLine>& plan, const LocalisationEffort& effort = {});
+  /// @param sigmas  of the lines, see PlanLines; their common error is in the covariance told.
+  explicit KnownMap(const std::vector<PlanLine>& plan, const std::vector<LineSigma>& sigmas = {},
+                    const LocalisationEffort& effort = {});
 
   /// Somebody tells where the robot is, about: it is looked for within three sigmas with the next
   /// scan, and then followed.
@@ -64,6 +66,7 @@ class KnownMap : public Localiser {
   };
   Fit fitAt(const ScanSurface& surface, const Pose2& start, const PoseBelief& prior, double reach,
             double share) const;
+  double doubt() const;
   void track(const ScanSurface& surface, const std::optional<Pose2>& wheel_step,
              const MotionBelief& motion);
   Fit fitAbout(const ScanSurface& surface, const PoseBelief& prior, double share) const;
@@ -74,6 +77,7 @@ class KnownMap : public Localiser {
   void learn(const ScanSurface& surface, const Fit& fit, double share);
   void countDoubt(bool is_doubtful, const Pose2& step);
   void lose();
+  void expectAlongWheels();
   Estimate estimate(const Pose2& T_robot_sensor) const;
 
   PlanLines plan_;
@@ -89,7 +93,16 @@ class KnownMap : public Localiser {
   Pose2 T_map_sensor_;
   Eigen::Matrix3d covariance_ = Eigen::Matrix3d::Zero();
   Eigen::Matrix3d scan_covariance_ = Eigen::Matrix3d::Identity();  ///< see PlanMatching
-  Pose2 T_wheels_sensor_;                                          ///< since the robot was lost
+  LineSigma map_sigma_;                                            ///< see PlanMatch
+  Pose2 T_wheels_sensor_;                        ///< since the beginning, whoever carried the robot
+  double wheels_way_ = 0.0, wheels_turn_ = 0.0;  ///< m, rad, of these in all
+  /// The last place that the robot has been followed to for a while, and when that was.
+  struct Trusted {
+    Pose2 T_map_wheels;
+    double wheels_way, wheels_turn;
+  };
+  std::optional<Trusted> trusted_;
+  double followed_way_ = 0.0;  ///< m, since it was placed or found
   bool is_localised_ = false, is_fresh_ = true;
   int times_lost_ = 0;
   int doubtful_scans_ = 0;

@@ -12,6 +12,12 @@ namespace cca {
 
 using PlanLine = std::pair<Eigen::Vector2d, Eigen::Vector2d>;  ///< m, map frame: its two ends
 
+/// How far a line of a map is off, as the map tells it: standard deviations in the map's frame.
+struct LineSigma {
+  double offset = 0.0;  ///< m, at its middle
+  double angle = 0.0;   ///< rad
+};
+
 /// The lines of a finished map or of a drawn plan, cut into pieces, with the index that finds them.
 ///
 /// A plan does not tell which side of a line is the wall: each piece is seen from both.
@@ -24,6 +30,7 @@ class PlanLines {
     Eigen::Vector2d direction;  ///< unit
     double length;              ///< m, at most kLongestPiece
     bool begins, ends;          ///< whether the line does not go on before, or behind it
+    LineSigma sigma;            ///< of its line
 
     Eigen::Vector2d normal() const { return {-direction.y(), direction.x()}; }
   };
@@ -34,8 +41,9 @@ class PlanLines {
   static constexpr double kMostReach = 0.6;  ///< m, from a piece, that it can be asked for
 
   PlanLines() = default;
-  /// @param lines  finite; those shorter than a millimetre are left out.
-  explicit PlanLines(const std::vector<PlanLine>& lines);
+  /// @param lines   finite; those shorter than a millimetre are left out.
+  /// @param sigmas  one a line; empty: nobody tells, and the plan is taken at its word.
+  explicit PlanLines(const std::vector<PlanLine>& lines, const std::vector<LineSigma>& sigmas = {});
 
   bool empty() const { return pieces_.empty(); }
   const std::vector<Piece>& pieces() const { return pieces_; }

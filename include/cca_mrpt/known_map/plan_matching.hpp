@@ -26,6 +26,9 @@ struct PlanMatch {
   /// m^2: variance of the mean distances of whole pieces, less what their returns' noise explains;
   /// negative where too few pieces tell.
   double piece_variance = -1.0;
+  /// m, rad: how far the lines that the scan met are off together, of what each tells: the map has
+  /// been bent by the poses that it was made from, walls and all.
+  LineSigma map_sigma;
 };
 
 /// Matches the returns of a scan to the lines of a plan: Gauss-Newton on their distances from the

@@ -24,7 +24,7 @@
 namespace cca::apps {
 namespace {
 
-constexpr const char* kPictureName = "localisation.png";
+constexpr const char *kPictureName = "localisation.png", *kCovariancesName = "covariances.csv";
 
 struct LocalizeOptions {
   std::string log, plan, out;
@@ -51,6 +51,7 @@ void write(const LocalizeOptions& options, const PlanFile& plan, const Localized
   for (const StampedPose& pose : log.poses()) products.trajectory.push_back(pose.T_map_robot);
   writeFile((folder / "poses.csv").string(), posesCsv(log.poses()));
   writeFile((folder / "poses.tum").string(), posesTum(log.poses()));
+  writeFile((folder / kCovariancesName).string(), log.covariancesCsv());
   writePicture((folder / kPictureName).string(), products);
   writeFile((folder / "summary.json").string(), summaryOf(options, plan, log).dump(2) + "\n");
 }
@@ -80,8 +81,9 @@ void localize(const LocalizeOptions& options) {
   }
   std::error_code unknown;
   const bool is_new = !std::filesystem::exists(options.out, unknown);
-  const FolderLock folder = prepareMapFolder(options.out, options.force, {kPictureName});
-  LocalizedLog log(plan.lines, start);
+  const FolderLock folder =
+      prepareMapFolder(options.out, options.force, {kPictureName, kCovariancesName});
+  LocalizedLog log(plan.lines, plan.sigmas, start);
   try {
     Progress progress("localise");
     log.take(*reader, [&] {

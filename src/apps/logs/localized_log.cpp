@@ -2,6 +2,8 @@
 #include "localized_log.hpp"
 
 #include <algorithm>
+#include <chrono>
+#include <cstdio>
 
 #include "io/logs/measurements.hpp"
 
@@ -13,18 +15,23 @@ constexpr double kStartSigma = 0.25, kStartTurnSigma = 0.13;
 
 }  // namespace
 
-LocalizedLog::LocalizedLog(const std::vector<PlanLine>& plan, const std::optional<Pose2>& start)
-    : localiser_(plan) {
+LocalizedLog::LocalizedLog(const std::vector<PlanLine>& plan, const std::vector<LineSigma>& sigmas,
+                           const std::optional<Pose2>& start)
+    : localiser_(plan, sigmas) {
   if (!start) return;
-  const Eigen::Vector3d sigmas(kStartSigma, kStartSigma, kStartTurnSigma);
-  localiser_.place(*start, sigmas.cwiseAbs2().asDiagonal());
+  const Eigen::Vector3d about(kStartSigma, kStartSigma, kStartTurnSigma);
+  localiser_.place(*start, about.cwiseAbs2().asDiagonal());
 }
 
 void LocalizedLog::take(LogReader& log, const std::function<bool()>& goes_on) {
   while (!interrupted_) {
     const std::optional<LogRecord> record = log.next();
     if (!record) break;
+    const auto begin = std::chrono::steady_clock::now();
     const Estimate estimate = localiser_.localise(measurementOf(*record, PoseSource::kSlam));
+    const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - begin;
+    seconds_ += passed.count();
+    worst_seconds_ = std::max(worst_seconds_, passed.count());
     note(estimate, *record);
     ++scans_;
     interrupted_ = !goes_on();
@@ -41,10 +48,16 @@ void LocalizedLog::note(const Estimate& estimate, const LogRecord& record) {
   if (seen.count() > 0.0) explained_.add(seen.explained / seen.count());
   agreement_.add(estimate.agreement);
   residual_sq_.add(localiser_.residual() * localiser_.residual());
-  if (!record.truth) return;
-  const double off = (estimate.T_map_robot.position() - record.truth->position()).norm();
-  error_sq_.add(off * off);
-  worst_error_ = std::max(worst_error_, off);
+  const Eigen::Matrix3d& P = estimate.covariance;
+  char row[160];
+  std::snprintf(row, sizeof row, "%.6f,%.4e,%.4e,%.4e,%.4e,%.4e,%.4e\n", poses_.back().time,
+                P(0, 0), P(0, 1), P(0, 2), P(1, 1), P(1, 2), P(2, 2));
+  covariances_ += row;
+  if (const auto reference = referencePose(record)) errors_.add(estimate, *reference);
+}
+
+std::string LocalizedLog::covariancesCsv() const {
+  return "stamp,xx,xy,xt,yy,yt,tt\n" + covariances_;
 }
 
 std::string LocalizedLog::whyNot() const {
@@ -76,9 +89,10 @@ void LocalizedLog::describe(const PlanFile& plan, const std::string& path,
     summary["why_not_localised"] = whyNot();
   }
   summary["lost_times"] = timesLost();
-  if (error_sq_.count > 0.0) {
-    summary["pose_error"] = {{"rms_m", std::sqrt(error_sq_.mean())}, {"max_m", worst_error_}};
-  }
+  summary["localise_us"] = {
+      {"mean", 1e6 * seconds_ / static_cast<double>(std::max<std::size_t>(1, scans_))},
+      {"max", 1e6 * worst_seconds_}};
+  if (errors_.count() > 0) summary["pose_error"] = errors_.json();
   if (!warnings_.empty()) summary["warnings"] = warnings_;
 }
 

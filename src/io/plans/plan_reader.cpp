@@ -40,6 +40,17 @@ std::vector<PlanLine> planLinesOf(const std::vector<MapLine>& lines) {
   return plan;
 }
 
+/// Nothing where the file tells none: a plan that is true.
+std::vector<LineSigma> sigmasOf(const std::vector<MapLine>& lines) {
+  std::vector<LineSigma> sigmas;
+  for (const MapLine& line : lines) {
+    const Eigen::Matrix2d& covariance = line.segment.covariance;
+    if (!(covariance(0, 0) > 0.0 && covariance(1, 1) > 0.0)) return {};
+    sigmas.push_back({std::sqrt(covariance(0, 0)), std::sqrt(covariance(1, 1))});
+  }
+  return sigmas;
+}
+
 /// What map.slam remembers, mapped anew.
 PlanFile readMemoryPlan(const std::string& path) {
   const SlamMemory memory = seenFrom({0.0, 0.0}, loadMemory(path));
@@ -49,13 +60,16 @@ PlanFile readMemoryPlan(const std::string& path) {
     scan.T_map_sensor = memory.graph.pose(static_cast<int>(k));
     map.insert(scan);
   }
-  return {"map.slam", planLinesOf(map.lines()), ""};
+  return {"map.slam", planLinesOf(map.lines()), "", {}};
 }
 
 PlanFile read(const std::filesystem::path& path, double scale,
               const std::function<PlanFile(const std::string&)>& read_grid) {
   const std::string name = path.string(), ending = endingOf(path);
-  if (ending == ".csv") return {"CSV", planLinesOf(readLinesCsv(planText(path), name)), ""};
+  if (ending == ".csv") {
+    const std::vector<MapLine> lines = readLinesCsv(planText(path), name);
+    return {"CSV", planLinesOf(lines), "", sigmasOf(lines)};
+  }
   if (ending == ".slam") return readMemoryPlan(name);
   if (ending == ".geojson" || ending == ".json") {
     return readGeoJsonPlan(planText(path), name, scale);

@@ -16,6 +16,7 @@ struct PlanFile {
   std::vector<PlanLine> lines;  ///< m, map frame
   /// What the file holds besides, which is no line: for people, "12 TEXT, 3 HATCH"; empty: nothing.
   std::string not_understood;
+  std::vector<LineSigma> sigmas;  ///< one a line, where the file tells (.csv of ours); else empty
 };
 
 /// The plan that a map_server grid is. @throws std::runtime_error naming the file and the reason.

@@ -14,7 +14,9 @@ namespace {
 // Goals move by so little where the map is corrected: less than navigations stop at.
 constexpr double kSamePlace = 0.05;   // m
 constexpr double kSameHeading = 0.1;  // rad
-constexpr bool kOwnThread = false;    // callbacks come with all others, by keepRunning()
+/// A goal that does not please is one thing; a move_base that takes none is not ready, or not one.
+constexpr int kMostRejected = 5;
+constexpr bool kOwnThread = false;  // callbacks come with all others, by keepRunning()
 
 bool isSameGoal(const Pose2& a, const Pose2& b) {
   return (a.position() - b.position()).norm() < kSamePlace &&
@@ -24,10 +26,10 @@ bool isSameGoal(const Pose2& a, const Pose2& b) {
 }  // namespace
 
 MoveBaseDriver::MoveBaseDriver(std::string map_frame, std::function<void(DriveOutcome)> outcome,
-                               std::function<void()> taken)
+                               std::function<void(const std::string&)> barred)
     : map_frame_(std::move(map_frame)),
       outcome_(std::move(outcome)),
-      taken_(std::move(taken)),
+      barred_(std::move(barred)),
       client_("move_base", kOwnThread) {}
 
 void MoveBaseDriver::driveTo(const Pose2& T_map_goal) {
@@ -55,22 +57,33 @@ void MoveBaseDriver::forget() {
   client_.stopTrackingGoal();
 }
 
+void MoveBaseDriver::onRejected(const std::string& why) {
+  ++rejected_;
+  if (rejected_ < kMostRejected) return outcome_(DriveOutcome::kFailed);
+  rejected_ = 0;
+  barred_("move_base rejects one goal after another" + (why.empty() ? "" : ": " + why));
+}
+
 // Those that were cancelled or replaced are tracked no longer.
 void MoveBaseDriver::onDone(const actionlib::SimpleClientGoalState& state) {
   T_map_goal_.reset();
+  if (state.state_ != actionlib::SimpleClientGoalState::REJECTED) rejected_ = 0;
   switch (state.state_) {
     case actionlib::SimpleClientGoalState::SUCCEEDED:
       return outcome_(DriveOutcome::kReached);
-    case actionlib::SimpleClientGoalState::ABORTED:
     case actionlib::SimpleClientGoalState::REJECTED:
+      ROS_WARN("move_base: REJECTED: %s; the goal is set aside", state.getText().c_str());
+      return onRejected(state.getText());
+    case actionlib::SimpleClientGoalState::ABORTED:
       ROS_WARN("move_base: %s: %s; the goal is set aside", state.toString().c_str(),
                state.getText().c_str());
       return outcome_(DriveOutcome::kFailed);
     case actionlib::SimpleClientGoalState::PREEMPTED:
     case actionlib::SimpleClientGoalState::RECALLED:
-      return taken_();
+      return barred_("somebody else has sent move_base elsewhere");
     default:  // lost: move_base was started anew, and is sent there again
-      return;
+      ROS_WARN_THROTTLE(5.0, "move_base: %s: it has dropped the goal, and is sent it again",
+                        state.toString().c_str());
   }
 }
 

@@ -18,9 +18,11 @@ namespace cca {
 class MoveBaseDriver {
  public:
   /// @param outcome  told of a goal that move_base has reached, or aborted or rejected.
-  /// @param taken    told where somebody else has sent move_base elsewhere.
+  /// @param barred   told why no further goal is of use: somebody else has sent move_base
+  /// elsewhere,
+  ///                 or it takes none.
   MoveBaseDriver(std::string map_frame, std::function<void(DriveOutcome)> outcome,
-                 std::function<void()> taken);
+                 std::function<void(const std::string& why)> barred);
 
   /// Whether a move_base listens.
   bool isThere() const { return client_.isServerConnected(); }
@@ -36,11 +38,13 @@ class MoveBaseDriver {
 
  private:
   void onDone(const actionlib::SimpleClientGoalState& state);
+  void onRejected(const std::string& why);
 
   std::string map_frame_;
   std::function<void(DriveOutcome)> outcome_;
-  std::function<void()> taken_;
+  std::function<void(const std::string&)> barred_;
   std::optional<Pose2> T_map_goal_;  ///< under way
+  int rejected_ = 0;                 ///< one after another
   actionlib::SimpleActionClient<move_base_msgs::MoveBaseAction> client_;
 };
 

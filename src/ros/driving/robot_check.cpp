@@ -13,6 +13,7 @@
 #include "cca_mrpt/sensing/missing_returns.hpp"
 #include "cca_mrpt/session/mapping_session.hpp"
 #include "cca_mrpt/slam/slam_localiser.hpp"
+#include "mount_error.hpp"
 #include "ros/input/scan_period.hpp"
 #include "ros/input/scan_placement.hpp"
 #include "ros/messages/scan_message.hpp"
@@ -33,6 +34,8 @@ constexpr double kWrongScale = 0.05;  // of turn or way: line SLAM learns it, ot
 constexpr double kLongestDelay = 0.2, kDelayStep = 0.01, kLeastDelay = 0.03;  // s
 constexpr double kTelling = 10.0;     // times the squared error of the best delay, at the worst one
 constexpr double kOneInstant = 0.02;  // s
+constexpr double kWrongPlace = 0.04, kWrongTurn = 0.04;  // m, rad, of the laser on the robot
+constexpr double kSureOf = 4.0;                          // sigmas
 constexpr std::size_t kLeastScans = 10;
 
 std::string text(const char* format, ...) __attribute__((format(printf, 1, 2)));
@@ -381,6 +384,7 @@ void RobotCheck::checkMotion(const Transforms& tf, std::vector<Finding>& finding
                            ? good(of_ways)
                            : note(of_ways, "calibrate the wheels' radius; line SLAM learns it"));
   }
+  checkMount(tf, drive.by_scans, drive.by_wheels, findings);
   const auto delay = delayOf(drive, tf, settings_.odom_frame, settings_.base_frame);
   if (!delay) return;
   const std::string of_stamps = text("scan: its stamps are %.2f s %s the odometry's",
@@ -388,6 +392,32 @@ void RobotCheck::checkMotion(const Transforms& tf, std::vector<Finding>& finding
   findings.push_back(std::abs(*delay) < kLeastDelay
                          ? good("scan: its stamps are the odometry's")
                          : fault(of_stamps, text("move the driver's stamps by %+.2f s", *delay)));
+}
+
+/// Where the laser is on the robot, by how both have moved.
+void RobotCheck::checkMount(const Transforms& tf, const std::vector<Pose2>& by_scans,
+                            const std::vector<Pose2>& by_wheels,
+                            std::vector<Finding>& findings) const {
+  const std::string &base = settings_.base_frame,
+                    laser = frameName(scans_.front().message.header.frame_id);
+  const auto error = mountError(by_scans, by_wheels);
+  if (!error || laser == base || !tf.has(base, laser, ros::Time())) return;
+  const Pose2& off = error->T_true_told;
+  const double place = off.position().norm(), turn = std::abs(off.theta);
+  const bool is_off = place > kWrongPlace + kSureOf * error->sigma;
+  const bool is_turned = turn > kWrongTurn + kSureOf * error->turn_sigma;
+  if (is_off || is_turned) {
+    const Pose2 told = tf.lookup(base, laser, ros::Time()).pose;
+    const Pose2 mount = Pose2{is_off ? off.x : 0.0, is_off ? off.y : 0.0, off.theta} * told;
+    findings.push_back(fault(
+        text("tf: by how it moves, the laser is at %.2f, %.2f m, %.0f deg, not where tf has it",
+             mount.x, mount.y, kDegrees * mount.theta),
+        text("static_transform_publisher %.2f %.2f Z %.3f PITCH ROLL ", mount.x, mount.y,
+             mount.theta) +
+            base + " " + laser));
+  } else if (error->sigma < kWrongPlace && error->turn_sigma < kWrongTurn) {
+    findings.push_back(good("tf: the laser moves as its place there has it"));
+  }
 }
 
 }  // namespace cca

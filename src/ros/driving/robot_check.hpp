@@ -54,6 +54,8 @@ class RobotCheck {
   void checkFrames(const Transforms& transforms, std::vector<Finding>& findings) const;
   void checkOdometry(std::vector<Finding>& findings) const;
   void checkMotion(const Transforms& transforms, std::vector<Finding>& findings) const;
+  void checkMount(const Transforms& transforms, const std::vector<Pose2>& by_scans,
+                  const std::vector<Pose2>& by_wheels, std::vector<Finding>& findings) const;
 
   Settings settings_;
   std::vector<Heard<sensor_msgs::LaserScan>> scans_;

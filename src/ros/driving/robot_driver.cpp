@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "cca_mrpt/sensing/beam.hpp"
+#include "io/plans/plan_reader.hpp"
 #include "ros/messages/pose_message.hpp"
 #include "ros/nodes/node_localisation.hpp"
 
@@ -75,6 +76,7 @@ RobotDriver::RobotDriver(ros::NodeHandle& node, ros::NodeHandle& private_node,
     ROS_WARN("_resume:=%s has no effect: the robot is told where it is", settings_.resume.c_str());
   }
   exploration_.begin(std::move(localiser), settings_.resume, [this] { standWhileCorrecting(); });
+  if (!settings_.plan.empty()) exploration_.knowPlan(readPlan(settings_.plan).lines);
   exploration_.note("pose", settings_.pose);
   if (settings_.driver == "move_base") {
     delegateDriving();
@@ -113,9 +115,9 @@ void RobotDriver::delegateDriving() {
   exploration_.delegateDriving();
   move_base_.emplace(
       settings_.frames.map, [this](DriveOutcome outcome) { exploration_.noteOutcome(outcome); },
-      [this] {
-        if (exploration_.drives()) exploration_.pause();
-        ROS_WARN("somebody else has sent move_base elsewhere: call ~pause with false to go on");
+      [this](const std::string& why) {
+        if (exploration_.drives()) exploration_.pause(why);
+        ROS_WARN("%s: call ~pause with false to go on", why.c_str());
       });
 }
 

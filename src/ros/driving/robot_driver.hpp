@@ -39,6 +39,7 @@ class RobotDriver {
     double scan_timeout = 0.3;                ///< s
     std::string pose = "tf";  ///< of the robot in the map, from tf, odometry or slam
     std::string resume;       ///< folder of an earlier map, see Exploration::begin()
+    std::string plan;         ///< file of a plan in the map's frame, see Exploration::knowPlan()
     bool corrections = true;  ///< of the past where tf's map -> odom leaps
     RobotParameters robot;
     std::string driver = "cmd_vel";  ///< or move_base

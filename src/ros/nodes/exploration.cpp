@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "cca_mrpt/known_map/planned_sights.hpp"
 #include "cca_mrpt/session/earlier_drive.hpp"
 #include "io/files/memory_file.hpp"
 #include "live/exploration_moment.hpp"
@@ -68,12 +69,26 @@ void Exploration::begin(std::unique_ptr<Localiser> localiser, const std::string&
   session_->explorer().pause(mode_ == Mode::kPaused);
 }
 
+void Exploration::knowPlan(const std::vector<PlanLine>& plan) { known_plan_.emplace(plan); }
+
+void Exploration::lookAtPlan(const Pose2& T_map_robot) {
+  const std::vector<Scan> sights =
+      plannedSights(*known_plan_, T_map_robot.position(), program_.robot.leastClearance());
+  for (const Scan& sight : sights) session_->explorer().observe(sight, sight.T_map_sensor);
+  ROS_INFO("the plan's ways are known, by what is seen from %zu places", sights.size());
+  is_plan_seen_ = true;
+}
+
 Observation Exploration::sense(const Measurement& measurement, const Velocity& velocity) {
   const std::lock_guard<std::mutex> lock(saver_.mutex());
   const bool is_idle = !errand_end_ && (mode_ == Mode::kStopped || finished_);
   if (is_idle && !session_->mapping().localiser().correctsPast()) return {};
   const Observation observation = session_->sense(measurement, velocity);
-  if (session_->estimate().was_corrected) publisher_.correctWay(session_->mapping());
+  const bool was_corrected = session_->estimate().was_corrected;
+  if (was_corrected) publisher_.correctWay(session_->mapping());
+  // A correction makes the ways anew from what was seen. The plan stays where it is.
+  const bool is_plan_due = known_plan_ && observation.is_localised;
+  if (is_plan_due && (was_corrected || !is_plan_seen_)) lookAtPlan(observation.T_map_robot);
   if (slam_) notes_["loops"] = slam_->slam().loops().size();
   if (slam_ && slam_->remembered() > 0) notes_["found_in_memory"] = slam_->slam().isInMemory();
   return observation;
@@ -255,6 +270,14 @@ void Exploration::setMode(Mode mode) {
   state_ = mode == Mode::kStopped  ? "stopped: call ~start to explore"
            : mode == Mode::kPaused ? "paused: " + why_paused_
                                    : "waiting: for the first scan";
+  publisher_.showStatus(state_);
+}
+
+void Exploration::pause(const std::string& why) {
+  setMode(Mode::kPaused);
+  if (finished_) return;
+  why_paused_ = why + "; " + why_paused_;
+  state_ = "paused: " + why_paused_;
   publisher_.showStatus(state_);
 }
 

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "cca_mrpt/io/parameters.hpp"
+#include "cca_mrpt/known_map/plan_lines.hpp"
 #include "cca_mrpt/session/exploration_session.hpp"
 #include "cca_mrpt/slam/slam_localiser.hpp"
 #include "io/maps/grid_recorder.hpp"
@@ -47,6 +48,11 @@ class Exploration {
   void begin(std::unique_ptr<Localiser> localiser, const std::string& resume = "",
              std::function<void()> on_rebuild = {});
 
+  /// A plan of the place, in the map's frame: the robot knows the ways of it that lead on from
+  /// where it is localised first, as if it had seen them. What it sees itself counts in their
+  /// place.
+  void knowPlan(const std::vector<PlanLine>& plan);
+
   /// Localises and maps a scan. Where poses are given, a scan while it is stopped or has finished
   /// is not mapped. @return  for step().
   Observation sense(const Measurement& measurement, const Velocity& velocity);
@@ -66,8 +72,8 @@ class Exploration {
   /// Where the last step wants the robot, and where to it shall look there: only while it drives.
   const std::optional<Pose2>& goal() const { return T_map_goal_; }
   void changeMotion(const RobotParameters& robot) { session_->explorer().changeMotion(robot); }
-  /// As `~pause` with true does.
-  void pause() { setMode(Mode::kPaused); }
+  /// As `~pause` with true does. @param why  part of the status.
+  void pause(const std::string& why);
 
   /// What became of a place that the robot was sent to.
   enum class ErrandOutcome { kReached, kUnreachable, kCalledOff };
@@ -124,6 +130,7 @@ class Exploration {
   void setMode(Mode mode);
   Velocity act(const Action& action, double passed, const ros::Time& stamp);
   void showPage(const Observation& observation, Action action, const ros::Time& stamp);
+  void lookAtPlan(const Pose2& T_map_robot);
   void finish(const ros::Time& stamp);
   MapProducts products() const;
   void tell(const Action& action);
@@ -150,6 +157,8 @@ class Exploration {
   ExplorationPublisher publisher_;
   RunPage page_;
   ros::WallTimer page_timer_;  ///< of a robot that waits, viewers are told why
+  std::optional<PlanLines> known_plan_;
+  bool is_plan_seen_ = false;
   Mode mode_;
   bool finished_ = false, failed_ = false, is_delegated_ = false;
   std::optional<Action> end_;                ///< that waits for conclude()

@@ -42,6 +42,7 @@ Settings readSettings() {
     const auto [shortest, longest] = RobotDriver::kScanTimeouts;
     parameters.number("scan_timeout", s.driver.scan_timeout, shortest, longest, "s");
     parameters.text("resume", s.driver.resume);
+    parameters.text("plan", s.driver.plan);
     parameters.flag("corrections", s.driver.corrections);
     parameters.names("scans", s.driver.scans);
     parameters.text("hazard_points", s.driver.hazard_points);
@@ -55,7 +56,7 @@ Settings readSettings() {
   } else {
     readParameters(parameters, s.simulator);
     sections.insert(sections.end(), {"laser", "odometry"});
-    for (const char* robots : {"scan_timeout", "pose", "resume", "corrections", "scans",
+    for (const char* robots : {"scan_timeout", "pose", "resume", "plan", "corrections", "scans",
                                "hazard_points", "hazard_range", "driver"}) {
       parameters.withoutEffect(robots);
     }
@@ -172,6 +173,7 @@ const NodeDescription kNode{
     "  robot/latency [0.15] s, from a command to where the base acts on it; 0 in a simulated "
     "world\n"
     "  resume [] folder of an earlier map with map.slam: slam goes on with it\n"
+    "  plan [] what localizer takes as its plan: the ways of it are known\n"
     "  corrections [true] the past is placed anew where tf's map -> odom leaps, or by "
     "corrected_path\n"
     "  scans [[scan]] topics of its lasers; it drives by the first, and not into what any sees\n"

@@ -57,7 +57,7 @@ class Localizer {
   Localizer(ros::NodeHandle node, ros::NodeHandle private_node)
       : parameters_(readLocalizerParameters(private_node)),
         plan_(readPlan(parameters_.plan, parameters_.scale)),
-        localiser_(plan_.lines),
+        localiser_(plan_.lines, plan_.sigmas),
         lines_(node, parameters_.frames.map),
         pose_(node, parameters_.frames, "amcl_pose"),
         scans_(node, {parameters_.scans, parameters_.frames.odom, parameters_.frames.base},
