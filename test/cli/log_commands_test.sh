@@ -111,6 +111,28 @@ for name, size in (("a.png", 500), ("b.png", 300), ("c.png", 400)):
     assert head[:8] == b"\x89PNG\r\n\x1a\n", name
     assert struct.unpack(">I", head[16:20])[0] == size, name
 END
+check "render tints the rooms of a map with a grid" "$program" render map/lines.csv --no-caption --out rooms.png --size 300
+check "the floor is tinted" python3 - <<'END'
+import struct, zlib
+data, at, packed = open("rooms.png", "rb").read(), 8, b""
+while at < len(data):
+    (length,), kind = struct.unpack(">I", data[at:at + 4]), data[at + 4:at + 8]
+    body, at = data[at + 8:at + 8 + length], at + 12 + length
+    if kind == b"IHDR":
+        width, height, depth, colours = struct.unpack(">IIBB", body[:10])
+    packed += body if kind == b"IDAT" else b""
+assert depth == 8 and colours in (2, 6)
+n, raw, row, tinted = {2: 3, 6: 4}[colours], zlib.decompress(packed), None, 0
+for y in range(height):
+    begin = y * (width * n + 1)
+    how, last, row = raw[begin], row or bytes(width * n), bytearray(raw[begin + 1:begin + 1 + width * n])
+    for k in range(len(row)):  # the filters of PNG
+        a, b, c = row[k - n] if k >= n else 0, last[k], last[k - n] if k >= n else 0
+        paeth = min((abs(b - c), 0, a), (abs(a - c), 1, b), (abs(a + b - 2 * c), 2, c))[2]
+        row[k] = (row[k] + (0, a, b, (a + b) // 2, paeth)[how]) % 256
+    tinted += sum(max(row[k:k + 3]) - min(row[k:k + 3]) > 3 for k in range(0, len(row), n))
+assert tinted > 0.3 * width * height, (tinted, width, height)
+END
 if command -v ffmpeg >/dev/null; then
   check "render makes a GIF" "$program" render --video --log room.log --out a.gif --size 200 --seconds 1
   check "render makes an MP4" "$program" render --video --log room.log --out a.mp4 --size 200 --seconds 1

@@ -21,6 +21,7 @@
 #include "io/maps/map_picture.hpp"
 #include "io/maps/map_scene.hpp"
 #include "io/maps/occupancy_files.hpp"
+#include "io/plans/plan_files.hpp"
 #include "io/poses/local_frame.hpp"
 #include "io/replay/replay.hpp"
 #include "io/replay/video.hpp"
@@ -98,6 +99,10 @@ void renderPicture(RenderOptions options) {
   products = seenFrom(frameOf(products.lines), std::move(products));
   if (options.picture.view) options.picture.view->translate(-products.origin);
   if (options.log.empty()) addGrid(options.map, products);
+  // Lines and grid are in the picture's frame by now.
+  if (options.picture.background && products.grid)
+    options.picture.rooms =
+        planOfMap(products.lines, *products.grid, Eigen::Vector2d::Zero()).rooms;
   if (!options.log.empty()) addLog(options.log, products);
   if (options.solid) {
     if (options.no_trajectory) products.trajectory.clear();
