@@ -37,7 +37,7 @@ constexpr double kTrustedAfter = 3.0;
 constexpr double kWheelReach = 0.5, kWheelTurn = 0.25;          // m, rad
 constexpr double kWheelPerWay = 0.15, kWheelTurnPerWay = 0.05;  // m/m, rad/m
 constexpr double kWheelTurnPerTurn = 0.05;
-constexpr double kWidestReach = 3.0, kWidestTurn = 0.8;  // m, rad
+constexpr double kWidestReach = 3.0, kWidestTurn = 0.8;  // m, rad; beyond, it is sought anywhere
 
 /// Of a scan in doubt: the robot may have slipped by a part of what is searched.
 constexpr double kSlipSigma = 0.3, kSlipTurnSigma = 0.2;  // m, rad
