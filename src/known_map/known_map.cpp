@@ -33,11 +33,12 @@ constexpr double kVagueSigma = 1.0, kVagueTurnSigma = 0.35;  // m, rad: who know
 /// m, of way that a place has been followed for, to be trusted: out of the room that it was found
 /// in.
 constexpr double kTrustedAfter = 3.0;
-/// What wheels may err by while the robot is lost: at once, of the way, and of turns.
-constexpr double kWheelReach = 0.5, kWheelTurn = 0.25;          // m, rad
-constexpr double kWheelPerWay = 0.15, kWheelTurnPerWay = 0.05;  // m/m, rad/m
-constexpr double kWheelTurnPerTurn = 0.05;
-constexpr double kWidestReach = 3.0, kWidestTurn = 0.8;  // m, rad; beyond, it is sought anywhere
+/// What wheels may err by while the robot is lost: at once [m, rad], of the way [m/m, rad/m], and
+/// of turns [rad/rad].
+constexpr double kWheelReach = 0.5, kWheelTurn = 0.25, kWheelPerWay = 0.15, kWheelTurnPerWay = 0.05,
+                 kWheelTurnPerTurn = 0.05;
+/// m, rad: of what errs by more, the place is sought anywhere.
+constexpr double kWidestReach = 3.0, kWidestTurn = 0.8;
 
 /// Of a scan in doubt: the robot may have slipped by a part of what is searched.
 constexpr double kSlipSigma = 0.3, kSlipTurnSigma = 0.2;  // m, rad

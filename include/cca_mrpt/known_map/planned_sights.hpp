@@ -22,6 +22,7 @@ double rangeInPlan(const PlanLines& plan, const Eigen::Vector2d& p_map, double b
 /// Cost: grows with the area within.
 std::vector<Scan> plannedSights(const PlanLines& plan, const Eigen::Vector2d& start,
                                 double clearance);
-inline constexpr double kPlannedSightSpacing = 1.5;  // m
+/// m, between two of them: a room has one, however small.
+inline constexpr double kPlannedSightSpacing = 1.5;
 
 }  // namespace cca
