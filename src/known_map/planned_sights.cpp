@@ -18,7 +18,7 @@ namespace {
 constexpr double kFloodStep = 0.2;
 constexpr int kSightBeams = 360;        // a degree apart, as those of common lasers
 constexpr double kLongestSight = 20.0;  // m; farther out beams are a cell of the explorer's apart
-constexpr std::size_t kMostSights = 20000;  // 800 m^2 of floor: bounds work and memory
+constexpr std::size_t kMostSights = 20000;  // some 4 hectares: bounds work and memory
 
 /// m, along a ray to a piece; infinite where it passes by.
 double distanceTo(const PlanLines::Piece& piece, const Eigen::Vector2d& p_map,

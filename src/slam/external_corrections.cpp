@@ -15,8 +15,9 @@ namespace {
 // err on the way between the two.
 constexpr double kLeap = 0.1, kLeapTurn = 0.035, kWheels = 0.1;  // m, rad, of the way
 constexpr double kTurnWay = 0.3;                                 // m/rad: wheels turn for that, too
-constexpr double kWorthCorrecting = 0.02, kWorthCorrectingTurn = 0.01;  // m, rad
-constexpr double kSameTime = 0.05;                                      // s, of a pose and a scan
+/// m, rad: a correction by less moves no wall by more than its noise.
+constexpr double kWorthCorrecting = 0.02, kWorthCorrectingTurn = 0.01;
+constexpr double kSameTime = 0.05;  // s, of a pose and a scan
 // Returns, of the 90 that a scan is compared by: wheels that slipped by a tenth of a radian come to
 // 13, a localisation that was wrong by a metre to 65 and more.
 constexpr int kMoreReturns = 30;

@@ -90,7 +90,7 @@ std::optional<GraphEdge> matchEdge(const KeyFrames& frames, int from, int to,
 }
 
 std::vector<FramePair> pairsInView(const KeyFrames& frames, std::size_t of_each) {
-  constexpr double kSameVisit = 10.0;  // m of way
+  constexpr double kSameVisit = 10.0;  // m of way: wheels still hold the two together
   std::vector<double> way(static_cast<std::size_t>(frames.size()), 0.0);
   for (int k = 1; k < frames.size(); ++k) {
     way[static_cast<std::size_t>(k)] =

@@ -13,7 +13,7 @@ namespace {
 /// The likelihood beside a return, as far as it matters.
 class Kernel {
  public:
-  constexpr static int kHalf = 3;  // cells: 2.5 deviations
+  constexpr static int kHalf = 3;  // cells: 2.5 deviations; a byte says little beyond
   Kernel() {
     for (int y = -kHalf; y <= kHalf; ++y) {
       for (int x = -kHalf; x <= kHalf; ++x) {

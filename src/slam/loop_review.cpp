@@ -13,7 +13,7 @@
 namespace cca {
 namespace {
 
-constexpr int kReviews = 4;                // bound the work
+constexpr int kReviews = 4;                // bound the work; each begins at the best map so far
 constexpr std::size_t kMostSearches = 80;  // in a round, spread over what contradicts
 constexpr int kSearchesApart = 5;          // frames: two and a half metres of way
 /// Of a pair's rays that contradict one another, for the place to be looked for again.

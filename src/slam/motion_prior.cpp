@@ -9,7 +9,7 @@ namespace {
 
 // First guess of the random part, wide: it is scaled by what matches show.
 constexpr double kPerWay = 0.10;        // of the way
-constexpr double kPerTurn = 0.15;       // of the turn
+constexpr double kPerTurn = 0.15;       // of the turn: skids turn most
 constexpr double kTurnPerWay = 0.07;    // rad / m: 4 degrees a metre
 constexpr double kShiftPerTurn = 0.05;  // m / rad: the axis of turning is known to 5 cm
 /// m, rad; what a robot that stands may have been pushed.

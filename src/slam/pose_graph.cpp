@@ -137,8 +137,8 @@ class GraphSolver {
   /// Of the diagonal: nearly Gauss-Newton at first; a step that fails is tried with ten times as
   /// much, up to 10^4, where it hardly moves.
   static constexpr double kFirstDamping = 1e-4, kLeastDamping = 1e-7, kMoreDamping = 10.0;
-  static constexpr int kMostFailures = 8;
-  static constexpr double kHeld = 1e-6;  // of what the damping is a share of, at least
+  static constexpr int kMostFailures = 8;  // from the first damping to 10^4
+  static constexpr double kHeld = 1e-6;    // of what the damping is a share of, at least
 
   static std::vector<std::pair<int, int>> pairsOf(const std::vector<GraphEdge>& edges) {
     std::vector<std::pair<int, int>> pairs;

@@ -46,7 +46,7 @@ void takeNormalsOfLines(const std::vector<LineSegment>& lines, double straightne
 
 /// Five neighbouring returns are a surface where they are thin: a fifth as thick as long.
 constexpr double kThin = 0.05;
-constexpr int kNeighbours = 2;  // on either side
+constexpr int kNeighbours = 2;  // on either side: two of them would fit any line
 
 void takeNormalsOfNeighbours(ScanSurface& surface) {
   const int count = static_cast<int>(surface.points.size());

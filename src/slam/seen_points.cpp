@@ -6,6 +6,7 @@
 namespace cca {
 namespace {
 
+/// rad; in single precision, as the bearings are.
 constexpr float kTurn = 6.2831853F, kHalfTurn = 3.1415927F, kQuarterTurn = 1.5707963F;
 /// m; keeps a point at the sensor from a division by zero, and moves no other.
 constexpr float kAtSensor = 1e-12F;

@@ -27,7 +27,7 @@ Eigen::Vector3d difference(const Pose2& b, const Pose2& a) {
 }
 
 int coarseStride(const ScanSurface& query) {
-  constexpr int kCoarseReturns = 90;  // evenly over the scan
+  constexpr int kCoarseReturns = 90;  // evenly over the scan: two degrees apart
   return std::max(1, static_cast<int>(query.points.size()) / kCoarseReturns);
 }
 

@@ -10,7 +10,7 @@ namespace cca {
 namespace {
 
 constexpr std::size_t kJudgesOfVisit = 3;  // of a frame, with its own visit and with others
-constexpr int kPairsAtOnce = 64;
+constexpr int kPairsAtOnce = 64;           // shares of the work that keep all cores busy
 /// Contradictions of other visits that are usual: so many times those within a visit. Sound maps of
 /// real logs come to 1.0 to 1.5 times (intel, fhw, freiburg-079, seattle), wrong ones to 13 and
 /// more.

@@ -12,6 +12,7 @@
 #include "cca_mrpt/io/parameters.hpp"
 #include "cca_mrpt/known_map/planned_sights.hpp"
 #include "cca_mrpt/navigation/explorer.hpp"
+#include "cca_mrpt/sensing/range_noise.hpp"
 #include "localised_drive.hpp"
 
 namespace cca {
@@ -60,13 +61,13 @@ Tally drivesIn(const std::string& name) {
                           : std::vector<Mover>();
   Simulation simulation(world, start, SimulationParameters(), movers);
   Explorer explorer(parameters.robot, parameters.exploration);
-  GlobalPlanner known(parameters.exploration, parameters.robot.leastClearance(),
-                      parameters.robot.radius);
+  WorldModel known(parameters.robot.leastClearance());
+  GlobalPlanner planner(parameters.exploration, parameters.robot.radius);
   const std::vector<Scan> sights = plannedSights(PlanLines(test::trueLines(name)), start.position(),
                                                  parameters.robot.leastClearance());
   for (const Scan& sight : sights) {
-    explorer.observe(sight, sight.T_map_sensor);
-    known.place().observe(sight, sight.T_map_sensor.position());
+    explorer.observe(sight, sight.T_map_sensor, rangeNoise(sight).range_sigma);
+    known.observe(sight, sight.T_map_sensor.position());
   }
   Random random(7);
   Tally tally;
@@ -76,7 +77,7 @@ Tally drivesIn(const std::string& name) {
     const Pose2 goal{sight.T_map_sensor.x + random.uniform(-kAside, kAside),
                      sight.T_map_sensor.y + random.uniform(-kAside, kAside),
                      random.uniform(-M_PI, M_PI)};
-    const auto way = known.pathTo(simulation.T_map_robot().position(), goal.position());
+    const auto way = planner.pathTo(known, simulation.T_map_robot().position(), goal.position());
     if (way.empty() || (way.back() - goal.position()).norm() > 0.05) continue;
     const double before = simulation.distance();
     ++tally.sent;

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cca_mrpt/slam/surface_matching.hpp"
+
 namespace cca::apps {
 namespace {
 

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "cca_mrpt/known_map/planned_sights.hpp"
+#include "cca_mrpt/sensing/range_noise.hpp"
 #include "cca_mrpt/session/earlier_drive.hpp"
 #include "io/files/memory_file.hpp"
 #include "live/exploration_moment.hpp"
@@ -74,7 +75,9 @@ void Exploration::knowPlan(const std::vector<PlanLine>& plan) { known_plan_.empl
 void Exploration::lookAtPlan(const Pose2& T_map_robot) {
   const std::vector<Scan> sights =
       plannedSights(*known_plan_, T_map_robot.position(), program_.robot.leastClearance());
-  for (const Scan& sight : sights) session_->explorer().observe(sight, sight.T_map_sensor);
+  for (const Scan& sight : sights) {
+    session_->explorer().observe(sight, sight.T_map_sensor, rangeNoise(sight).range_sigma);
+  }
   ROS_INFO("the plan's ways are known, by what is seen from %zu places", sights.size());
   is_plan_seen_ = true;
 }
