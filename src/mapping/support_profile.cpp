@@ -7,8 +7,11 @@
 namespace cca {
 namespace {
 
-constexpr int kWindow = 2;            // bins on either side that speak for a place
-constexpr double kFewestRays = 2.0;   // that can refute a place, where they are no fewer than hits
+constexpr int kWindow = 2;           // bins on either side that speak for a place
+constexpr double kFewestRays = 2.0;  // that can refute a place: a single one may err
+/// From which on a place is free. While a map grows, the rays that passed before the wall was
+/// created are not counted; in hindsight all are, and the greater number decides.
+constexpr double kRaysPerHit = 0.5, kRaysPerHitInHindsight = 1.0;
 constexpr double kPartingRays = 2.0;  // that keep a gap open
 
 /// The mean point of a bin that holds hits, of its weight.
@@ -107,7 +110,8 @@ SupportProfile::Counts SupportProfile::countsAround(int i) const {
 }
 
 bool SupportProfile::stand(const Counts& counts) const {
-  return counts.passed < std::max(kFewestRays, counts.hits);
+  const double rays_per_hit = in_hindsight_ ? kRaysPerHitInHindsight : kRaysPerHit;
+  return counts.passed < std::max(kFewestRays, rays_per_hit * counts.hits);
 }
 
 void SupportProfile::add(const SupportBin& other) {
@@ -127,6 +131,7 @@ void SupportProfile::add(const SupportBin& other) {
 
 void SupportProfile::forget() {
   added_up_ = false;
+  in_hindsight_ = true;
   bins_.assign(bins_.size(), SupportBin{});
 }
 
@@ -139,6 +144,7 @@ SupportProfile SupportProfile::cutFrom(int from) {
   added_up_ = false;
   SupportProfile tail;
   const auto begin = bins_.begin() + (from - first_);
+  tail.in_hindsight_ = in_hindsight_;
   tail.first_ = from;
   tail.bins_.assign(begin, bins_.end());
   bins_.erase(begin, bins_.end());

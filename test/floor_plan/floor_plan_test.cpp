@@ -415,7 +415,8 @@ TEST(FloorPlan, TakesNoDottedLineForAWall) {
   MapLine pane = map.lines.front();
   pane.id = 99;
   pane.kind = LineKind::kDotted;
-  pane.segment = {{2.5, 0.5}, {2.5, 3.5}};
+  pane.segment.start = {2.5, 0.5};
+  pane.segment.end = {2.5, 3.5};
   map.lines.push_back(pane);
   EXPECT_EQ(floorPlan(map.grid, map.lines).walls.size(), plan.walls.size());
 }

@@ -120,6 +120,7 @@ class SupportProfile {
 
   int first_ = 0;
   std::vector<SupportBin> bins_;
+  bool in_hindsight_ = false;      ///< its returns and rays are those of all scans
   mutable bool added_up_ = false;  ///< tally_ holds
   mutable BinTally tally_;
 };

@@ -72,14 +72,18 @@ std::optional<FloorPlan> addPlan(const std::string& folder, const MapProducts& m
   }
 }
 
-/// Rooms in the frame that lies at p_frame in theirs.
+/// Rooms in the frame that lies at p_frame in theirs, to the micrometre: what is drawn does not
+/// depend on where that is.
 std::vector<PlanRoom> seenFrom(const Eigen::Vector2d& p_frame, std::vector<PlanRoom> rooms) {
+  const auto move = [&p_frame](Eigen::Vector2d& p) {
+    p = (1e6 * (p - p_frame)).array().round().matrix() / 1e6;
+  };
   for (PlanRoom& room : rooms) {
-    for (Eigen::Vector2d& p : room.outline) p -= p_frame;
+    for (Eigen::Vector2d& p : room.outline) move(p);
     for (Polygon& hole : room.holes) {
-      for (Eigen::Vector2d& p : hole) p -= p_frame;
+      for (Eigen::Vector2d& p : hole) move(p);
     }
-    room.label -= p_frame;
+    move(room.label);
   }
   return rooms;
 }
