@@ -5,7 +5,6 @@ of a place that nobody has mapped, and driven by `explore _plan:=` to where rviz
 import json
 import math
 import os
-import unittest
 
 import rospy
 from geometry_msgs.msg import PoseStamped, PoseWithCovarianceStamped
