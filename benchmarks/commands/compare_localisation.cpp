@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "apps/logs/pose_errors.hpp"
+#include "apps/logs/told_start.hpp"
 #include "apps/runs/interruption.hpp"
 #include "cca_mrpt/io/log_reader.hpp"
 #include "cca_mrpt/known_map/known_map.hpp"
@@ -23,9 +24,6 @@ namespace {
 using namespace apps;
 using peers::MonteCarlo;
 using peers::MonteCarloSettings;
-
-/// Of where each begins, as people tell it: to half a metre and 15 degrees.
-constexpr double kStartSigma = 0.25, kStartTurnSigma = 0.13;  // m, rad
 
 struct LocalisationComparison {
   std::vector<std::string> logs;
@@ -48,8 +46,7 @@ Tracker monteCarlo(const std::string& name, const MonteCarloSettings& settings) 
 std::vector<Tracker> allTrackers() {
   const auto byLines = [](const PlanFile& plan, const Pose2& start) {
     auto lines = std::make_unique<KnownMap>(plan.lines, plan.sigmas);
-    const Eigen::Vector3d sigmas(kStartSigma, kStartSigma, kStartTurnSigma);
-    lines->place(start, sigmas.cwiseAbs2().asDiagonal());
+    placeAbout(start, *lines);
     return lines;
   };
   // amcl's own settings, and finer ones that cost more.

@@ -36,7 +36,7 @@ check floor_plan 'geometry|mapping|floor_plan' '<boost/geometry[a-z_/]*\.hpp>|'
 # The benchmarks use the product by its public headers, and by few of its own use; the product knows nothing of them.
 own='"(baselines|commands|evidence|peers)/[a-z_]+\.hpp"'
 found=$(grep -rnE '^\s*#\s*include "' benchmarks --exclude-dir=tests --exclude-dir=timing | grep -vE "$own|\"(cca_mrpt/[a-z_/0-9]+|\
-apps/(program|logs/pose_errors|options/(moved|parameter_options)|runs/(interruption|progress))|evaluation/(log_score|spatial_index|world_score)|\
+apps/(program|logs/(pose_errors|told_start)|options/(moved|parameter_options)|runs/(interruption|progress))|evaluation/(log_score|spatial_index|world_score)|\
 io/(files/atomic_file|lines/segments_csv|logs/measurements|plans/plan_reader|maps/map_picture|poses/(local_frame|mrpt_steps|pose_source|trajectory_error)))\.hpp\"")
 [ -z "$found" ] || { echo "benchmarks include what only the product may:"; echo "$found"; failed=1; }
 found=$(grep -rnE '^\s*#\s*include "(baselines|evidence|peers)/' include src)

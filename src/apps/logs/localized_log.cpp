@@ -6,21 +6,14 @@
 #include <cstdio>
 
 #include "io/logs/measurements.hpp"
+#include "told_start.hpp"
 
 namespace cca::apps {
-namespace {
-
-/// Of where a log begins, as people tell it: half a metre and 15 degrees are two sigmas.
-constexpr double kStartSigma = 0.25, kStartTurnSigma = 0.13;
-
-}  // namespace
 
 LocalizedLog::LocalizedLog(const std::vector<PlanLine>& plan, const std::vector<LineSigma>& sigmas,
                            const std::optional<Pose2>& start)
     : localiser_(plan, sigmas) {
-  if (!start) return;
-  const Eigen::Vector3d about(kStartSigma, kStartSigma, kStartTurnSigma);
-  localiser_.place(*start, about.cwiseAbs2().asDiagonal());
+  if (start) placeAbout(*start, localiser_);
 }
 
 void LocalizedLog::take(LogReader& log, const std::function<bool()>& goes_on) {
