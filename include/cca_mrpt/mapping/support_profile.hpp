@@ -58,8 +58,8 @@ struct Stretch {
 /// The 1-D occupancy histogram along a wall.
 class SupportProfile {
  public:
-  static constexpr double kBinLength =
-      0.05;  ///< m; a jamb of 0.1 m has two, and ends are right to half
+  /// m; a jamb of 0.1 m has two, and ends are right to half a bin.
+  static constexpr double kBinLength = 0.05;
   static int binOf(double t) {
     const double x = t / kBinLength;
     const int i = static_cast<int>(x);  // towards zero; std::floor is a call on a plain x86-64
