@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "cca_mrpt/geometry/cross.hpp"
+#include "geometry/cross.hpp"
 
 namespace cca::baselines {
 namespace {

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "baselines/hough_transform.hpp"
-#include "cca_mrpt/geometry/cross.hpp"
+#include "geometry/cross.hpp"
 
 namespace cca::baselines {
 namespace {

@@ -13,11 +13,11 @@
 #include "cca_mrpt/io/log_reader.hpp"
 #include "cca_mrpt/localisation/given_poses.hpp"
 #include "cca_mrpt/session/mapping_session.hpp"
-#include "cca_mrpt/simulation/random.hpp"
 #include "commands/commands.hpp"
 #include "evaluation/log_score.hpp"
 #include "evidence/statistics.hpp"
 #include "evidence/tuning_design.hpp"
+#include "simulation/random.hpp"
 
 namespace cca::bench {
 namespace {

@@ -13,6 +13,7 @@
 #include "apps/runs/interruption.hpp"
 #include "cca_mrpt/io/log_reader.hpp"
 #include "cca_mrpt/known_map/known_map.hpp"
+#include "cca_mrpt/mapping/line_extraction.hpp"
 #include "commands/commands.hpp"
 #include "io/logs/measurements.hpp"
 #include "io/plans/plan_reader.hpp"

@@ -10,13 +10,13 @@
 #include <vector>
 
 #include "apps/runs/interruption.hpp"
-#include "cca_mrpt/io/pose_files.hpp"
 #include "cca_mrpt/io/scan_grid.hpp"
 #include "cca_mrpt/mapping/line_map.hpp"
 #include "commands/commands.hpp"
 #include "io/files/atomic_file.hpp"
 #include "io/maps/map_picture.hpp"
 #include "io/poses/local_frame.hpp"
+#include "io/poses/pose_files.hpp"
 #include "io/poses/pose_source.hpp"
 #include "io/poses/trajectory_error.hpp"
 #include "peers/particle_slam.hpp"

@@ -9,9 +9,9 @@
 #include <string>
 #include <utility>
 
-#include "cca_mrpt/geometry/cross.hpp"
 #include "cca_mrpt/io/log_reader.hpp"
 #include "cca_mrpt/simulation/world.hpp"
+#include "geometry/cross.hpp"
 #include "io/lines/segments_csv.hpp"
 
 namespace cca::evidence {

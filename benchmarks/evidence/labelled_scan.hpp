@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "cca_mrpt/sensing/scan.hpp"
-#include "cca_mrpt/simulation/laser.hpp"
-#include "cca_mrpt/simulation/random.hpp"
 #include "evaluation/spatial_index.hpp"
+#include "simulation/laser.hpp"
+#include "simulation/random.hpp"
 
 /// What the claims rest on: scans with known truth, scores, statistics.
 namespace cca::evidence {

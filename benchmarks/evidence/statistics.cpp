@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "cca_mrpt/simulation/random.hpp"
+#include "simulation/random.hpp"
 
 namespace cca::evidence {
 namespace {

@@ -4,8 +4,8 @@
 #include <memory>
 #include <vector>
 
-#include "cca_mrpt/known_map/plan_lines.hpp"
 #include "cca_mrpt/localisation/localiser.hpp"
+#include "known_map/plan_lines.hpp"
 
 namespace cca::peers {
 

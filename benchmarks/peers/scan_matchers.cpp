@@ -8,8 +8,8 @@
 #include <cmath>
 #include <utility>
 
-#include "cca_mrpt/geometry/cross.hpp"
 #include "evaluation/spatial_index.hpp"
+#include "geometry/cross.hpp"
 
 namespace cca::peers {
 namespace {

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "cca_mrpt/slam/slam.hpp"
+#include "slam/surface_matching.hpp"
 
 namespace cca::peers {
 

@@ -8,10 +8,10 @@
 #include <limits>
 #include <vector>
 
-#include "cca_mrpt/geometry/cross.hpp"
 #include "cca_mrpt/mapping/line_extraction.hpp"
-#include "cca_mrpt/simulation/random.hpp"
 #include "cca_mrpt/simulation/world_generator.hpp"
+#include "geometry/cross.hpp"
+#include "simulation/random.hpp"
 
 namespace cca {
 namespace {

@@ -9,7 +9,7 @@
 #include <limits>
 
 #include "cca_mrpt/geometry/cell.hpp"
-#include "cca_mrpt/navigation/planning/global_planner.hpp"
+#include "navigation/planning/global_planner.hpp"
 
 namespace {
 

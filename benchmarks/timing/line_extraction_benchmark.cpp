@@ -2,12 +2,12 @@
 // What each step from a scan to its lines costs, against the number of beams and of walls.
 #include <benchmark/benchmark.h>
 
-#include "cca_mrpt/mapping/corner_refinement.hpp"
-#include "cca_mrpt/mapping/k_means.hpp"
 #include "cca_mrpt/mapping/line_extraction.hpp"
-#include "cca_mrpt/mapping/point_clusters.hpp"
-#include "cca_mrpt/mapping/poly_lines.hpp"
-#include "cca_mrpt/mapping/rank_order_clustering.hpp"
+#include "mapping/corner_refinement.hpp"
+#include "mapping/k_means.hpp"
+#include "mapping/point_clusters.hpp"
+#include "mapping/poly_lines.hpp"
+#include "mapping/rank_order_clustering.hpp"
 #include "sensing/polygon_room.hpp"
 
 namespace cca {

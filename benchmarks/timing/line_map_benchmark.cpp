@@ -7,6 +7,7 @@
 #include "cca_mrpt/mapping/line_extraction.hpp"
 #include "cca_mrpt/mapping/line_map.hpp"
 #include "mapping/segment_world.hpp"
+#include "mapping/walls.hpp"
 
 namespace {
 

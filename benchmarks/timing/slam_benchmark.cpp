@@ -49,8 +49,8 @@ void measure(const char* path) {
   std::sort(steps.begin(), steps.end());
   std::printf("| %s | %zu | %zu | %d | %zu | %.2f | %.2f | %.2f | %.1f | %.0f | %.0f |\n",
               std::filesystem::path(path).filename().c_str(), steps.size(), beams,
-              slam.keyFrames().size(), slam.loops().size(), quantile(steps, 0.5),
-              quantile(steps, 0.9), quantile(steps, 0.99), steps.back(), finish,
+              slam.graph().size(), slam.loopsClosed(), quantile(steps, 0.5), quantile(steps, 0.9),
+              quantile(steps, 0.99), steps.back(), finish,
               1e3 * static_cast<double>(steps.size()) / (all + finish));
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <benchmark/benchmark.h>
 
-#include "cca_mrpt/navigation/control/tangent_bug/tangent_bug.hpp"
+#include "navigation/control/tangent_bug/tangent_bug.hpp"
 #include "navigation/random_worlds.hpp"
 #include "navigation/traps.hpp"
 

@@ -5,7 +5,7 @@
 
 #include <vector>
 
-#include "cca_mrpt/mapping/wall.hpp"
+#include "mapping/wall.hpp"
 
 namespace cca::python {
 

@@ -10,9 +10,9 @@
 #include <stdexcept>
 #include <utility>
 
-#include "cca_mrpt/io/pose_files.hpp"
 #include "io/lines/line_formats.hpp"
 #include "io/poses/local_frame.hpp"
+#include "io/poses/pose_files.hpp"
 #include "io/replay/replay.hpp"
 #include "line_arrays.hpp"
 #include "module.hpp"

@@ -9,6 +9,7 @@
 
 #include "arguments.hpp"
 #include "cca_mrpt/localisation/given_poses.hpp"
+#include "cca_mrpt/navigation/world/exploration_grid.hpp"
 #include "cca_mrpt/session/exploration_session.hpp"
 #include "mapping.hpp"
 #include "module.hpp"

@@ -217,9 +217,9 @@ MappedScans resultOf(const Mapping& mapping) {
   result.distance = drivenLength(result.trajectory);
   if (mapping.slam) {
     const Slam& slam = mapping.slam->slam();
-    result.graph = slam.keyFrames().graph;
+    result.graph = slam.graph();
     result.memory = {slam.memory(), mapping.origin};
-    result.loops = slam.loops().size();
+    result.loops = slam.loopsClosed();
   }
   result.grid = mapping.recorder->raster();
   result.pose = nameOf(mapping.pose);

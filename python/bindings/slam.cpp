@@ -140,7 +140,7 @@ Raises:
           "Of each scan so far, whether its place in the map is known.")
       .def_prop_ro(
           "loops",
-          [](SharedSlam& slam) { return slam.with([](Slam& own) { return own.loops().size(); }); },
+          [](SharedSlam& slam) { return slam.with([](Slam& own) { return own.loopsClosed(); }); },
           "Number of loops that were closed.")
       .def_prop_ro(
           "version",
@@ -149,7 +149,7 @@ Raises:
       .def("__repr__", [](SharedSlam& slam) {
         return slam.with([](Slam& own) {
           return "Slam(" + std::to_string(own.trajectory().size()) + " scans, " +
-                 std::to_string(own.loops().size()) + " loops)";
+                 std::to_string(own.loopsClosed()) + " loops)";
         });
       });
 }

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <set>
 
-#include "cca_mrpt/geometry/cross.hpp"
+#include "geometry/cross.hpp"
 
 #include "log_score_parts.hpp"
 

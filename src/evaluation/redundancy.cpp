@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "cca_mrpt/geometry/cross.hpp"
+#include "geometry/cross.hpp"
 
 #include "log_score_parts.hpp"
 

@@ -3,9 +3,9 @@
 
 #include <vector>
 
-#include "cca_mrpt/mapping/wall.hpp"
 #include "evaluation/log_score.hpp"
 #include "evaluation/spatial_index.hpp"
+#include "mapping/wall.hpp"
 
 namespace cca {
 

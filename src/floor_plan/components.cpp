@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "cca_mrpt/floor_plan/components.hpp"
+#include "floor_plan/components.hpp"
 
 #include <algorithm>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "cca_mrpt/floor_plan/distance_transform.hpp"
+#include "floor_plan/distance_transform.hpp"
 
 #include <algorithm>
 #include <limits>

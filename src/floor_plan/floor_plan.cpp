@@ -4,13 +4,16 @@
 #include <algorithm>
 #include <cmath>
 
-#include "cca_mrpt/floor_plan/distance_transform.hpp"
-#include "cca_mrpt/floor_plan/furniture.hpp"
-#include "cca_mrpt/floor_plan/jambs.hpp"
-#include "cca_mrpt/floor_plan/polygon_measures.hpp"
-#include "cca_mrpt/floor_plan/region_outline.hpp"
-#include "cca_mrpt/floor_plan/room_outline.hpp"
-#include "cca_mrpt/floor_plan/walls.hpp"
+#include "floor_plan/distance_transform.hpp"
+#include "floor_plan/furniture.hpp"
+#include "floor_plan/jambs.hpp"
+#include "floor_plan/passages.hpp"
+#include "floor_plan/polygon_measures.hpp"
+#include "floor_plan/region_outline.hpp"
+#include "floor_plan/room_outline.hpp"
+#include "floor_plan/room_regions.hpp"
+#include "floor_plan/structure.hpp"
+#include "floor_plan/walls.hpp"
 
 namespace cca {
 namespace {
@@ -23,17 +26,16 @@ constexpr double kSmallestHole = 0.05;         // m^2
 constexpr double kBeyondGrid = 1.0;            // m, ends of lines overshoot what is known by less
 
 std::vector<Passage> candidatePassages(const Structure& structure, const Raster<float>& clearance,
-                                       const std::vector<MapLine>& lines,
-                                       const PassageTuning& tuning) {
+                                       const std::vector<MapLine>& lines) {
   const std::vector<WallEnd> ends = freeWallEnds(structure.solid, lines);
-  std::vector<Passage> gaps = gapsInWalls(structure.solid, lines, tuning);
-  for (const Passage& gap : gapsBetweenEnds(structure.solid, ends, tuning)) gaps.push_back(gap);
-  for (const Passage& gap : gapsAtCorners(structure.solid, lines, tuning)) gaps.push_back(gap);
-  std::vector<Passage> narrow = narrowings(structure.solid, clearance, ends, tuning);
-  for (Passage& gap : gaps) gap = centred(structure.solid, gap, tuning);
-  for (Passage& gap : narrow) gap = centred(structure.solid, gap, tuning);
-  std::vector<Passage> passages = joinPassages(std::move(gaps), narrow, tuning);
-  for (Passage& passage : passages) passage.support = wallSupport(passage, lines, tuning);
+  std::vector<Passage> gaps = gapsInWalls(structure.solid, lines);
+  for (const Passage& gap : gapsBetweenEnds(structure.solid, ends)) gaps.push_back(gap);
+  for (const Passage& gap : gapsAtCorners(structure.solid, lines)) gaps.push_back(gap);
+  std::vector<Passage> narrow = narrowings(structure.solid, clearance, ends);
+  for (Passage& gap : gaps) gap = centred(structure.solid, gap);
+  for (Passage& gap : narrow) gap = centred(structure.solid, gap);
+  std::vector<Passage> passages = joinPassages(std::move(gaps), narrow);
+  for (Passage& passage : passages) passage.support = wallSupport(passage, lines);
   return passages;
 }
 
@@ -236,8 +238,7 @@ std::vector<MapLine> facesOf(const Mask& solid, const std::vector<MapLine>& line
 
 }  // namespace
 
-FloorPlan floorPlan(const OccupancyRaster& whole, const std::vector<MapLine>& map_lines,
-                    const FloorPlanTuning& tuning) {
+FloorPlan floorPlan(const OccupancyRaster& whole, const std::vector<MapLine>& map_lines) {
   FloorPlan plan;
   const OccupancyRaster grid = cropToKnown(whole, kMargin);
   plan.room_of = grid.alike(0);
@@ -246,13 +247,12 @@ FloorPlan floorPlan(const OccupancyRaster& whole, const std::vector<MapLine>& ma
   const Eigen::Vector2d size = grid.resolution * Eigen::Vector2d(grid.columns, grid.rows);
   const std::vector<MapLine> all_lines =
       linesWithin({grid.origin - beyond, grid.origin + size + beyond}, map_lines);
-  const Structure structure = tellStructure(grid, all_lines, tuning.structure);
+  const Structure structure = tellStructure(grid, all_lines);
   const std::vector<MapLine> lines = facesOf(structure.solid, all_lines);
   const Raster<float> clearance = distanceTransform(structure.solid);
-  RoomRegions regions = partitionIntoRooms(
-      spaceForRooms(structure, clearance, tuning.structure), clearance,
-      hiddenFloor(grid, all_lines), candidatePassages(structure, clearance, lines, tuning.passages),
-      tuning.rooms);
+  RoomRegions regions = partitionIntoRooms(spaceForRooms(structure, clearance), clearance,
+                                           hiddenFloor(grid, all_lines),
+                                           candidatePassages(structure, clearance, lines));
   for (RoomBorder& border : regions.borders)
     border.passage = withJambsOfLines(border.passage, lines);
   plan.openings = openingsOf(regions);

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "cca_mrpt/floor_plan/furniture.hpp"
+#include "floor_plan/furniture.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-#include "cca_mrpt/floor_plan/components.hpp"
-#include "cca_mrpt/floor_plan/region_outline.hpp"
-#include "cca_mrpt/floor_plan/room_outline.hpp"
-#include "cca_mrpt/geometry/cross.hpp"
+#include "floor_plan/components.hpp"
+#include "floor_plan/region_outline.hpp"
+#include "floor_plan/room_outline.hpp"
+#include "geometry/cross.hpp"
 
 namespace cca {
 namespace {

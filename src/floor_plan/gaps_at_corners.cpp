@@ -3,9 +3,9 @@
 #include <cmath>
 #include <optional>
 
-#include "cca_mrpt/floor_plan/passages.hpp"
-#include "cca_mrpt/geometry/cross.hpp"
-#include "clear_way.hpp"
+#include "floor_plan/clear_way.hpp"
+#include "floor_plan/passages.hpp"
+#include "geometry/cross.hpp"
 
 namespace cca {
 namespace {

@@ -2,8 +2,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "cca_mrpt/floor_plan/passages.hpp"
-#include "clear_way.hpp"
+#include "floor_plan/clear_way.hpp"
+#include "floor_plan/passages.hpp"
 
 namespace cca {
 namespace {

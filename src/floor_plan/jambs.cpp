@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "cca_mrpt/floor_plan/jambs.hpp"
+#include "floor_plan/jambs.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <optional>
 
-#include "cca_mrpt/geometry/cross.hpp"
+#include "geometry/cross.hpp"
 
 namespace cca {
 namespace {

@@ -7,8 +7,8 @@
 #include <optional>
 #include <utility>
 
-#include "cca_mrpt/floor_plan/components.hpp"
-#include "cca_mrpt/floor_plan/passages.hpp"
+#include "floor_plan/components.hpp"
+#include "floor_plan/passages.hpp"
 
 namespace cca {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "cca_mrpt/floor_plan/polygon_measures.hpp"
+#include "floor_plan/polygon_measures.hpp"
 
 // Coordinates in metres need no rescaling to whole numbers.
 #define BOOST_GEOMETRY_NO_ROBUSTNESS

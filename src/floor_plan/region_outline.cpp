@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "cca_mrpt/floor_plan/region_outline.hpp"
+#include "floor_plan/region_outline.hpp"
 
 #include <array>
 
-#include "cca_mrpt/geometry/cross.hpp"
+#include "geometry/cross.hpp"
 
 namespace cca {
 namespace {

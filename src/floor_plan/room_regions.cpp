@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "cca_mrpt/floor_plan/room_regions.hpp"
+#include "floor_plan/room_regions.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -7,7 +7,7 @@
 #include <numeric>
 #include <utility>
 
-#include "cca_mrpt/floor_plan/components.hpp"
+#include "floor_plan/components.hpp"
 
 namespace cca {
 namespace {

@@ -2,9 +2,9 @@
 #include <cmath>
 #include <optional>
 
-#include "cca_mrpt/floor_plan/region_outline.hpp"
-#include "cca_mrpt/floor_plan/room_outline.hpp"
-#include "cca_mrpt/geometry/cross.hpp"
+#include "floor_plan/region_outline.hpp"
+#include "floor_plan/room_outline.hpp"
+#include "geometry/cross.hpp"
 
 namespace cca {
 namespace {

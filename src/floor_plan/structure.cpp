@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "cca_mrpt/floor_plan/structure.hpp"
+#include "floor_plan/structure.hpp"
 
 #include <algorithm>
 #include <set>
 
-#include "cca_mrpt/floor_plan/distance_transform.hpp"
+#include "floor_plan/distance_transform.hpp"
 
 namespace cca {
 namespace {

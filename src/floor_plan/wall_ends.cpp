@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "cca_mrpt/floor_plan/wall_ends.hpp"
+#include "floor_plan/wall_ends.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-#include "cca_mrpt/geometry/cross.hpp"
+#include "geometry/cross.hpp"
 
 namespace cca {
 namespace {

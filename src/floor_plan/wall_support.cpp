@@ -3,8 +3,8 @@
 #include <cmath>
 #include <utility>
 
-#include "cca_mrpt/floor_plan/passages.hpp"
-#include "cca_mrpt/geometry/cross.hpp"
+#include "floor_plan/passages.hpp"
+#include "geometry/cross.hpp"
 
 namespace cca {
 namespace {

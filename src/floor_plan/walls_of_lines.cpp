@@ -2,8 +2,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "cca_mrpt/floor_plan/walls.hpp"
-#include "cca_mrpt/geometry/cross.hpp"
+#include "floor_plan/walls.hpp"
+#include "geometry/cross.hpp"
 
 namespace cca {
 namespace {

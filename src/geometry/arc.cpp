@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "cca_mrpt/geometry/arc.hpp"
-#include "cca_mrpt/geometry/cross.hpp"
+#include "geometry/cross.hpp"
 
 namespace cca {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "cca_mrpt/known_map/global_localisation.hpp"
+#include "known_map/global_localisation.hpp"
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>

@@ -5,6 +5,11 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <optional>
+
+#include "cca_mrpt/mapping/line_extraction.hpp"
+#include "known_map/global_localisation.hpp"
+#include "slam/motion_prior.hpp"
 
 namespace cca {
 namespace {
@@ -81,8 +86,86 @@ double newsOf(const Pose2& step) {
 
 }  // namespace
 
-KnownMap::KnownMap(const std::vector<PlanLine>& plan, const std::vector<LineSigma>& sigmas,
-                   const LocalisationEffort& effort)
+/// All that is known of the place and of the robot in it.
+class KnownMap::State {
+ public:
+  State(const std::vector<PlanLine>& plan, const std::vector<LineSigma>& sigmas,
+        const LocalisationEffort& effort);
+
+  void place(const Pose2& T_map_robot, const Eigen::Matrix3d& covariance);
+  Estimate update(const Measurement& measurement, const AnalysedScan& analysed);
+
+  int timesLost() const { return times_lost_; }
+  const SightShares& seen() const { return seen_; }
+  double residual() const { return residual_; }
+  const SightModel& sights() const { return sights_; }
+  double planSigma() const { return plan_sigma_; }
+  const PlanLines& plan() const { return plan_; }
+  const GlobalLocalisation& global() const { return global_; }
+
+ private:
+  struct Told {
+    Pose2 T_map_robot;
+    Eigen::Matrix3d covariance;
+  };
+  struct Fit {
+    PlanMatch match;
+    SightShares seen;
+    double evidence = 0.0;  ///< nats a beam
+  };
+  /// What the beams said of a piece of the plan.
+  struct PieceRecord {
+    double explained = 0.0, through = 0.0;
+  };
+  Fit fitAt(const ScanSurface& surface, const Pose2& start, const PoseBelief& prior, double reach,
+            double share) const;
+  double doubt() const;
+  void track(const ScanSurface& surface, const std::optional<Pose2>& wheel_step,
+             const MotionBelief& motion);
+  Fit fitAbout(const ScanSurface& surface, const PoseBelief& prior, double share) const;
+  void search(const ScanSurface& surface, const MotionBelief& motion);
+  /// The robot is where it was found, and is followed from there on.
+  void follow(const Fit& found);
+  void takePlace(const ScanSurface& surface, const Pose2& T_robot_sensor);
+  void learn(const ScanSurface& surface, const Fit& fit, double share);
+  void countDoubt(bool is_doubtful, const Pose2& step);
+  void lose();
+  void expectAlongWheels();
+  Estimate estimate(const Pose2& T_robot_sensor) const;
+
+  PlanLines plan_;
+  LocalisationEffort effort_;
+  GlobalLocalisation global_;
+  MotionPrior motion_;
+  SightModel sights_;
+  double plan_sigma_;
+  std::vector<PieceRecord> records_;
+  std::vector<bool> is_open_;  ///< pieces that rays pass: doors
+  std::optional<Told> told_;
+  std::optional<Pose2> last_odom_sensor_;
+  Pose2 T_map_sensor_;
+  Eigen::Matrix3d covariance_ = Eigen::Matrix3d::Zero();
+  Eigen::Matrix3d scan_covariance_ = Eigen::Matrix3d::Identity();  ///< see PlanMatching
+  LineSigma map_sigma_;                                            ///< see PlanMatch
+  Pose2 T_wheels_sensor_;                        ///< since the beginning, whoever carried the robot
+  double wheels_way_ = 0.0, wheels_turn_ = 0.0;  ///< m, rad, of these in all
+  /// The last place that the robot has been followed to for a while, and when that was.
+  struct Trusted {
+    Pose2 T_map_wheels;
+    double wheels_way, wheels_turn;
+  };
+  std::optional<Trusted> trusted_;
+  double followed_way_ = 0.0;  ///< m, since it was placed or found
+  bool is_localised_ = false, is_fresh_ = true;
+  int times_lost_ = 0;
+  int doubtful_scans_ = 0;
+  double doubtful_way_ = 0.0;
+  SightShares seen_;
+  double residual_ = 0.0;
+};
+
+KnownMap::State::State(const std::vector<PlanLine>& plan, const std::vector<LineSigma>& sigmas,
+                       const LocalisationEffort& effort)
     : plan_(plan, sigmas),
       effort_(effort),
       global_(plan_),
@@ -90,12 +173,11 @@ KnownMap::KnownMap(const std::vector<PlanLine>& plan, const std::vector<LineSigm
       records_(plan_.pieces().size()),
       is_open_(plan_.pieces().size(), false) {}
 
-void KnownMap::place(const Pose2& T_map_robot, const Eigen::Matrix3d& covariance) {
+void KnownMap::State::place(const Pose2& T_map_robot, const Eigen::Matrix3d& covariance) {
   told_ = Told{T_map_robot, covariance};
 }
 
-Estimate KnownMap::update(const Measurement& measurement, const AnalysedScan& analysed,
-                          const PastScans& /*past*/) {
+Estimate KnownMap::State::update(const Measurement& measurement, const AnalysedScan& analysed) {
   const ScanSurface surface = scanSurface(analysed);
   std::optional<Pose2> odom_sensor, wheel_step;
   if (measurement.T_odom_robot && isFinite(*measurement.T_odom_robot)) {
@@ -120,8 +202,9 @@ Estimate KnownMap::update(const Measurement& measurement, const AnalysedScan& an
   return estimate(measurement.T_robot_sensor);
 }
 
-KnownMap::Fit KnownMap::fitAt(const ScanSurface& surface, const Pose2& start,
-                              const PoseBelief& prior, double reach, double share) const {
+KnownMap::State::Fit KnownMap::State::fitAt(const ScanSurface& surface, const Pose2& start,
+                                            const PoseBelief& prior, double reach,
+                                            double share) const {
   PlanMatching how;
   how.first_reach = reach;
   how.plan_sigma = plan_sigma_;
@@ -136,13 +219,13 @@ KnownMap::Fit KnownMap::fitAt(const ScanSurface& surface, const Pose2& start,
   return fit;
 }
 
-double KnownMap::doubt() const {
+double KnownMap::State::doubt() const {
   return std::max(kDoubt, kDoubtOfUsual * sights_.evidence(sights_.usual()));
 }
 
 /// Downhill from the wheels' word; where that does not fit, from what fits best around.
-KnownMap::Fit KnownMap::fitAbout(const ScanSurface& surface, const PoseBelief& prior,
-                                 double share) const {
+KnownMap::State::Fit KnownMap::State::fitAbout(const ScanSurface& surface, const PoseBelief& prior,
+                                               double share) const {
   const Spread spread = spreadOf(prior.information.inverse());
   const double reach = std::clamp(kReachSigmas * (spread.position + kArmOfReach * spread.turn),
                                   kLeastMatchReach, PlanLines::kMostReach);
@@ -160,8 +243,8 @@ KnownMap::Fit KnownMap::fitAbout(const ScanSurface& surface, const PoseBelief& p
   return there.evidence > std::max(doubt(), here.evidence) + kBetterThere ? there : here;
 }
 
-void KnownMap::track(const ScanSurface& surface, const std::optional<Pose2>& wheel_step,
-                     const MotionBelief& motion) {
+void KnownMap::State::track(const ScanSurface& surface, const std::optional<Pose2>& wheel_step,
+                            const MotionBelief& motion) {
   const Pose2 before = T_map_sensor_;
   PoseBelief prior;
   prior.mean = before * motion.T_before_after;
@@ -190,7 +273,7 @@ void KnownMap::track(const ScanSurface& surface, const std::optional<Pose2>& whe
   countDoubt(is_doubtful, motion.T_before_after);
 }
 
-void KnownMap::learn(const ScanSurface& surface, const Fit& fit, double share) {
+void KnownMap::State::learn(const ScanSurface& surface, const Fit& fit, double share) {
   sights_.learn(fit.seen, share * kLearnSights);
   if (fit.match.piece_variance >= 0.0) {
     const double variance = plan_sigma_ * plan_sigma_;
@@ -213,7 +296,7 @@ void KnownMap::learn(const ScanSurface& surface, const Fit& fit, double share) {
           });
 }
 
-void KnownMap::countDoubt(bool is_doubtful, const Pose2& step) {
+void KnownMap::State::countDoubt(bool is_doubtful, const Pose2& step) {
   const Spread spread = spreadOf(covariance_);
   if (!is_doubtful) {
     doubtful_scans_ = 0;
@@ -228,13 +311,13 @@ void KnownMap::countDoubt(bool is_doubtful, const Pose2& step) {
   if (is_lost) lose();
 }
 
-void KnownMap::lose() {
+void KnownMap::State::lose() {
   is_localised_ = false;
   ++times_lost_;
   global_.begin();
 }
 
-void KnownMap::expectAlongWheels() {
+void KnownMap::State::expectAlongWheels() {
   if (!trusted_) return;
   const double way = wheels_way_ - trusted_->wheels_way;
   const double turn = wheels_turn_ - trusted_->wheels_turn;
@@ -246,7 +329,7 @@ void KnownMap::expectAlongWheels() {
   global_.expect(expectation);
 }
 
-void KnownMap::search(const ScanSurface& surface, const MotionBelief& motion) {
+void KnownMap::State::search(const ScanSurface& surface, const MotionBelief& motion) {
   T_map_sensor_ = T_map_sensor_ * motion.T_before_after;
   expectAlongWheels();
   const auto found = global_.add(surface, T_wheels_sensor_, sights_, effort_);
@@ -261,7 +344,7 @@ void KnownMap::search(const ScanSurface& surface, const MotionBelief& motion) {
   follow(fit);
 }
 
-void KnownMap::follow(const Fit& found) {
+void KnownMap::State::follow(const Fit& found) {
   seen_ = found.seen;
   residual_ = found.match.sigma;
   map_sigma_ = found.match.map_sigma;
@@ -272,7 +355,7 @@ void KnownMap::follow(const Fit& found) {
   doubtful_way_ = 0.0;
 }
 
-void KnownMap::takePlace(const ScanSurface& surface, const Pose2& T_robot_sensor) {
+void KnownMap::State::takePlace(const ScanSurface& surface, const Pose2& T_robot_sensor) {
   PoseBelief prior;
   prior.mean = told_->T_map_robot * T_robot_sensor;
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
@@ -294,7 +377,7 @@ void KnownMap::takePlace(const ScanSurface& surface, const Pose2& T_robot_sensor
   follow(fit);
 }
 
-Estimate KnownMap::estimate(const Pose2& T_robot_sensor) const {
+Estimate KnownMap::State::estimate(const Pose2& T_robot_sensor) const {
   Estimate estimate;
   estimate.T_map_sensor = T_map_sensor_;
   estimate.T_map_robot = T_map_sensor_ * T_robot_sensor.inverse();
@@ -311,5 +394,31 @@ Estimate KnownMap::estimate(const Pose2& T_robot_sensor) const {
       atArm(covariance, estimate.T_map_robot.position() - T_map_sensor_.position());
   return estimate;
 }
+
+KnownMap::KnownMap(const std::vector<PlanLine>& plan, const std::vector<LineSigma>& sigmas,
+                   const LocalisationEffort& effort)
+    : state_(std::make_unique<State>(plan, sigmas, effort)) {}
+KnownMap::~KnownMap() = default;
+
+void KnownMap::place(const Pose2& T_map_robot, const Eigen::Matrix3d& covariance) {
+  state_->place(T_map_robot, covariance);
+}
+
+Estimate KnownMap::update(const Measurement& measurement, const AnalysedScan& analysed,
+                          const PastScans& /*past*/) {
+  return state_->update(measurement, analysed);
+}
+
+Estimate KnownMap::localise(const Measurement& measurement) {
+  return state_->update(measurement, analyse(measurement.scan));
+}
+
+int KnownMap::timesLost() const { return state_->timesLost(); }
+const SightShares& KnownMap::seen() const { return state_->seen(); }
+double KnownMap::residual() const { return state_->residual(); }
+const SightModel& KnownMap::sights() const { return state_->sights(); }
+double KnownMap::planSigma() const { return state_->planSigma(); }
+const PlanLines& KnownMap::plan() const { return state_->plan(); }
+const GlobalLocalisation& KnownMap::global() const { return state_->global(); }
 
 }  // namespace cca

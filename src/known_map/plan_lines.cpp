@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "cca_mrpt/known_map/plan_lines.hpp"
+#include "known_map/plan_lines.hpp"
 
 #include <algorithm>
 #include <cmath>
 
 #include "cca_mrpt/geometry/cell.hpp"
-#include "cca_mrpt/geometry/cross.hpp"
+#include "geometry/cross.hpp"
 
 namespace cca {
 namespace {

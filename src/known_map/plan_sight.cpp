@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "cca_mrpt/known_map/plan_sight.hpp"
+#include "known_map/plan_sight.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-#include "cca_mrpt/slam/likelihood_pyramid.hpp"
+#include "slam/likelihood_pyramid.hpp"
 
 namespace cca {
 namespace {

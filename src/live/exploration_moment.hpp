@@ -3,6 +3,8 @@
 
 #include "cca_mrpt/navigation/explorer.hpp"
 #include "io/replay/replay.hpp"
+#include "navigation/planning/global_planner.hpp"
+#include "navigation/world/world_model.hpp"
 
 namespace cca {
 

@@ -3,10 +3,10 @@
 #include <cmath>
 #include <limits>
 
-#include "cca_mrpt/geometry/cross.hpp"
-#include "cca_mrpt/mapping/arcs_of_chain.hpp"
-#include "cca_mrpt/mapping/description_length.hpp"
-#include "cca_mrpt/sensing/gates.hpp"
+#include "geometry/cross.hpp"
+#include "mapping/arcs_of_chain.hpp"
+#include "mapping/description_length.hpp"
+#include "sensing/gates.hpp"
 
 namespace cca {
 namespace {

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "cca_mrpt/mapping/corner_refinement.hpp"
+#include "mapping/corner_refinement.hpp"
 
 #include <algorithm>
 
-#include "cca_mrpt/geometry/cross.hpp"
-#include "cca_mrpt/mapping/k_means.hpp"
+#include "geometry/cross.hpp"
+#include "mapping/k_means.hpp"
 
 namespace cca {
 namespace {

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "hindsight.hpp"
+#include "mapping/hindsight.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-#include "cca_mrpt/mapping/laser_evidence.hpp"
 #include "cca_mrpt/sensing/range_noise.hpp"
+#include "mapping/laser_evidence.hpp"
 
 namespace cca {
 namespace {

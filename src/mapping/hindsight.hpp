@@ -3,9 +3,9 @@
 
 #include <vector>
 
-#include "cca_mrpt/mapping/map_noise.hpp"
-#include "cca_mrpt/mapping/walls.hpp"
 #include "cca_mrpt/sensing/past_scans.hpp"
+#include "mapping/map_noise.hpp"
+#include "mapping/walls.hpp"
 
 namespace cca {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "cca_mrpt/mapping/k_means.hpp"
+#include "mapping/k_means.hpp"
 
 #include <algorithm>
 

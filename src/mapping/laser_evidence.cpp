@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "cca_mrpt/mapping/laser_evidence.hpp"
+#include "mapping/laser_evidence.hpp"
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -7,8 +7,8 @@
 #include <tuple>
 #include <utility>
 
-#include "cca_mrpt/geometry/cross.hpp"
 #include "cca_mrpt/sensing/range_noise.hpp"
+#include "geometry/cross.hpp"
 
 namespace cca {
 namespace {

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "cca_mrpt/mapping/line_covariance.hpp"
+#include "mapping/line_covariance.hpp"
 
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 
-#include "cca_mrpt/mapping/map_similarity.hpp"
 #include "cca_mrpt/sensing/range_noise.hpp"
+#include "mapping/map_similarity.hpp"
 
 namespace cca {
 namespace {

@@ -7,12 +7,12 @@
 #include <optional>
 #include <utility>
 
-#include "cca_mrpt/mapping/arcs_of_chain.hpp"
-#include "cca_mrpt/mapping/corner_refinement.hpp"
-#include "cca_mrpt/mapping/line_merging.hpp"
-#include "cca_mrpt/mapping/point_clusters.hpp"
-#include "cca_mrpt/mapping/poly_lines.hpp"
 #include "cca_mrpt/sensing/range_noise.hpp"
+#include "mapping/arcs_of_chain.hpp"
+#include "mapping/corner_refinement.hpp"
+#include "mapping/line_merging.hpp"
+#include "mapping/point_clusters.hpp"
+#include "mapping/poly_lines.hpp"
 
 namespace cca {
 namespace {

@@ -3,14 +3,22 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <utility>
 
-#include "cca_mrpt/geometry/cross.hpp"
-#include "cca_mrpt/mapping/laser_evidence.hpp"
-#include "cca_mrpt/mapping/line_covariance.hpp"
 #include "cca_mrpt/mapping/line_extraction.hpp"
-#include "cca_mrpt/mapping/wall_upkeep.hpp"
-#include "hindsight.hpp"
+#include "geometry/cross.hpp"
+#include "mapping/hindsight.hpp"
+#include "mapping/laser_evidence.hpp"
+#include "mapping/line_covariance.hpp"
+#include "mapping/loose_returns.hpp"
+#include "mapping/map_arcs.hpp"
+#include "mapping/map_clusters.hpp"
+#include "mapping/map_corners.hpp"
+#include "mapping/map_noise.hpp"
+#include "mapping/wall_network.hpp"
+#include "mapping/wall_upkeep.hpp"
+#include "mapping/walls.hpp"
 
 namespace cca {
 namespace {
@@ -46,9 +54,36 @@ NewLine inMap(const LineSegment& line, const Pose2& T_map_sensor, const MapNoise
 
 }  // namespace
 
-bool LineMap::insert(const Scan& scan) { return insert(scan, extractLines(scan, parameters_)); }
+/// All that a map knows.
+class LineMap::State {
+ public:
+  State(const CcaParameters& parameters, Poses poses) : parameters_(parameters), poses_(poses) {}
 
-bool LineMap::insert(const Scan& scan, const std::vector<LineSegment>& lines) {
+  bool insert(const Scan& scan, const std::vector<LineSegment>& lines);
+  void lookBack(const std::vector<PastScans::Kept>& scans);
+  std::vector<MapLine> lines() const;
+  std::vector<PolyLine> polyLines() const;
+
+  const CcaParameters& parameters() const { return parameters_; }
+  const MapNoise& noise() const { return noise_; }
+  const Walls& walls() const { return walls_; }
+
+ private:
+  std::vector<MapLine> pieces() const;
+  std::vector<NewLine> newLines(const std::vector<LineSegment>& lines, const Pose2& T_map_sensor);
+  void learn(const std::vector<NewLine>& lines);
+
+  CcaParameters parameters_;
+  Walls walls_;
+  MapNoise noise_;
+  Poses poses_;
+  WallNetwork network_;  ///< of own poses
+  LooseReturns loose_;
+  std::vector<MapLine> dotted_;
+  std::uint64_t next_id_ = 1;
+};
+
+bool LineMap::State::insert(const Scan& scan, const std::vector<LineSegment>& lines) {
   const Pose2& T = scan.T_map_sensor;
   const bool in_reach = std::abs(T.x) < kFarthestPose && std::abs(T.y) < kFarthestPose;
   if (!in_reach || !std::isfinite(T.theta)) return false;
@@ -66,7 +101,7 @@ bool LineMap::insert(const Scan& scan, const std::vector<LineSegment>& lines) {
   return true;
 }
 
-void LineMap::lookBack(const std::vector<PastScans::Kept>& scans) {
+void LineMap::State::lookBack(const std::vector<PastScans::Kept>& scans) {
   if (!scans.empty() && !parameters_.without(Part::kHindsight)) {
     reassignEvidence(scans, noise_, !parameters_.without(Part::kRays), walls_);
     seeToTouched(walls_, noise_, parameters_, next_id_);
@@ -83,8 +118,8 @@ void LineMap::lookBack(const std::vector<PastScans::Kept>& scans) {
   }
 }
 
-std::vector<NewLine> LineMap::newLines(const std::vector<LineSegment>& lines,
-                                       const Pose2& T_map_sensor) {
+std::vector<NewLine> LineMap::State::newLines(const std::vector<LineSegment>& lines,
+                                              const Pose2& T_map_sensor) {
   std::vector<NewLine> found;
   for (const LineSegment& line : lines) {
     const double length = line.length(), distance = line.moments.mean.norm();
@@ -98,7 +133,7 @@ std::vector<NewLine> LineMap::newLines(const std::vector<LineSegment>& lines,
   return found;
 }
 
-void LineMap::learn(const std::vector<NewLine>& lines) {
+void LineMap::State::learn(const std::vector<NewLine>& lines) {
   for (const NewLine& line : lines) {
     if (line.wall < 0) continue;
     Wall& wall = walls_[line.wall];
@@ -122,7 +157,7 @@ void LineMap::learn(const std::vector<NewLine>& lines) {
   }
 }
 
-std::vector<MapLine> LineMap::pieces() const {
+std::vector<MapLine> LineMap::State::pieces() const {
   std::vector<MapLine> all;
   for (const Wall& wall : walls_.all()) {
     for (const MapLine& piece : wall.pieces) {
@@ -134,17 +169,47 @@ std::vector<MapLine> LineMap::pieces() const {
   return all;
 }
 
-std::vector<MapLine> LineMap::lines() const {
+std::vector<MapLine> LineMap::State::lines() const {
   std::vector<MapLine> all = pieces();
   joinCorners(all, kCornerReach);
   all.insert(all.end(), dotted_.begin(), dotted_.end());
   return all;
 }
 
-std::vector<PolyLine> LineMap::polyLines() const {
+std::vector<PolyLine> LineMap::State::polyLines() const {
   std::vector<MapLine> all = pieces();
   const std::vector<Corner> corners = joinCorners(all, kCornerReach);
   return chainLines(all, corners);
 }
+
+LineMap::LineMap(const CcaParameters& parameters, Poses poses)
+    : state_(std::make_unique<State>(parameters, poses)) {}
+LineMap::~LineMap() = default;
+LineMap::LineMap(const LineMap& other) : state_(std::make_unique<State>(*other.state_)) {}
+LineMap& LineMap::operator=(const LineMap& other) { return *this = LineMap(other); }
+LineMap::LineMap(LineMap&&) noexcept = default;
+LineMap& LineMap::operator=(LineMap&&) noexcept = default;
+
+bool LineMap::insert(const Scan& scan) {
+  return insert(scan, extractLines(scan, state_->parameters()));
+}
+
+bool LineMap::insert(const Scan& scan, const std::vector<LineSegment>& lines) {
+  return state_->insert(scan, lines);
+}
+
+void LineMap::lookBack(const std::vector<PastScans::Kept>& scans) { state_->lookBack(scans); }
+
+std::vector<MapLine> LineMap::lines() const { return state_->lines(); }
+
+std::vector<PolyLine> LineMap::polyLines() const { return state_->polyLines(); }
+
+std::vector<MapArc> LineMap::arcs() const {
+  return arcsOfWalls(walls().all(), noise(), state_->parameters());
+}
+
+const MapNoise& LineMap::noise() const { return state_->noise(); }
+
+const Walls& LineMap::walls() const { return state_->walls(); }
 
 }  // namespace cca

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "cca_mrpt/mapping/line_merging.hpp"
+#include "mapping/line_merging.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <utility>
 
-#include "cca_mrpt/geometry/cross.hpp"
-#include "cca_mrpt/mapping/rank_order_clustering.hpp"
-#include "cca_mrpt/mapping/similarity.hpp"
-#include "cca_mrpt/sensing/gates.hpp"
+#include "geometry/cross.hpp"
+#include "mapping/rank_order_clustering.hpp"
+#include "mapping/similarity.hpp"
+#include "sensing/gates.hpp"
 
 namespace cca {
 namespace {

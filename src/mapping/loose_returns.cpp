@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "cca_mrpt/mapping/loose_returns.hpp"
+#include "mapping/loose_returns.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-#include "cca_mrpt/geometry/cross.hpp"
 #include "cca_mrpt/sensing/range_noise.hpp"
+#include "geometry/cross.hpp"
 
 namespace cca {
 namespace {

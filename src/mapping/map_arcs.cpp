@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "cca_mrpt/mapping/map_arcs.hpp"
+#include "mapping/map_arcs.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-#include "cca_mrpt/mapping/arcs_of_chain.hpp"
-#include "cca_mrpt/sensing/gates.hpp"
+#include "mapping/arcs_of_chain.hpp"
+#include "sensing/gates.hpp"
 
 namespace cca {
 namespace {

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "cca_mrpt/mapping/map_clusters.hpp"
+#include "mapping/map_clusters.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <numeric>
 
-#include "cca_mrpt/mapping/map_similarity.hpp"
-#include "cca_mrpt/mapping/rank_order_clustering.hpp"
 #include "cca_mrpt/sensing/range_noise.hpp"
+#include "mapping/map_similarity.hpp"
+#include "mapping/rank_order_clustering.hpp"
 
 namespace cca {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "cca_mrpt/mapping/map_corners.hpp"
+#include "mapping/map_corners.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -8,7 +8,7 @@
 #include <tuple>
 #include <utility>
 
-#include "cca_mrpt/geometry/cross.hpp"
+#include "geometry/cross.hpp"
 
 namespace cca {
 namespace {

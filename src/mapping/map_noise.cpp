@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "cca_mrpt/mapping/map_noise.hpp"
+#include "mapping/map_noise.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "cca_mrpt/mapping/map_similarity.hpp"
+#include "mapping/map_similarity.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-#include "cca_mrpt/geometry/cross.hpp"
-#include "cca_mrpt/sensing/gates.hpp"
+#include "geometry/cross.hpp"
+#include "sensing/gates.hpp"
 
 namespace cca {
 namespace {

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "cca_mrpt/mapping/point_clusters.hpp"
+#include "mapping/point_clusters.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-#include "cca_mrpt/mapping/k_means.hpp"
-#include "cca_mrpt/sensing/gates.hpp"
+#include "mapping/k_means.hpp"
+#include "sensing/gates.hpp"
 
 namespace cca {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "cca_mrpt/mapping/rank_order_clustering.hpp"
+#include "mapping/rank_order_clustering.hpp"
 
 #include <algorithm>
 #include <numeric>

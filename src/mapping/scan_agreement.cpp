@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "mapping/walls.hpp"
+
 namespace cca {
 namespace {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "cca_mrpt/mapping/support_profile.hpp"
+#include "mapping/support_profile.hpp"
 
 #include <cmath>
 #include <utility>

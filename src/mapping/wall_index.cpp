@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "cca_mrpt/mapping/wall_index.hpp"
+#include "mapping/wall_index.hpp"
 
 #include <algorithm>
 #include <cmath>

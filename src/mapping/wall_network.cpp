@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "cca_mrpt/mapping/wall_network.hpp"
+#include "mapping/wall_network.hpp"
 
 #include <Eigen/LU>
 #include <Eigen/SparseCholesky>
@@ -9,8 +9,8 @@
 #include <unordered_map>
 #include <utility>
 
-#include "cca_mrpt/geometry/cross.hpp"
 #include "cca_mrpt/sensing/range_noise.hpp"
+#include "geometry/cross.hpp"
 
 namespace cca {
 namespace {

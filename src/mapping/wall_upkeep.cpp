@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "cca_mrpt/mapping/wall_upkeep.hpp"
+#include "mapping/wall_upkeep.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
-#include "cca_mrpt/mapping/description_length.hpp"
-#include "cca_mrpt/mapping/map_similarity.hpp"
-#include "cca_mrpt/mapping/rank_order_clustering.hpp"
+#include "mapping/description_length.hpp"
+#include "mapping/map_similarity.hpp"
+#include "mapping/rank_order_clustering.hpp"
 
 namespace cca {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "cca_mrpt/mapping/walls.hpp"
+#include "mapping/walls.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -3,6 +3,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
+
+#include "navigation/control/delegated_driver.hpp"
+#include "navigation/control/progress.hpp"
+#include "navigation/control/tangent_bug_driver.hpp"
+#include "navigation/planning/global_planner.hpp"
+#include "navigation/world/world_model.hpp"
 
 namespace cca {
 namespace {
@@ -26,11 +33,30 @@ const char* nameOf(ExplorationStatus status) {
   return kNames[static_cast<int>(status)];
 }
 
+/// A place that it was sent to.
+struct Explorer::Errand {
+  Pose2 T_map_goal;
+  ProgressClock without_path;
+  int held = 0;  ///< how often it got no farther
+};
+
+/// What to do in this step, and why.
+struct Explorer::Intent {
+  ExplorationStatus status;
+  std::string reason;
+  std::optional<Pose2> T_map_goal{};  ///< to be shown
+  std::optional<DriveTask> task{};    ///< empty: to stand
+};
+
 Explorer::Explorer(const RobotParameters& robot, const ExplorerParameters& parameters)
     : parameters_(parameters),
-      world_(robot.leastClearance()),
-      planner_(parameters, robot.radius),
+      world_(std::make_unique<WorldModel>(robot.leastClearance())),
+      planner_(std::make_unique<GlobalPlanner>(parameters, robot.radius)),
       driver_(std::make_unique<TangentBugDriver>(robot)) {}
+
+Explorer::~Explorer() = default;
+Explorer::Explorer(Explorer&&) noexcept = default;
+Explorer& Explorer::operator=(Explorer&&) noexcept = default;
 
 void Explorer::delegateDriving() {
   driver_ = std::make_unique<DelegatedDriver>(actuation().robot());
@@ -47,11 +73,11 @@ void Explorer::changeMotion(const RobotParameters& robot) {
 }
 
 void Explorer::observe(const Scan& scan, const Pose2& T_map_robot, double range_sigma) {
-  world_.observe(scan, T_map_robot.position(), range_sigma);
+  world_->observe(scan, T_map_robot.position(), range_sigma);
 }
 
 void Explorer::correct(const PastScans& past) {
-  planner_.correct(world_, past, world_.correct(past));
+  planner_->correct(*world_, past, world_->correct(past));
   driver_->correct(past);
   if (T_map_start_) T_map_start_ = past.correctionAt(T_map_start_->position()) * *T_map_start_;
   if (errand_) {
@@ -75,8 +101,8 @@ Action Explorer::step(const Observation& observation) {
 void Explorer::sense(const Observation& seen) {
   if (!T_map_start_) T_map_start_ = seen.T_map_robot;
   if (!seen.is_localised) return;
-  world_.markHazards(seen.hazards);
-  world_.observe(seen.scan, seen.T_map_robot.position(), seen.rangeSigma());
+  world_->markHazards(seen.hazards);
+  world_->observe(seen.scan, seen.T_map_robot.position(), seen.rangeSigma());
 }
 
 Explorer::Intent Explorer::plan(const Observation& seen) {
@@ -94,7 +120,7 @@ Action Explorer::act(const Intent& intent, const Observation& seen) {
   action.reason = intent.reason;
   std::optional<Pose2> T_map_goal = intent.T_map_goal;
   if (intent.task) {
-    const Driver::Command command = driver_->drive(*intent.task, seen, world_);
+    const Driver::Command command = driver_->drive(*intent.task, seen, *world_);
     action.velocity = command.velocity;
     if (command.T_map_goal) T_map_goal = command.T_map_goal;
   }
@@ -123,7 +149,7 @@ DriveTask Explorer::taskTo(int goal, const Pose2& T_map_goal, Path path,
 }
 
 Explorer::Intent Explorer::explore(const Observation& seen) {
-  const Plan& plan = planner_.update(world_, seen.T_map_robot.position(), driver_->takeOutcome());
+  const Plan& plan = planner_->update(*world_, seen.T_map_robot.position(), driver_->takeOutcome());
   if (plan.isFinished()) {
     why_finished_ = plan.reason;
     is_returning_ = parameters_.return_to_start;
@@ -154,15 +180,27 @@ Explorer::Intent Explorer::goHome(const Observation& seen) {
     return {ExplorationStatus::kFinished, why + "; back at the start"};
   if (is_of_home && outcome.status == GoalStatus::kGivenUp)
     return {ExplorationStatus::kFinished, why + "; the way back to the start is blocked"};
-  Path path = planner_.pathTo(world_, robot, T_map_start_->position(), outcome.lost_path);
+  Path path = planner_->pathTo(*world_, robot, T_map_start_->position(), outcome.lost_path);
   Intent intent{ExplorationStatus::kReturning, "back to the start", T_map_start_};
   intent.task = taskTo(kHomeGoal, *T_map_start_, std::move(path), seen);
   intent.task->heading = T_map_start_->theta;
   return intent;
 }
 
+void Explorer::explainTo(DecisionObserver observer) { planner_->explainTo(std::move(observer)); }
+
+void Explorer::limitTo(Path polygon) { planner_->limitTo(std::move(polygon)); }
+
+const ActuationModel& Explorer::actuation() const { return driver_->actuation(); }
+
+const ExplorationGrid& Explorer::grid() const { return world_->grid(); }
+
+void Explorer::recall() { errand_.reset(); }
+
+bool Explorer::isSent() const { return errand_ != nullptr; }
+
 void Explorer::sendTo(const Pose2& T_map_goal) {
-  errand_ = Errand{T_map_goal, {}};
+  errand_ = std::make_unique<Errand>(Errand{T_map_goal, {}});
   ++errands_;
 }
 
@@ -182,7 +220,7 @@ Explorer::Intent Explorer::runErrand(const Observation& seen) {
   if (errand_->held >= kMostHeld || (is_of_errand && outcome.status == GoalStatus::kGivenUp))
     return endErrand(ExplorationStatus::kUnreachable, "the robot does not get there");
   const Eigen::Vector2d goal = errand_->T_map_goal.position();
-  Path path = planner_.pathTo(world_, seen.T_map_robot.position(), goal, outcome.lost_path);
+  Path path = planner_->pathTo(*world_, seen.T_map_robot.position(), goal, outcome.lost_path);
   if (!path.empty() && (path.back() - goal).norm() >= kBesideGoal) path.clear();
   if (path.empty()) {
     errand_->without_path.run(seen.time);
@@ -207,8 +245,8 @@ Explorer::Intent Explorer::endErrand(ExplorationStatus status, const std::string
 bool Explorer::isIncomplete() const {
   const double side = grid().resolution();
   const double seen = static_cast<double>(grid().revealed()) * side * side;
-  return planner_.plan().isFinished() &&
-         planner_.plan().passableArea() > std::max(kMuchUnreached, kMuchOfAll * seen);
+  return planner_->plan().isFinished() &&
+         planner_->plan().passableArea() > std::max(kMuchUnreached, kMuchOfAll * seen);
 }
 
 }  // namespace cca

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "cca_mrpt/sensing/beam.hpp"
+#include "sensing/beam.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "cca_mrpt/sensing/local_view.hpp"
+#include "sensing/local_view.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-#include "cca_mrpt/sensing/beam.hpp"
+#include "sensing/beam.hpp"
 
 namespace cca {
 namespace {

@@ -6,7 +6,7 @@
 #include <limits>
 #include <vector>
 
-#include "cca_mrpt/sensing/beam.hpp"
+#include "sensing/beam.hpp"
 
 namespace cca {
 namespace {

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "cca_mrpt/sensing/moving_points.hpp"
+#include "sensing/moving_points.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
-#include "cca_mrpt/sensing/beam.hpp"
+#include "sensing/beam.hpp"
 
 namespace cca {
 namespace {

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "cca_mrpt/sensing/near_surfaces.hpp"
+#include "sensing/near_surfaces.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-#include "cca_mrpt/geometry/cross.hpp"
-#include "cca_mrpt/sensing/beam.hpp"
+#include "geometry/cross.hpp"
+#include "sensing/beam.hpp"
 
 namespace cca {
 namespace {

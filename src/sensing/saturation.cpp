@@ -6,8 +6,8 @@
 #include <cstddef>
 #include <limits>
 
-#include "cca_mrpt/sensing/beam.hpp"
-#include "cca_mrpt/sensing/scan_faults.hpp"
+#include "sensing/beam.hpp"
+#include "sensing/scan_faults.hpp"
 
 namespace cca {
 namespace {

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "cca_mrpt/sensing/gates.hpp"
+#include "sensing/gates.hpp"
 
 namespace cca {
 namespace {

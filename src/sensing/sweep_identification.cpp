@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "cca_mrpt/sensing/sweep_identification.hpp"
+#include "sensing/sweep_identification.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <vector>
 
-#include "cca_mrpt/sensing/beam.hpp"
+#include "sensing/beam.hpp"
 
 namespace cca {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "cca_mrpt/sensing/undistortion.hpp"
+#include "sensing/undistortion.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -7,8 +7,8 @@
 #include <utility>
 #include <vector>
 
-#include "cca_mrpt/geometry/cross.hpp"
-#include "cca_mrpt/sensing/beam.hpp"
+#include "geometry/cross.hpp"
+#include "sensing/beam.hpp"
 
 namespace cca {
 namespace {

@@ -2,13 +2,17 @@
 #include "cca_mrpt/session/mapping_session.hpp"
 
 #include <algorithm>
+#include <map>
 #include <utility>
 
 #include "cca_mrpt/mapping/line_extraction.hpp"
+#include "sensing/motion_compensation.hpp"
 
 namespace cca {
 
 void doNow(std::function<void()> work) { work(); }
+
+struct MappingSession::Compensations : std::map<std::size_t, MotionCompensation> {};
 
 MappingSession::MappingSession(std::unique_ptr<Localiser> localiser, const Settings& settings,
                                MapRecorder* recorder, Executor executor)
@@ -16,7 +20,12 @@ MappingSession::MappingSession(std::unique_ptr<Localiser> localiser, const Setti
       settings_(settings),
       recorder_(recorder),
       execute_(std::move(executor)),
+      compensations_(std::make_unique<Compensations>()),
       line_map_(emptyMap()) {}
+
+MappingSession::~MappingSession() = default;
+MappingSession::MappingSession(MappingSession&&) noexcept = default;
+MappingSession& MappingSession::operator=(MappingSession&&) noexcept = default;
 
 LineMap MappingSession::emptyMap() const {
   return LineMap(settings_.mapping,
@@ -24,7 +33,7 @@ LineMap MappingSession::emptyMap() const {
 }
 
 void MappingSession::beginDrive() {
-  compensations_.clear();
+  compensations_->clear();
   lesson_.reset();
   lesson_is_due_ = true;
 }
@@ -38,15 +47,15 @@ Estimate MappingSession::addSecondary(const Measurement& measurement, std::size_
 }
 
 double MappingSession::sweepDuration(std::size_t sensor) const {
-  const auto found = compensations_.find(sensor);
-  return found != compensations_.end() ? found->second.sweepDuration() : 0.0;
+  const auto found = compensations_->find(sensor);
+  return found != compensations_->end() ? found->second.sweepDuration() : 0.0;
 }
 
 MotionCompensation& MappingSession::compensationOf(std::size_t sensor) {
-  const auto found = compensations_.find(sensor);
-  if (found != compensations_.end()) return found->second;
+  const auto found = compensations_->find(sensor);
+  if (found != compensations_->end()) return found->second;
   const auto fresh = settings_.sweep ? MotionCompensation(*settings_.sweep) : MotionCompensation();
-  return compensations_.emplace(sensor, fresh).first->second;
+  return compensations_->emplace(sensor, fresh).first->second;
 }
 
 /// Where nobody tells, the robot goes on as from the scan before the last one to the last one.
@@ -92,7 +101,7 @@ void MappingSession::beginLesson() {
 }
 
 bool MappingSession::isLearning() const {
-  return std::any_of(compensations_.begin(), compensations_.end(),
+  return std::any_of(compensations_->begin(), compensations_->end(),
                      [](const auto& laser) { return laser.second.isLearning(); });
 }
 
@@ -101,7 +110,7 @@ Estimate MappingSession::repeat() {
   std::vector<bool> was_localised = localiser_->isLocalised();
   localiser_->restore(*lesson_->localiser);
   state_ = lesson_->before;
-  for (auto& [sensor, compensation] : compensations_) compensation.repeat();
+  for (auto& [sensor, compensation] : *compensations_) compensation.repeat();
   const bool corrects = localiser_->correctsPast();
   if (!corrects || !settings_.maps_at_the_end) rebuild();
   Estimate estimate;
@@ -110,7 +119,7 @@ Estimate MappingSession::repeat() {
     analyseScan(compensationOf(taken.sensor).undistort(taken.measurement.scan, motion));
     estimate = localise(taken.measurement, taken.sensor);
   }
-  for (auto& [sensor, compensation] : compensations_) compensation.learnOn();
+  for (auto& [sensor, compensation] : *compensations_) compensation.learnOn();
   if (!corrects) return estimate;
   estimate.was_corrected = true;
   // Who moves along has to know from where.

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "cca_mrpt/simulation/building.hpp"
-#include "cca_mrpt/simulation/random.hpp"
+#include "simulation/random.hpp"
 
 namespace cca {
 

@@ -3,7 +3,7 @@
 #include <array>
 #include <vector>
 
-#include "building_kinds.hpp"
+#include "simulation/building_kinds.hpp"
 
 namespace cca {
 

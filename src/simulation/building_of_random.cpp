@@ -3,10 +3,10 @@
 #include <cmath>
 #include <vector>
 
-#include "building_kinds.hpp"
 #include "cca_mrpt/motion/robot.hpp"
 #include "cca_mrpt/simulation/coverage.hpp"
-#include "furniture.hpp"
+#include "simulation/building_kinds.hpp"
+#include "simulation/furniture.hpp"
 
 namespace cca {
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <cmath>
 
-#include "building_kinds.hpp"
-#include "furniture.hpp"
+#include "simulation/building_kinds.hpp"
+#include "simulation/furniture.hpp"
 
 namespace cca {
 

@@ -5,7 +5,7 @@
 #include <chrono>
 #include <cmath>
 
-#include "cca_mrpt/simulation/beam.hpp"
+#include "simulation/beam.hpp"
 
 namespace cca {
 

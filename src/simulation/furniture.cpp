@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "furniture.hpp"
+#include "simulation/furniture.hpp"
 
 #include <algorithm>
 #include <cmath>

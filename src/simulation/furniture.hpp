@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "cca_mrpt/simulation/building.hpp"
-#include "cca_mrpt/simulation/random.hpp"
+#include "simulation/random.hpp"
 
 namespace cca {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "cca_mrpt/simulation/laser.hpp"
+#include "simulation/laser.hpp"
 
 #include <mrpt/obs/CObservation2DRangeScan.h>
 
@@ -7,7 +7,7 @@
 #include <cmath>
 #include <limits>
 
-#include "cca_mrpt/simulation/beam.hpp"
+#include "simulation/beam.hpp"
 
 namespace cca {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "cca_mrpt/simulation/movers.hpp"
+#include "simulation/movers.hpp"
 
 #include <cmath>
 

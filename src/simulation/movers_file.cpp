@@ -3,8 +3,8 @@
 #include <cmath>
 #include <cstdio>
 
-#include "cca_mrpt/simulation/movers.hpp"
-#include "yaml_file.hpp"
+#include "cca_mrpt/simulation/mover.hpp"
+#include "simulation/yaml_file.hpp"
 
 namespace cca {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "cca_mrpt/simulation/occupancy_image.hpp"
+#include "simulation/occupancy_image.hpp"
 
 #include <mrpt/img/CImage.h>
 
@@ -7,7 +7,7 @@
 #include <filesystem>
 #include <fstream>
 
-#include "yaml_file.hpp"
+#include "simulation/yaml_file.hpp"
 
 namespace cca {
 namespace {

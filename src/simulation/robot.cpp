@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "cca_mrpt/simulation/robot.hpp"
+#include "simulation/robot.hpp"
 
 #include <algorithm>
 #include <cmath>

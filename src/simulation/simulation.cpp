@@ -7,6 +7,11 @@
 #include <cstdio>
 #include <stdexcept>
 
+#include "simulation/laser.hpp"
+#include "simulation/movers.hpp"
+#include "simulation/random.hpp"
+#include "simulation/robot.hpp"
+
 namespace cca {
 
 namespace {
@@ -29,10 +34,11 @@ Simulation::Simulation(World world, const Pose2& T_map_start,
                        const SimulationParameters& parameters, const std::vector<Mover>& movers)
     : world_(std::move(world)),
       parameters_(parameters),
-      movers_(movers, seedOf(parameters.seed, kMoverStream)),
+      movers_(std::make_unique<Movers>(movers, seedOf(parameters.seed, kMoverStream))),
       T_map_robot_(T_map_start),
-      odometry_(T_map_start, parameters.odometry, seedOf(parameters.seed, kOdometryStream)),
-      laser_random_(seedOf(parameters.seed, kLaserStream)) {
+      odometry_(std::make_unique<Odometry>(T_map_start, parameters.odometry,
+                                           seedOf(parameters.seed, kOdometryStream))),
+      laser_random_(std::make_unique<Random>(seedOf(parameters.seed, kLaserStream))) {
   const double radius = parameters.robot.radius;
   requireStandable(world_, T_map_start, radius);
   if (parameters.laser.range <= radius) {
@@ -49,6 +55,13 @@ Simulation::Simulation(World world, const Pose2& T_map_start,
   remember();
 }
 
+Simulation::~Simulation() = default;
+Simulation::Simulation(Simulation&&) noexcept = default;
+
+const Pose2& Simulation::T_odom_robot() const { return odometry_->T_odom_robot(); }
+
+const std::vector<Body>& Simulation::bodies() const { return movers_->bodies(); }
+
 Observation Simulation::observe() {
   const double middle = time_ - 0.5 * std::abs(parameters_.laser.sweep);
   sweep_begun_ = instantAt(2.0 * middle - time_);
@@ -57,9 +70,9 @@ Observation Simulation::observe() {
     return LaserPlace{instantAt(middle + offset).T_map_robot, bodiesAt(middle + offset)};
   };
   Observation observation;
-  observation.scan = sweep(world_, at, parameters_.laser, laser_random_);
+  observation.scan = sweep(world_, at, parameters_.laser, *laser_random_);
   observation.T_map_robot = scanned_.T_map_robot;
-  observation.velocity = odometry_.show(velocity_);
+  observation.velocity = odometry_->show(velocity_);
   observation.time = scanned_.time;
   return observation;
 }
@@ -73,7 +86,7 @@ SweepMotion Simulation::sweepMotion() const {
 void Simulation::remember() {
   const double sweep = std::abs(parameters_.laser.sweep);
   if (sweep == 0.0) return;
-  past_.push_back({{time_, T_map_robot_, T_odom_robot()}, movers_.bodies()});
+  past_.push_back({{time_, T_map_robot_, T_odom_robot()}, movers_->bodies()});
   while (past_.size() > 1 && past_[1].instant.time < time_ - sweep) past_.pop_front();
 }
 
@@ -100,7 +113,7 @@ const std::vector<Body>& Simulation::bodiesAt(double time) const {
   for (const Past& past : past_) {
     if (past.instant.time >= time) return past.bodies;
   }
-  return movers_.bodies();
+  return movers_->bodies();
 }
 
 void Simulation::drive(const Velocity& command, double dt) {
@@ -144,20 +157,21 @@ void Simulation::advance(const Velocity& command, double dt) {
     in_contact_ = gap < radius + kContactOver - kContactGap;
   }
   distance_ += std::abs(mean.linear) * dt;
-  odometry_.add(mean, dt);
+  odometry_->add(mean, dt);
   T_map_robot_ = next;
 }
 
 void Simulation::moveOthers(double dt) {
   const int contacts =
-      movers_.advance(world_, T_map_robot_.position(), parameters_.robot.radius, dt);
+      movers_->advance(world_, T_map_robot_.position(), parameters_.robot.radius, dt);
   const bool stands = std::abs(velocity_.linear) < kStanding;
   (stands ? mover_contacts_ : collisions_) += contacts;
 }
 
 double Simulation::clearance(const Eigen::Vector2d& p_map, double limit) const {
   double nearest = world_.clearance(p_map, limit);
-  for (const Body& body : movers_.bodies()) nearest = std::min(nearest, cca::distance(body, p_map));
+  for (const Body& body : movers_->bodies())
+    nearest = std::min(nearest, cca::distance(body, p_map));
   return nearest;
 }
 

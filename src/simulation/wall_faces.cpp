@@ -2,8 +2,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "cca_mrpt/geometry/cross.hpp"
 #include "cca_mrpt/simulation/building.hpp"
+#include "geometry/cross.hpp"
 
 namespace cca {
 

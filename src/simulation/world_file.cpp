@@ -3,9 +3,9 @@
 #include <filesystem>
 #include <string>
 
-#include "cca_mrpt/simulation/occupancy_image.hpp"
 #include "cca_mrpt/simulation/world.hpp"
-#include "yaml_file.hpp"
+#include "simulation/occupancy_image.hpp"
+#include "simulation/yaml_file.hpp"
 
 namespace cca {
 

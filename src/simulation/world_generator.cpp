@@ -3,7 +3,7 @@
 
 #include <stdexcept>
 
-#include "building_kinds.hpp"
+#include "simulation/building_kinds.hpp"
 
 namespace cca {
 

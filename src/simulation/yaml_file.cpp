@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "yaml_file.hpp"
+#include "simulation/yaml_file.hpp"
 
 #include <algorithm>
 #include <cctype>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "block_cholesky.hpp"
+#include "slam/block_cholesky.hpp"
 
 #include <Eigen/Cholesky>
 #include <Eigen/OrderingMethods>

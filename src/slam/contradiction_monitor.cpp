@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "cca_mrpt/slam/contradiction_monitor.hpp"
+#include "slam/contradiction_monitor.hpp"
 
 #include <algorithm>
 

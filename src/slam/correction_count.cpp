@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "cca_mrpt/slam/correction_count.hpp"
+#include "slam/correction_count.hpp"
 
 #include <algorithm>
 #include <cstddef>

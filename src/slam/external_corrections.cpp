@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "cca_mrpt/slam/external_corrections.hpp"
+#include "slam/external_corrections.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "cca_mrpt/slam/graph_back_end.hpp"
+#include "slam/graph_back_end.hpp"
 
 #include <algorithm>
 #include <limits>

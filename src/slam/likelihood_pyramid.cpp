@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "cca_mrpt/slam/likelihood_pyramid.hpp"
+#include "slam/likelihood_pyramid.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <unordered_set>
 
-#include "cca_mrpt/slam/scan_surface.hpp"
+#include "slam/scan_surface.hpp"
 
 namespace cca {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "cca_mrpt/slam/loop_closing.hpp"
+#include "slam/loop_closing.hpp"
 
 #include <Eigen/Geometry>
 #include <algorithm>

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "loop_clusters.hpp"
+#include "slam/loop_clusters.hpp"
 
 #include <algorithm>
 #include <cstddef>
 #include <numeric>
 
-#include "cca_mrpt/slam/loop_closer.hpp"
+#include "slam/loop_closer.hpp"
 
 namespace cca {
 namespace {

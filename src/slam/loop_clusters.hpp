@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "cca_mrpt/slam/loop_closing.hpp"
+#include "slam/loop_closing.hpp"
 
 namespace cca {
 

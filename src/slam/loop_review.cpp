@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "cca_mrpt/slam/loop_review.hpp"
+#include "slam/loop_review.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -7,8 +7,8 @@
 #include <cstdlib>
 #include <utility>
 
-#include "cca_mrpt/slam/loop_closer.hpp"
-#include "loop_clusters.hpp"
+#include "slam/loop_closer.hpp"
+#include "slam/loop_clusters.hpp"
 
 namespace cca {
 namespace {

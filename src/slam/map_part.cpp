@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "cca_mrpt/slam/map_part.hpp"
+#include "slam/map_part.hpp"
 
 #include <algorithm>
 #include <vector>

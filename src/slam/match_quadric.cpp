@@ -5,8 +5,8 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "cca_mrpt/slam/surface_matching.hpp"
-#include "seen_points.hpp"
+#include "slam/seen_points.hpp"
+#include "slam/surface_matching.hpp"
 
 namespace cca {
 namespace {

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "cca_mrpt/slam/odometry_chain.hpp"
+#include "slam/odometry_chain.hpp"
 
 #include <Eigen/LU>
 
-#include "pose_covariance.hpp"
+#include "slam/pose_covariance.hpp"
 
 namespace cca {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "cca_mrpt/slam/part_placement.hpp"
+#include "slam/part_placement.hpp"
 
 #include <algorithm>
 #include <cmath>

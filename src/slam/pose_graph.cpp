@@ -10,7 +10,7 @@
 #include <queue>
 #include <utility>
 
-#include "block_cholesky.hpp"
+#include "slam/block_cholesky.hpp"
 
 namespace cca {
 namespace {

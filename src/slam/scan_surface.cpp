@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "cca_mrpt/slam/scan_surface.hpp"
+#include "slam/scan_surface.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-#include "cca_mrpt/geometry/cross.hpp"
 #include "cca_mrpt/geometry/line_segment.hpp"
 #include "cca_mrpt/mapping/line_extraction.hpp"
 #include "cca_mrpt/sensing/range_noise.hpp"
+#include "geometry/cross.hpp"
 
 namespace cca {
 namespace {

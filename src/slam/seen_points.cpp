@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "seen_points.hpp"
+#include "slam/seen_points.hpp"
 
 #include <cstddef>
 

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "cca_mrpt/slam/scan_surface.hpp"
+#include "slam/scan_surface.hpp"
 
 namespace cca {
 

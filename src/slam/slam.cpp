@@ -6,7 +6,9 @@
 #include <cmath>
 #include <utility>
 
-#include "pose_covariance.hpp"
+#include "cca_mrpt/mapping/line_extraction.hpp"
+#include "slam/pose_covariance.hpp"
+#include "slam/slam_state.hpp"
 
 namespace cca {
 namespace {
@@ -20,8 +22,8 @@ constexpr double kLeastNoise = 0.1;
 
 }  // namespace
 
-SlamPose Slam::step(const AnalysedScan& analysed, const Pose2& T_robot_sensor,
-                    const std::optional<Pose2>& T_odom_robot) {
+SlamPose Slam::State::step(const AnalysedScan& analysed, const Pose2& T_robot_sensor,
+                           const std::optional<Pose2>& T_odom_robot) {
   back_end_.restartCount();
   const Scan& scan = analysed.scan;
   ScanSurface surface = scanSurface(analysed);
@@ -63,7 +65,8 @@ SlamPose Slam::step(const AnalysedScan& analysed, const Pose2& T_robot_sensor,
   return poseNow(T_robot_sensor, tracked.found.agreement);
 }
 
-SlamPose Slam::beginPart(const Scan& scan, const Pose2& T_robot_sensor, ScanSurface surface) {
+SlamPose Slam::State::beginPart(const Scan& scan, const Pose2& T_robot_sensor,
+                                ScanSurface surface) {
   const bool is_first = !map_.hasDriven(frames_.graph);
   if (is_first) T_map_sensor_ = T_map_start_ * T_robot_sensor;
   const int frame = newFrame(scan, T_robot_sensor, std::move(surface));
@@ -74,7 +77,7 @@ SlamPose Slam::beginPart(const Scan& scan, const Pose2& T_robot_sensor, ScanSurf
   return poseNow(T_robot_sensor, 1.0);
 }
 
-PoseBelief Slam::predict(const MotionBelief& motion) const {
+PoseBelief Slam::State::predict(const MotionBelief& motion) const {
   PoseBelief belief;
   belief.mean = T_map_sensor_ * motion.T_before_after;
   const Eigen::Vector2d arm = belief.mean.position() - T_map_sensor_.position();
@@ -84,8 +87,8 @@ PoseBelief Slam::predict(const MotionBelief& motion) const {
   return belief;
 }
 
-Slam::Tracked Slam::track(const ScanSurface& surface,
-                          const std::optional<Pose2>& odometry_step) const {
+Slam::State::Tracked Slam::State::track(const ScanSurface& surface,
+                                        const std::optional<Pose2>& odometry_step) const {
   const MotionBelief motion = motion_.predict(odometry_step);
   const PoseBelief prior = predict(motion);
   const Tracked ahead{odometry_step, motion, prior, tracker_.localise(frames_, surface, prior)};
@@ -101,7 +104,7 @@ Slam::Tracked Slam::track(const ScanSurface& surface,
 }
 
 /// The robot has been at the other pose since the first scan that suggested it.
-void Slam::jump() {
+void Slam::State::jump() {
   const Pose2& T_map_frame = frames_.graph.pose(frames_.size() - 1);
   const std::vector<Pose2>& poses = jump_.poses();
   const std::size_t earlier = poses.size() - 1;
@@ -117,7 +120,7 @@ void Slam::jump() {
 
 /// Takes the matched pose, or the predicted one where the scan is in doubt.
 /// @return  whether it is.
-bool Slam::takePose(const Tracked& tracked, std::size_t returns) {
+bool Slam::State::takePose(const Tracked& tracked, std::size_t returns) {
   const auto& [odometry_step, motion, prior, found] = tracked;
   const Pose2 before = T_map_sensor_;
   const bool is_doubtful = jump_.isOpen() || monitor_.isContradiction(found, returns);
@@ -135,7 +138,7 @@ bool Slam::takePose(const Tracked& tracked, std::size_t returns) {
   return is_doubtful;
 }
 
-int Slam::newFrame(const Scan& scan, const Pose2& T_robot_sensor, ScanSurface surface) {
+int Slam::State::newFrame(const Scan& scan, const Pose2& T_robot_sensor, ScanSurface surface) {
   frames_.surfaces.push_back(std::move(surface));
   key_scans_.push_back({scan, T_robot_sensor});
   corrections_.add(T_map_sensor_);
@@ -145,7 +148,7 @@ int Slam::newFrame(const Scan& scan, const Pose2& T_robot_sensor, ScanSurface su
 }
 
 /// Ties a new frame to the last one and to those in view.
-void Slam::addKeyFrame(int frame, const GraphEdge& odometry, bool is_measured) {
+void Slam::State::addKeyFrame(int frame, const GraphEdge& odometry, bool is_measured) {
   std::optional<double> scale;
   if (is_measured) scale = 1.0 + motion_.longer();
   back_end_.connectOdometry(frames_.graph, odometry, scale);
@@ -163,7 +166,7 @@ void Slam::addKeyFrame(int frame, const GraphEdge& odometry, bool is_measured) {
 }
 
 /// Learns by how much the odometry counts a way too short, from a match of both its ends.
-void Slam::learnScale(const GraphEdge& odometry, const GraphEdge& match) {
+void Slam::State::learnScale(const GraphEdge& odometry, const GraphEdge& match) {
   const Eigen::Vector2d by_odometry = odometry.T_from_to.position();
   const double way = by_odometry.norm();
   if (way == 0.0) return;
@@ -180,7 +183,7 @@ void Slam::learnScale(const GraphEdge& odometry, const GraphEdge& match) {
 
 /// Begins a part of the graph with a frame. The scans in doubt before it were the first that were
 /// taken there, where they agree with it.
-void Slam::startPart(int frame) {
+void Slam::State::startPart(int frame) {
   tracker_.lookAt(frame);
   back_end_.beginPart();
   jump_.reset();
@@ -198,7 +201,7 @@ void Slam::startPart(int frame) {
   if (frame > 0) corrections_.count();  // what was seen in doubt is nowhere in the map
 }
 
-void Slam::advanceBackEnd() {
+void Slam::State::advanceBackEnd() {
   const int last = frames_.size() - 1;
   const Pose2 before = frames_.graph.pose(last);
   if (!back_end_.advance(frames_, map_, 1.0 + motion_.longer())) return;
@@ -210,13 +213,13 @@ void Slam::advanceBackEnd() {
   corrections_.update(frames_.graph);
 }
 
-void Slam::finish(const DoAll& do_all) {
+void Slam::State::finish(const DoAll& do_all) {
   back_end_.restartCount();
   while (!back_end_.isIdle()) advanceBackEnd();
   back_end_.finish(frames_, map_, 1.0 + motion_.longer(), do_all);
 }
 
-SlamPose Slam::poseNow(const Pose2& T_robot_sensor, double agreement) const {
+SlamPose Slam::State::poseNow(const Pose2& T_robot_sensor, double agreement) const {
   SlamPose pose;
   pose.T_map_robot = T_map_sensor_ * T_robot_sensor.inverse();
   pose.covariance = covariance_;
@@ -225,5 +228,46 @@ SlamPose Slam::poseNow(const Pose2& T_robot_sensor, double agreement) const {
   pose.is_lost = isLost();
   return pose;
 }
+
+Slam::Slam(const Pose2& T_map_start) : Slam(T_map_start, matchSurface) {}
+Slam::Slam(const Pose2& T_map_start, ScanMatcher matcher)
+    : state_(std::make_unique<State>(T_map_start, matcher)) {}
+Slam::~Slam() = default;
+Slam::Slam(const Slam& other) : state_(std::make_unique<State>(*other.state_)) {}
+Slam& Slam::operator=(const Slam& other) { return *this = Slam(other); }
+Slam::Slam(Slam&&) noexcept = default;
+Slam& Slam::operator=(Slam&&) noexcept = default;
+
+SlamPose Slam::step(const AnalysedScan& analysed, const Pose2& T_robot_sensor,
+                    const std::optional<Pose2>& T_odom_robot) {
+  return state_->step(analysed, T_robot_sensor, T_odom_robot);
+}
+SlamPose Slam::step(const Scan& scan, const Pose2& T_robot_sensor,
+                    const std::optional<Pose2>& T_odom_robot) {
+  return step(analyse(scan), T_robot_sensor, T_odom_robot);
+}
+
+void Slam::startAt(const Pose2& T_map_start) { state_->startAt(T_map_start); }
+void Slam::remember(const SlamMemory& memory) { state_->remember(memory); }
+void Slam::startAnywhere() { state_->startAnywhere(); }
+void Slam::finish(const DoAll& do_all) { state_->finish(do_all); }
+
+std::vector<Pose2> Slam::trajectory() const { return state_->trajectory(); }
+std::vector<bool> Slam::isLocalised() const { return state_->isLocalised(); }
+std::vector<bool> Slam::isSetAside() const { return state_->isSetAside(); }
+bool Slam::isLost() const { return state_->isLost(); }
+bool Slam::isInMemory() const { return state_->isInMemory(); }
+int Slam::remembered() const { return state_->remembered(); }
+SlamMemory Slam::memory() const { return state_->memory(); }
+
+const SlamWork& Slam::work() const { return state_->work(); }
+bool Slam::isSettled() const { return state_->isSettled(); }
+const KeyFrames& Slam::keyFrames() const { return state_->keyFrames(); }
+const PoseGraph& Slam::graph() const { return keyFrames().graph; }
+const std::vector<LoopVerdict>& Slam::loops() const { return state_->loops(); }
+std::size_t Slam::loopsClosed() const { return loops().size(); }
+const std::vector<LoopVerdict>& Slam::verdicts() const { return state_->verdicts(); }
+const LoopReview& Slam::review() const { return state_->review(); }
+int Slam::version() const { return state_->version(); }
 
 }  // namespace cca

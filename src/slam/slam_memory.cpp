@@ -3,11 +3,11 @@
 // What Slam keeps of drives: its own scans, and the key frames of earlier drives.
 #include <cassert>
 
-#include "cca_mrpt/slam/slam.hpp"
+#include "slam/slam_state.hpp"
 
 namespace cca {
 
-void Slam::remember(const SlamMemory& memory) {
+void Slam::State::remember(const SlamMemory& memory) {
   assert(!map_.hasDriven(frames_.graph) &&
          memory.scans.size() == static_cast<std::size_t>(memory.graph.size()));
   const int before = frames_.size();
@@ -26,7 +26,7 @@ void Slam::remember(const SlamMemory& memory) {
   map_.remember(frames_.graph);
 }
 
-SlamMemory Slam::memory() const {
+SlamMemory Slam::State::memory() const {
   SlamMemory memory;
   std::vector<int> number(static_cast<std::size_t>(frames_.size()), -1);
   const PoseGraph& graph = frames_.graph;
@@ -43,7 +43,7 @@ SlamMemory Slam::memory() const {
   return memory;
 }
 
-std::vector<bool> Slam::isLocalised() const {
+std::vector<bool> Slam::State::isLocalised() const {
   std::vector<bool> localised;
   for (const DrivenScan& scan : scans_) {
     localised.push_back(!scan.is_doubtful && map_.holds(frames_.graph, scan.frame));
@@ -51,13 +51,13 @@ std::vector<bool> Slam::isLocalised() const {
   return localised;
 }
 
-std::vector<bool> Slam::isSetAside() const {
+std::vector<bool> Slam::State::isSetAside() const {
   std::vector<bool> set_aside;
   for (const DrivenScan& scan : scans_) set_aside.push_back(scan.is_doubtful);
   return set_aside;
 }
 
-std::vector<Pose2> Slam::trajectory() const {
+std::vector<Pose2> Slam::State::trajectory() const {
   std::vector<Pose2> poses;
   for (const DrivenScan& scan : scans_) {
     poses.push_back(frames_.graph.pose(scan.frame) * scan.T_frame_sensor *

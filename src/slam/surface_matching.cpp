@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "cca_mrpt/slam/surface_matching.hpp"
+#include "slam/surface_matching.hpp"
 
 #include <Eigen/Cholesky>
 #include <algorithm>

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "cca_mrpt/slam/tracking.hpp"
+#include "slam/tracking.hpp"
 
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 
-#include "cca_mrpt/slam/likelihood_pyramid.hpp"
+#include "slam/likelihood_pyramid.hpp"
 
 namespace cca {
 namespace {

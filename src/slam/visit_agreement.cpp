@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "cca_mrpt/slam/visit_agreement.hpp"
+#include "slam/visit_agreement.hpp"
 
 #include <algorithm>
 #include <cstddef>
 
-#include "cca_mrpt/slam/tracking.hpp"
+#include "slam/tracking.hpp"
 
 namespace cca {
 namespace {

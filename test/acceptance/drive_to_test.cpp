@@ -10,10 +10,13 @@
 #include <string>
 
 #include "cca_mrpt/io/parameters.hpp"
-#include "cca_mrpt/known_map/planned_sights.hpp"
 #include "cca_mrpt/navigation/explorer.hpp"
 #include "cca_mrpt/sensing/range_noise.hpp"
+#include "known_map/planned_sights.hpp"
 #include "localised_drive.hpp"
+#include "navigation/planning/global_planner.hpp"
+#include "navigation/world/world_model.hpp"
+#include "simulation/random.hpp"
 
 namespace cca {
 namespace {

@@ -15,12 +15,13 @@
 
 #include "cca_mrpt/io/parameters.hpp"
 #include "cca_mrpt/known_map/known_map.hpp"
+#include "cca_mrpt/navigation/explorer.hpp"
 #include "cca_mrpt/sensing/missing_returns.hpp"
-#include "cca_mrpt/sensing/motion_compensation.hpp"
 #include "cca_mrpt/simulation/laser_models.hpp"
 #include "cca_mrpt/simulation/simulation.hpp"
 #include "cca_mrpt/slam/slam.hpp"
 #include "io/lines/line_formats.hpp"
+#include "sensing/motion_compensation.hpp"
 
 namespace cca::test {
 

@@ -12,9 +12,11 @@
 #include <string>
 
 #include "cca_mrpt/io/parameters.hpp"
+#include "cca_mrpt/navigation/explorer.hpp"
 #include "cca_mrpt/simulation/building.hpp"
 #include "cca_mrpt/simulation/coverage.hpp"
 #include "cca_mrpt/simulation/simulation.hpp"
+#include "simulation/random.hpp"
 
 namespace cca {
 namespace {

@@ -13,9 +13,14 @@
 #include <string>
 
 #include "cca_mrpt/io/parameters.hpp"
+#include "cca_mrpt/navigation/explorer.hpp"
 #include "cca_mrpt/simulation/simulation.hpp"
 #include "cca_mrpt/slam/slam.hpp"
 #include "io/maps/world_files.hpp"
+#include "simulation/random.hpp"
+#include "slam/key_frames.hpp"
+#include "slam/loop_closer.hpp"
+#include "slam/loop_closing.hpp"
 
 namespace cca {
 namespace {

@@ -10,7 +10,7 @@
 #include "cca_mrpt/floor_plan/raster.hpp"
 #include "cca_mrpt/geometry/polygon.hpp"
 #include "cca_mrpt/geometry/pose2.hpp"
-#include "cca_mrpt/mapping/wall.hpp"
+#include "mapping/wall.hpp"
 
 namespace cca {
 

@@ -3,18 +3,18 @@
 
 #include <random>
 
-#include "cca_mrpt/floor_plan/components.hpp"
-#include "cca_mrpt/floor_plan/distance_transform.hpp"
-#include "cca_mrpt/floor_plan/furniture.hpp"
-#include "cca_mrpt/floor_plan/jambs.hpp"
-#include "cca_mrpt/floor_plan/passages.hpp"
-#include "cca_mrpt/floor_plan/polygon_measures.hpp"
-#include "cca_mrpt/floor_plan/region_outline.hpp"
-#include "cca_mrpt/floor_plan/room_outline.hpp"
-#include "cca_mrpt/floor_plan/room_regions.hpp"
-#include "cca_mrpt/floor_plan/structure.hpp"
-#include "cca_mrpt/floor_plan/walls.hpp"
 #include "drawn_map.hpp"
+#include "floor_plan/components.hpp"
+#include "floor_plan/distance_transform.hpp"
+#include "floor_plan/furniture.hpp"
+#include "floor_plan/jambs.hpp"
+#include "floor_plan/passages.hpp"
+#include "floor_plan/polygon_measures.hpp"
+#include "floor_plan/region_outline.hpp"
+#include "floor_plan/room_outline.hpp"
+#include "floor_plan/room_regions.hpp"
+#include "floor_plan/structure.hpp"
+#include "floor_plan/walls.hpp"
 
 namespace cca {
 namespace {

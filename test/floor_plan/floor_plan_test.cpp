@@ -5,8 +5,8 @@
 
 #include <random>
 
-#include "cca_mrpt/floor_plan/polygon_measures.hpp"
 #include "drawn_map.hpp"
+#include "floor_plan/polygon_measures.hpp"
 
 namespace cca {
 namespace {

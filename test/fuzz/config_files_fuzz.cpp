@@ -6,9 +6,9 @@
 #include <stdexcept>
 
 #include "cca_mrpt/io/parameters.hpp"
-#include "cca_mrpt/simulation/movers.hpp"
 #include "cca_mrpt/simulation/world.hpp"
 #include "memory_file.hpp"
+#include "simulation/movers.hpp"
 
 namespace {
 

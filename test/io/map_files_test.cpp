@@ -13,6 +13,7 @@
 #include "cca_mrpt/io/scan_grid.hpp"
 #include "io/files/atomic_file.hpp"
 #include "io/lines/line_formats.hpp"
+#include "io/maps/map_folder.hpp"
 #include "io/maps/map_picture.hpp"
 #include "io/maps/map_scene.hpp"
 #include "temporary_folder.hpp"

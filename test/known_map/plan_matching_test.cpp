@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "cca_mrpt/known_map/plan_matching.hpp"
+#include "known_map/plan_matching.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "cca_mrpt/mapping/corner_refinement.hpp"
+#include "mapping/corner_refinement.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "../sensing/polygon_room.hpp"
-#include "cca_mrpt/mapping/line_merging.hpp"
+#include "mapping/line_merging.hpp"
 
 namespace cca::corner_refinement_test {
 namespace {

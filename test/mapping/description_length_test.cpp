@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "cca_mrpt/mapping/description_length.hpp"
+#include "mapping/description_length.hpp"
 
 #include <gtest/gtest.h>
 

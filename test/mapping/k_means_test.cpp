@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "cca_mrpt/mapping/k_means.hpp"
+#include "mapping/k_means.hpp"
 
 #include <gtest/gtest.h>
 
 #include <random>
 
 #include "../sensing/polygon_room.hpp"
-#include "cca_mrpt/mapping/point_clusters.hpp"
+#include "mapping/point_clusters.hpp"
 
 namespace cca {
 namespace {

@@ -7,6 +7,8 @@
 #include <limits>
 
 #include "mapped_world.hpp"
+#include "mapping/map_noise.hpp"
+#include "mapping/walls.hpp"
 
 namespace cca {
 namespace {

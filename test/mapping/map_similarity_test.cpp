@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What each of the five memberships of the map is for: pairs that it alone keeps apart.
-#include "cca_mrpt/mapping/map_similarity.hpp"
+#include "mapping/map_similarity.hpp"
 
 #include <gtest/gtest.h>
 

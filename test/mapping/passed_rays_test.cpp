@@ -5,7 +5,7 @@
 #include <limits>
 #include <random>
 
-#include "cca_mrpt/mapping/laser_evidence.hpp"
+#include "mapping/laser_evidence.hpp"
 
 namespace cca {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "cca_mrpt/mapping/point_clusters.hpp"
+#include "mapping/point_clusters.hpp"
 
 #include <gtest/gtest.h>
 

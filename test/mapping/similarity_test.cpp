@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "cca_mrpt/mapping/similarity.hpp"
+#include "mapping/similarity.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "cca_mrpt/mapping/wall_upkeep.hpp"
+#include "mapping/wall_upkeep.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "cca_mrpt/motion/commanded_motion.hpp"
+#include "motion/commanded_motion.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "cca_mrpt/navigation/control/tangent_bug/boundary_follower.hpp"
+#include "navigation/control/tangent_bug/boundary_follower.hpp"
 
 #include <gtest/gtest.h>
 

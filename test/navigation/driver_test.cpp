@@ -5,10 +5,10 @@
 #include <cmath>
 #include <utility>
 
-#include "cca_mrpt/navigation/control/delegated_driver.hpp"
-#include "cca_mrpt/navigation/control/tangent_bug_driver.hpp"
-#include "cca_mrpt/navigation/planning/global_planner.hpp"
 #include "known_world.hpp"
+#include "navigation/control/delegated_driver.hpp"
+#include "navigation/control/tangent_bug_driver.hpp"
+#include "navigation/planning/global_planner.hpp"
 
 namespace cca::driver_test {
 namespace {

@@ -7,7 +7,7 @@
 #include <limits>
 #include <random>
 
-#include "cca_mrpt/navigation/world/frontier.hpp"
+#include "navigation/world/frontier.hpp"
 
 namespace cca {
 namespace {

@@ -6,8 +6,11 @@
 #include <functional>
 #include <optional>
 
-#include "cca_mrpt/sensing/hazard_memory.hpp"
+#include "cca_mrpt/navigation/world/exploration_grid.hpp"
 #include "known_world.hpp"
+#include "navigation/planning/global_planner.hpp"
+#include "navigation/world/world_model.hpp"
+#include "sensing/hazard_memory.hpp"
 
 namespace cca {
 namespace {

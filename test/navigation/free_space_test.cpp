@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "cca_mrpt/navigation/world/free_space.hpp"
+#include "navigation/world/free_space.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "cca_mrpt/navigation/world/frontier.hpp"
+#include "navigation/world/frontier.hpp"
 
 #include <gtest/gtest.h>
 

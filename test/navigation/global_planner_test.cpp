@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "cca_mrpt/navigation/planning/global_planner.hpp"
+#include "navigation/planning/global_planner.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cstdio>
 #include <utility>
 
-#include "cca_mrpt/navigation/world/grid_paths.hpp"
 #include "cca_mrpt/sensing/range_noise.hpp"
 #include "known_world.hpp"
+#include "navigation/world/grid_paths.hpp"
 
 namespace cca {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "cca_mrpt/navigation/world/grid_paths.hpp"
+#include "navigation/world/grid_paths.hpp"
 
 #include <gtest/gtest.h>
 

@@ -9,9 +9,9 @@
 #include <vector>
 
 #include "cca_mrpt/geometry/cell.hpp"
-#include "cca_mrpt/navigation/planning/planning_scene.hpp"
 #include "cca_mrpt/navigation/world/exploration_grid.hpp"
 #include "cca_mrpt/sensing/scan.hpp"
+#include "navigation/planning/planning_scene.hpp"
 
 namespace cca {
 

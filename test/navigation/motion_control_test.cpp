@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "cca_mrpt/navigation/control/motion_control.hpp"
+#include "navigation/control/motion_control.hpp"
 
 #include <gtest/gtest.h>
 

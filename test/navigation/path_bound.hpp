@@ -7,7 +7,7 @@
 #include <queue>
 #include <vector>
 
-#include "cca_mrpt/navigation/control/tangent_bug/boundary_follower.hpp"
+#include "navigation/control/tangent_bug/boundary_follower.hpp"
 #include "traps.hpp"
 
 namespace cca::testing {

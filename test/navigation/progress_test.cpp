@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "cca_mrpt/navigation/control/progress.hpp"
+#include "navigation/control/progress.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "cca_mrpt/navigation/control/tangent_bug/tangent_graph.hpp"
+#include "navigation/control/tangent_bug/tangent_graph.hpp"
 
 #include <gtest/gtest.h>
 
 #include <random>
 
 #include "box_world.hpp"
-#include "cca_mrpt/sensing/beam.hpp"
+#include "sensing/beam.hpp"
 
 namespace cca::testing::tangent_graph_test {
 namespace {

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "box_world.hpp"
-#include "cca_mrpt/navigation/control/tangent_bug/tangent_bug.hpp"
+#include "navigation/control/tangent_bug/tangent_bug.hpp"
 
 namespace cca::testing {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "cca_mrpt/navigation/control/velocity_controller.hpp"
+#include "navigation/control/velocity_controller.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "cca_mrpt/navigation/planning/view_points.hpp"
+#include "navigation/planning/view_points.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <random>
 
-#include "cca_mrpt/sensing/beam.hpp"
 #include "known_world.hpp"
+#include "sensing/beam.hpp"
 
 namespace cca::view_points_test {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "cca_mrpt/navigation/world/world_model.hpp"
+#include "navigation/world/world_model.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "cca_mrpt/sensing/hazard_memory.hpp"
+#include "sensing/hazard_memory.hpp"
 
 #include <gtest/gtest.h>
 

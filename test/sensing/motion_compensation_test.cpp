@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "cca_mrpt/sensing/motion_compensation.hpp"
+#include "sensing/motion_compensation.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "cca_mrpt/sensing/moving_points.hpp"
+#include "sensing/moving_points.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "cca_mrpt/sensing/near_surfaces.hpp"
+#include "sensing/near_surfaces.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "cca_mrpt/sensing/scan_faults.hpp"
+#include "sensing/scan_faults.hpp"
 
 #include <gtest/gtest.h>
 

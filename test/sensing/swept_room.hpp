@@ -6,7 +6,7 @@
 #include <limits>
 #include <vector>
 
-#include "cca_mrpt/sensing/undistortion.hpp"
+#include "sensing/undistortion.hpp"
 
 namespace cca {
 

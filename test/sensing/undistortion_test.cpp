@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "cca_mrpt/sensing/undistortion.hpp"
+#include "sensing/undistortion.hpp"
 
 #include <gtest/gtest.h>
 

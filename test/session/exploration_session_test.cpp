@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "cca_mrpt/session/exploration_session.hpp"
+#include "cca_mrpt/navigation/world/exploration_grid.hpp"
 
 #include <gtest/gtest.h>
 

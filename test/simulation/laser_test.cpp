@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "cca_mrpt/simulation/laser.hpp"
+#include "simulation/laser.hpp"
 
 #include <gtest/gtest.h>
 

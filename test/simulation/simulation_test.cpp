@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "cca_mrpt/simulation/simulation.hpp"
+#include "simulation/laser.hpp"
+#include "simulation/random.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "cca_mrpt/slam/correlative_search.hpp"
+#include "slam/correlative_search.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "cca_mrpt/slam/jump_hypothesis.hpp"
+#include "slam/jump_hypothesis.hpp"
 
 #include <gtest/gtest.h>
 

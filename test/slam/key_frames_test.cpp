@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "cca_mrpt/slam/key_frames.hpp"
+#include "slam/key_frames.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "cca_mrpt/slam/likelihood_pyramid.hpp"
+#include "slam/likelihood_pyramid.hpp"
 
 #include <gtest/gtest.h>
 

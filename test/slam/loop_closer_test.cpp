@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "cca_mrpt/slam/loop_closer.hpp"
+#include "slam/loop_closer.hpp"
 
 #include <gtest/gtest.h>
 

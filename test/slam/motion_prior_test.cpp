@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "cca_mrpt/slam/motion_prior.hpp"
+#include "slam/motion_prior.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "cca_mrpt/slam/scan_surface.hpp"
+#include "slam/scan_surface.hpp"
 
 #include <gtest/gtest.h>
 

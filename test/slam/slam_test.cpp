@@ -8,7 +8,8 @@
 #include <limits>
 #include <thread>
 
-#include "cca_mrpt/geometry/cross.hpp"
+#include "geometry/cross.hpp"
+#include "slam/graph_back_end.hpp"
 #include "walled_world.hpp"
 
 namespace cca {

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "cca_mrpt/slam/key_frames.hpp"
+#include "slam/key_frames.hpp"
 #include "walled_world.hpp"
 
 namespace cca::test {

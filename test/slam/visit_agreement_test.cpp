@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "cca_mrpt/slam/visit_agreement.hpp"
+#include "slam/visit_agreement.hpp"
 
 #include <gtest/gtest.h>
 

@@ -7,8 +7,8 @@
 #include <utility>
 #include <vector>
 
-#include "cca_mrpt/geometry/cross.hpp"
 #include "cca_mrpt/sensing/scan.hpp"
+#include "geometry/cross.hpp"
 
 namespace cca::test {
 

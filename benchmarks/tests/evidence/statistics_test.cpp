@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "cca_mrpt/simulation/random.hpp"
+#include "simulation/random.hpp"
 
 namespace cca::evidence {
 namespace {

@@ -6,12 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "cca_mrpt/floor_plan/passages.hpp"
 #include "cca_mrpt/floor_plan/raster.hpp"
-#include "cca_mrpt/floor_plan/room_regions.hpp"
-#include "cca_mrpt/floor_plan/structure.hpp"
 #include "cca_mrpt/geometry/polygon.hpp"
-#include "cca_mrpt/mapping/wall.hpp"
+#include "cca_mrpt/mapping/map_line.hpp"
 
 namespace cca {
 
@@ -70,12 +67,6 @@ struct FloorPlan {
   Raster<int> room_of;  ///< id of the room of each cell, 0: none; over the known part of the grid
 };
 
-struct FloorPlanTuning {
-  StructureTuning structure;
-  PassageTuning passages;
-  RoomTuning rooms;
-};
-
 /// The floor plan of a finished map.
 ///
 /// @param grid   occupancy of the place; where nothing is known, the plan is empty.
@@ -83,8 +74,7 @@ struct FloorPlanTuning {
 /// are
 ///               parted by narrowings alone, and follow the cells. Dotted ones part none.
 /// The same input gives the same plan, and ids. Cost: .5 s for 1000 m^2 at 5 cm.
-FloorPlan floorPlan(const OccupancyRaster& grid, const std::vector<MapLine>& lines,
-                    const FloorPlanTuning& tuning = {});
+FloorPlan floorPlan(const OccupancyRaster& grid, const std::vector<MapLine>& lines);
 
 /// The room that a point lies in; 0: in none. @param p  m, map frame.
 int roomAt(const FloorPlan& plan, const Eigen::Vector2d& p);

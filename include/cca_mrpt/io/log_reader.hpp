@@ -6,8 +6,8 @@
 #include <optional>
 #include <string>
 
-#include "cca_mrpt/sensing/motion_compensation.hpp"
 #include "cca_mrpt/sensing/scan.hpp"
+#include "cca_mrpt/sensing/sweep_motion.hpp"
 
 namespace cca {
 

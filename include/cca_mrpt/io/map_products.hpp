@@ -10,11 +10,10 @@
 #include <vector>
 
 #include "cca_mrpt/geometry/pose2.hpp"
-#include "cca_mrpt/io/folder_lock.hpp"
 #include "cca_mrpt/io/geo_reference.hpp"
-#include "cca_mrpt/io/pose_files.hpp"
-#include "cca_mrpt/mapping/line_map.hpp"
+#include "cca_mrpt/mapping/map_line.hpp"
 #include "cca_mrpt/session/mapping_session.hpp"
+#include "cca_mrpt/slam/pose_graph.hpp"
 
 namespace cca {
 
@@ -59,21 +58,5 @@ void writeMapFolder(const std::string& folder, const MapProducts& products);
 
 /// The same map, seen from a frame that lies at p_frame in its own. The grid stays where it is.
 MapProducts seenFrom(const Eigen::Vector2d& p_frame, MapProducts products);
-
-/// Takes back what says that all is there, before the first of the files is replaced.
-void withdrawSummary(const std::string& folder);
-
-/// Moves the map.slam that is there out of the way of another one: to earlier.slam, or
-/// earlier-2.slam and so on. @return its path now; empty where there was none.
-/// @throws std::runtime_error naming the file and the reason.
-std::string keepMemory(const std::string& folder);
-
-/// Makes the folder for a run's files, before the work is done.
-/// @param beside  names of files that the run writes there itself.
-/// @return  to be kept while the run writes there.
-/// @throws std::runtime_error where it cannot be made or written to, where another run is writing
-///         to it, and where one of the files is there already and overwriting is not allowed.
-[[nodiscard]] FolderLock prepareMapFolder(const std::string& folder, bool overwrite,
-                                          const std::vector<const char*>& beside = {});
 
 }  // namespace cca

@@ -9,10 +9,8 @@
 #include "cca_mrpt/io/icp_localiser.hpp"
 #include "cca_mrpt/mapping/parameters.hpp"
 #include "cca_mrpt/motion/robot.hpp"
-#include "cca_mrpt/navigation/explorer.hpp"
-#include "cca_mrpt/simulation/laser.hpp"
-#include "cca_mrpt/simulation/robot.hpp"
-#include "cca_mrpt/simulation/run.hpp"
+#include "cca_mrpt/navigation/explorer_parameters.hpp"
+#include "cca_mrpt/simulation/parameters.hpp"
 
 namespace cca {
 

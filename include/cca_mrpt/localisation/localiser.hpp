@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "cca_mrpt/sensing/analysed_scan.hpp"
-#include "cca_mrpt/sensing/motion_compensation.hpp"
 #include "cca_mrpt/sensing/past_scans.hpp"
 #include "cca_mrpt/sensing/scan.hpp"
+#include "cca_mrpt/sensing/sweep_motion.hpp"
 
 namespace cca {
 

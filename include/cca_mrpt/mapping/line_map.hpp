@@ -1,22 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "cca_mrpt/geometry/line_segment.hpp"
-#include "cca_mrpt/mapping/loose_returns.hpp"
-#include "cca_mrpt/mapping/map_arcs.hpp"
-#include "cca_mrpt/mapping/map_clusters.hpp"
-#include "cca_mrpt/mapping/map_corners.hpp"
-#include "cca_mrpt/mapping/map_noise.hpp"
+#include "cca_mrpt/mapping/map_line.hpp"
 #include "cca_mrpt/mapping/parameters.hpp"
-#include "cca_mrpt/mapping/wall_network.hpp"
-#include "cca_mrpt/mapping/walls.hpp"
 #include "cca_mrpt/sensing/past_scans.hpp"
 #include "cca_mrpt/sensing/scan.hpp"
 
 namespace cca {
+
+class MapNoise;
+class Walls;
 
 /// The incremental line map (the paper's steps 6-7).
 class LineMap {
@@ -26,8 +23,12 @@ class LineMap {
     kGiven,  ///< from elsewhere: each errs for itself, by what the lines show
     kOwn,    ///< from the scans themselves: they err together, see WallNetwork
   };
-  explicit LineMap(const CcaParameters& parameters = {}, Poses poses = Poses::kGiven)
-      : parameters_(parameters), poses_(poses) {}
+  explicit LineMap(const CcaParameters& parameters = {}, Poses poses = Poses::kGiven);
+  ~LineMap();
+  LineMap(const LineMap& other);
+  LineMap& operator=(const LineMap& other);
+  LineMap(LineMap&&) noexcept;
+  LineMap& operator=(LineMap&&) noexcept;
 
   /// Takes a scan at its T_map_sensor. Cost does not depend on the size of the map.
   /// @return  false where the pose is not finite or further than 10 000 km from the map's origin:
@@ -50,25 +51,15 @@ class LineMap {
   /// The same lines but the dotted ones, chained along their corners.
   std::vector<PolyLine> polyLines() const;
   /// Round pillars and curved walls among the same lines; see arcsOfWalls().
-  std::vector<MapArc> arcs() const { return arcsOfWalls(walls_.all(), noise_, parameters_); }
+  std::vector<MapArc> arcs() const;
 
   /// What the map has learned about the noise and the pose error of its scans.
-  const MapNoise& noise() const { return noise_; }
-  const Walls& walls() const { return walls_; }
+  const MapNoise& noise() const;
+  const Walls& walls() const;
 
  private:
-  std::vector<MapLine> pieces() const;
-  std::vector<NewLine> newLines(const std::vector<LineSegment>& lines, const Pose2& T_map_sensor);
-  void learn(const std::vector<NewLine>& lines);
-
-  CcaParameters parameters_;
-  Walls walls_;
-  MapNoise noise_;
-  Poses poses_;
-  WallNetwork network_;  ///< of own poses
-  LooseReturns loose_;
-  std::vector<MapLine> dotted_;
-  std::uint64_t next_id_ = 1;
+  class State;
+  std::unique_ptr<State> state_;
 };
 
 }  // namespace cca

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "cca_mrpt/mapping/walls.hpp"
 #include "cca_mrpt/sensing/scan.hpp"
 
 namespace cca {
+
+class Walls;
 
 /// What the walls of a map have to say to the returns of a scan.
 struct ScanVerdict {

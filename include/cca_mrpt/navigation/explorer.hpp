@@ -8,14 +8,19 @@
 #include <utility>
 #include <vector>
 
-#include "cca_mrpt/navigation/control/delegated_driver.hpp"
-#include "cca_mrpt/navigation/control/tangent_bug_driver.hpp"
+#include "cca_mrpt/navigation/explained_decision.hpp"
+#include "cca_mrpt/navigation/explorer_parameters.hpp"
 #include "cca_mrpt/navigation/observation.hpp"
-#include "cca_mrpt/navigation/planning/global_planner.hpp"
-#include "cca_mrpt/navigation/world/world_model.hpp"
 #include "cca_mrpt/sensing/past_scans.hpp"
 
 namespace cca {
+
+class ActuationModel;
+class Driver;
+class ExplorationGrid;
+class GlobalPlanner;
+class WorldModel;
+struct DriveTask;
 
 enum class ExplorationStatus {
   kExploring,
@@ -40,36 +45,6 @@ struct Action {
       0.0;  ///< rad, map frame: where to look from the goal, see delegateDriving()
 };
 
-/// What leads Tangent Bug to the goals of the exploration.
-enum class PathKind {
-  kKnownSpace,  ///< the corners of the shortest known path
-  kPaper,       ///< the goal alone: straight to it
-};
-
-/// As options and files name them.
-inline constexpr std::pair<const char*, PathKind> kPathNames[] = {
-    {"known_space", PathKind::kKnownSpace}, {"paper", PathKind::kPaper}};
-
-struct ExplorerParameters : GlobalPlannerParameters {
-  PathKind path = PathKind::kKnownSpace;
-  bool return_to_start = false;
-};
-
-/// See describe(CcaParameters&, ...).
-template <class Field>
-void describe(ExplorerParameters& p, Field&& field) {
-  field("strategy", p.strategy, kStrategyNames,
-        "how the next goal is chosen; greedy is the paper's");
-  field("path", p.path, kPathNames,
-        "way-points along what is known to be free, or (paper) Tangent Bug straight to the goal");
-  field("worth", p.worth, 0.0, 1e6, "m/m^2",
-        "way that an unseen square metre is worth: exploration ends when nothing that is "
-        "left is worth its way");
-  field("smallest_gain", p.smallest_gain, 0.0, 100.0, "m^2",
-        "exploration ends when no reachable frontier promises more");
-  field("return_to_start", p.return_to_start, "drive back to where it began when all is explored");
-}
-
 /// From what the robot knows at a moment to a velocity. A step senses, plans and acts: the world
 /// model takes the observation, the planner sets the goal by that model and by what has become of
 /// the last goal, the driver drives. It does not map: see ExplorationSession.
@@ -79,6 +54,9 @@ void describe(ExplorerParameters& p, Field&& field) {
 class Explorer {
  public:
   Explorer(const RobotParameters& robot, const ExplorerParameters& parameters);
+  ~Explorer();
+  Explorer(Explorer&&) noexcept;
+  Explorer& operator=(Explorer&&) noexcept;
 
   /// Takes what is observed, and decides.
   Action step(const Observation& observation);
@@ -100,8 +78,9 @@ class Explorer {
   /// takes it into account. One that failed is blacklisted as one that proved unreachable.
   void noteOutcome(DriveOutcome outcome);
 
-  /// See GlobalPlanner::explainTo().
-  void explainTo(DecisionObserver observer) { planner_.explainTo(std::move(observer)); }
+  /// Each decision from now on is told to an observer, with what it was made of. It decides
+  /// nothing.
+  void explainTo(DecisionObserver observer);
 
   /// The robot moves otherwise from now on: its speeds, accelerations and latency (the rest stays).
   /// What the odometry has shown is learned anew where accelerations or latency change.
@@ -118,32 +97,28 @@ class Explorer {
   /// delegateDriving().
   void sendTo(const Pose2& T_map_goal);
   /// Not any more.
-  void recall() { errand_.reset(); }
+  void recall();
   /// Whether it is on the way to where it was sent.
-  bool isSent() const { return errand_.has_value(); }
+  bool isSent() const;
   static constexpr double kBesideGoal = 0.25;  ///< m
 
   /// Exploration stays inside a polygon (m, map frame). To be called before the first step.
-  void limitTo(std::vector<Eigen::Vector2d> polygon) { planner_.limitTo(std::move(polygon)); }
+  void limitTo(std::vector<Eigen::Vector2d> polygon);
 
   /// What the odometry has shown of how the base obeys.
-  const ActuationModel& actuation() const { return driver_->actuation(); }
-  const WorldModel& world() const { return world_; }
-  const ExplorationGrid& grid() const { return world_.grid(); }
-  const GlobalPlanner& planner() const { return planner_; }
+  const ActuationModel& actuation() const;
+  const WorldModel& world() const { return *world_; }
+  const ExplorationGrid& grid() const;
+  const GlobalPlanner& planner() const { return *planner_; }
   /// Whether it has finished although a way that the robot's own radius may admit leads to much
   /// that is in view: a square metre at least, and a twentieth of all that was seen. What no robot
   /// of its size gets to is not missing.
   bool isIncomplete() const;
 
  private:
-  /// What to do in this step, and why.
-  struct Intent {
-    ExplorationStatus status;
-    std::string reason;
-    std::optional<Pose2> T_map_goal{};  ///< to be shown
-    std::optional<DriveTask> task{};    ///< empty: to stand
-  };
+  struct Errand;  ///< a place that it was sent to
+  struct Intent;  ///< what to do in this step, and why
+
   void sense(const Observation& seen);
   Intent plan(const Observation& seen);
   Action act(const Intent& intent, const Observation& seen);
@@ -157,20 +132,14 @@ class Explorer {
                    const Observation& seen) const;
 
   ExplorerParameters parameters_;
-  WorldModel world_;
-  GlobalPlanner planner_;
+  std::unique_ptr<WorldModel> world_;
+  std::unique_ptr<GlobalPlanner> planner_;
   std::unique_ptr<Driver> driver_;
   std::optional<Pose2> T_map_start_;
   bool is_paused_ = false;
   bool is_returning_ = false;
   std::string why_finished_;
-  /// A place that it was sent to.
-  struct Errand {
-    Pose2 T_map_goal;
-    ProgressClock without_path;
-    int held = 0;  ///< how often it got no farther
-  };
-  std::optional<Errand> errand_;
+  std::unique_ptr<Errand> errand_;
   int errands_ = 0;  ///< so far
 };
 

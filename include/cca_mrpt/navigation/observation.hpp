@@ -31,4 +31,7 @@ struct Observation {
   double rangeSigma() const { return range_sigma ? *range_sigma : rangeNoise(scan).range_sigma; }
 };
 
+/// What has become of a goal that somebody else was to drive to.
+enum class DriveOutcome { kReached, kFailed };
+
 }  // namespace cca

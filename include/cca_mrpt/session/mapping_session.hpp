@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstddef>
 #include <functional>
-#include <map>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -10,10 +10,11 @@
 #include "cca_mrpt/localisation/localiser.hpp"
 #include "cca_mrpt/mapping/line_map.hpp"
 #include "cca_mrpt/mapping/scan_agreement.hpp"
-#include "cca_mrpt/sensing/motion_compensation.hpp"
 #include "cca_mrpt/sensing/past_scans.hpp"
 
 namespace cca {
+
+class MotionCompensation;
 
 /// A scan as it has gone into the map.
 struct MappedScan {
@@ -68,6 +69,9 @@ class MappingSession {
   ///                  before looking at lineMap(), agreement() or the recorder.
   MappingSession(std::unique_ptr<Localiser> localiser, const Settings& settings,
                  MapRecorder* recorder = nullptr, Executor executor = doNow);
+  ~MappingSession();
+  MappingSession(MappingSession&&) noexcept;
+  MappingSession& operator=(MappingSession&&) noexcept;
 
   /// Another drive begins, perhaps with other lasers: how these sweep is learned anew.
   void beginDrive();
@@ -135,6 +139,8 @@ class MappingSession {
     std::vector<Taken> taken;
   };
 
+  struct Compensations;  ///< of each laser
+
   MotionCompensation& compensationOf(std::size_t sensor);
   SweepMotion motionOf(const Measurement& measurement, std::size_t sensor) const;
   /// @return  whether the scans of the lesson have to be gone through once more, this one included.
@@ -156,8 +162,8 @@ class MappingSession {
   MapRecorder* recorder_;
   Executor execute_;
   State state_;
-  AnalysedScan analysed_;                                    ///< the last one
-  std::map<std::size_t, MotionCompensation> compensations_;  ///< of each laser
+  AnalysedScan analysed_;  ///< the last one
+  std::unique_ptr<Compensations> compensations_;
   std::optional<Lesson> lesson_;
   bool lesson_is_due_ = true;
   // Changed by the executor alone.

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "cca_mrpt/simulation/laser.hpp"
+#include "cca_mrpt/simulation/parameters.hpp"
 
 namespace cca {
 

@@ -1,25 +1,21 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <cstdint>
 #include <deque>
+#include <memory>
 #include <vector>
 
-#include "cca_mrpt/navigation/explorer.hpp"
-#include "cca_mrpt/sensing/motion_compensation.hpp"
-#include "cca_mrpt/simulation/laser.hpp"
-#include "cca_mrpt/simulation/movers.hpp"
-#include "cca_mrpt/simulation/robot.hpp"
+#include "cca_mrpt/navigation/observation.hpp"
+#include "cca_mrpt/sensing/sweep_motion.hpp"
+#include "cca_mrpt/simulation/mover.hpp"
+#include "cca_mrpt/simulation/parameters.hpp"
 #include "cca_mrpt/simulation/world.hpp"
 
 namespace cca {
 
-struct SimulationParameters {
-  RobotParameters robot;  ///< as it is, whatever the planner is told of it
-  LaserParameters laser;
-  OdometryParameters odometry;
-  std::uint64_t seed = 1;
-};
+class Movers;
+class Odometry;
+class Random;
 
 /// A true pose on the robot's way.
 struct TimedPose {
@@ -44,6 +40,8 @@ class Simulation {
   ///         beyond it.
   Simulation(World world, const Pose2& T_map_start, const SimulationParameters& parameters,
              const std::vector<Mover>& movers = {});
+  ~Simulation();
+  Simulation(Simulation&&) noexcept;
 
   /// A new scan, whose sweep ends now, with the true pose in its middle and the velocity that the
   /// odometry shows now. Each call draws new noise.
@@ -63,11 +61,11 @@ class Simulation {
   int collisions() const { return collisions_; }  ///< contacts the robot drove into
   /// Contacts that a mover drove into while the robot stood.
   int moverContacts() const { return mover_contacts_; }
-  const Velocity& velocity() const { return velocity_; }                  ///< true
-  const Pose2& T_map_robot() const { return T_map_robot_; }               ///< true
-  const Pose2& T_odom_robot() const { return odometry_.T_odom_robot(); }  ///< starts at the start
+  const Velocity& velocity() const { return velocity_; }     ///< true
+  const Pose2& T_map_robot() const { return T_map_robot_; }  ///< true
+  const Pose2& T_odom_robot() const;                         ///< starts at the start
   const World& world() const { return world_; }
-  const std::vector<Body>& bodies() const { return movers_.bodies(); }
+  const std::vector<Body>& bodies() const;
   const SimulationParameters& parameters() const { return parameters_; }
   /// The true way so far: a pose at least every 5 cm or 6 degrees, and at the end of each drive().
   const std::vector<TimedPose>& trajectory() const { return trajectory_; }
@@ -95,12 +93,12 @@ class Simulation {
 
   World world_;
   SimulationParameters parameters_;
-  Movers movers_;
+  std::unique_ptr<Movers> movers_;
   Pose2 T_map_robot_;
   Velocity velocity_;
   std::deque<Sent> under_way_;  ///< the first one is what the base acts on
-  Odometry odometry_;
-  Random laser_random_;
+  std::unique_ptr<Odometry> odometry_;
+  std::unique_ptr<Random> laser_random_;
   std::deque<Past> past_;  ///< of the last sweep, where the laser has one
   Instant sweep_begun_, scanned_;
   double time_ = 0.0, distance_ = 0.0;

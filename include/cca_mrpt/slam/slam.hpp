@@ -1,21 +1,23 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstddef>
+#include <memory>
 #include <optional>
 #include <vector>
 
-#include "cca_mrpt/mapping/line_extraction.hpp"
-#include "cca_mrpt/slam/contradiction_monitor.hpp"
-#include "cca_mrpt/slam/correction_count.hpp"
-#include "cca_mrpt/slam/graph_back_end.hpp"
-#include "cca_mrpt/slam/jump_hypothesis.hpp"
-#include "cca_mrpt/slam/key_frames.hpp"
-#include "cca_mrpt/slam/map_part.hpp"
-#include "cca_mrpt/slam/motion_prior.hpp"
-#include "cca_mrpt/slam/odometry_chain.hpp"
-#include "cca_mrpt/slam/tracking.hpp"
+#include "cca_mrpt/localisation/localiser.hpp"
+#include "cca_mrpt/sensing/analysed_scan.hpp"
+#include "cca_mrpt/sensing/scan.hpp"
+#include "cca_mrpt/slam/pose_graph.hpp"
+#include "cca_mrpt/slam/scan_matcher.hpp"
 
 namespace cca {
+
+struct KeyFrames;
+struct LoopReview;
+struct LoopVerdict;
+struct SlamWork;
 
 /// Where the robot is, as Slam::step() believes.
 struct SlamPose {
@@ -51,11 +53,17 @@ struct SlamMemory {
 /// has been carried away, one that goes on with an earlier map, and a second log of the building.
 class Slam {
  public:
-  explicit Slam(const Pose2& T_map_start = {}, ScanMatcher matcher = matchSurface)
-      : T_map_start_(T_map_start), tracker_(matcher) {}
+  /// Matches scans by matchSurface().
+  explicit Slam(const Pose2& T_map_start = {});
+  Slam(const Pose2& T_map_start, ScanMatcher matcher);
+  ~Slam();
+  Slam(const Slam& other);
+  Slam& operator=(const Slam& other);
+  Slam(Slam&&) noexcept;
+  Slam& operator=(Slam&&) noexcept;
 
   /// Lets the map begin with the robot there. To be called before the first scan.
-  void startAt(const Pose2& T_map_start) { T_map_start_ = T_map_start; }
+  void startAt(const Pose2& T_map_start);
 
   /// @param analysed        T_map_sensor of its scan is not used.
   /// @param T_odom_robot    in any frame that stays; nothing: the robot goes on as it went.
@@ -63,9 +71,7 @@ class Slam {
                 const std::optional<Pose2>& T_odom_robot);
   /// The same with a scan that nobody has analysed yet.
   SlamPose step(const Scan& scan, const Pose2& T_robot_sensor,
-                const std::optional<Pose2>& T_odom_robot) {
-    return step(analyse(scan), T_robot_sensor, T_odom_robot);
-  }
+                const std::optional<Pose2>& T_odom_robot);
 
   /// Takes what was left by earlier drives, each a part of its own, before the first scan. The
   /// robot may be anywhere in it or elsewhere: its own drive is the map, until it has found itself
@@ -73,7 +79,7 @@ class Slam {
   void remember(const SlamMemory& memory);
 
   /// From the next scan on the robot may be anywhere: a second log of the same place.
-  void startAnywhere() { starts_anywhere_ = map_.hasDriven(frames_.graph); }
+  void startAnywhere();
 
   /// The last pass over a whole log: lost parts look for their place once more, the largest part of
   /// the robot's own drive is the map, and all poses are made to agree with all lines.
@@ -90,70 +96,36 @@ class Slam {
   /// another are not: they are a part of their own.
   std::vector<bool> isSetAside() const;
   /// Whether that of the last one is.
-  bool isLost() const { return map_.isLost(frames_.graph); }
+  bool isLost() const;
 
   /// Whether the robot has found itself in what it remembers, or remembers nothing.
-  bool isInMemory() const { return map_.isInMemory(frames_.graph); }
+  bool isInMemory() const;
   /// How many scans are remembered.
-  int remembered() const { return map_.remembered(); }
+  int remembered() const;
   /// The key frames of the map, for the next drive.
   SlamMemory memory() const;
 
   /// What the last step, or finish(), did.
-  const SlamWork& work() const { return back_end_.work(); }
+  const SlamWork& work() const;
   /// Whether nothing waits for the next scans.
-  bool isSettled() const { return back_end_.isIdle(); }
+  bool isSettled() const;
 
-  const KeyFrames& keyFrames() const { return frames_; }
-  const std::vector<LoopVerdict>& loops() const { return back_end_.loopCloser().loops(); }
-  const std::vector<LoopVerdict>& verdicts() const { return back_end_.loopCloser().verdicts(); }
+  const KeyFrames& keyFrames() const;
+  /// Of the sensors of all key frames.
+  const PoseGraph& graph() const;
+  /// Those that are believed, and how many.
+  const std::vector<LoopVerdict>& loops() const;
+  std::size_t loopsClosed() const;
+  /// Of all that were looked at.
+  const std::vector<LoopVerdict>& verdicts() const;
   /// How the visits of the map agree with one another, and whether other sets of loops were tried:
   /// of the last finish().
-  const LoopReview& review() const { return back_end_.review(); }
-  int version() const { return corrections_.version(); }
+  const LoopReview& review() const;
+  int version() const;
 
  private:
-  /// A scan, at its pose in a key frame.
-  struct DrivenScan {
-    int frame;
-    Pose2 T_frame_sensor;
-    Pose2 T_robot_sensor;
-    bool is_doubtful;  ///< contradicted what was seen before, and was nowhere else either
-  };
-  /// A scan where it was predicted and matched.
-  struct Tracked {
-    std::optional<Pose2> odometry_step;
-    MotionBelief motion;
-    PoseBelief prior;
-    LocalMatch found;
-  };
-  SlamPose beginPart(const Scan& scan, const Pose2& T_robot_sensor, ScanSurface surface);
-  PoseBelief predict(const MotionBelief& motion) const;
-  Tracked track(const ScanSurface& surface, const std::optional<Pose2>& odometry_step) const;
-  void jump();
-  bool takePose(const Tracked& tracked, std::size_t returns);
-  int newFrame(const Scan& scan, const Pose2& T_robot_sensor, ScanSurface surface);
-  void addKeyFrame(int frame, const GraphEdge& odometry, bool is_measured);
-  void learnScale(const GraphEdge& odometry, const GraphEdge& match);
-  void startPart(int frame);
-  void advanceBackEnd();
-  SlamPose poseNow(const Pose2& T_robot_sensor, double agreement) const;
-
-  Pose2 T_map_start_;
-  KeyFrames frames_;
-  std::vector<KeyScan> key_scans_;  ///< of each frame
-  ScanTracker tracker_;
-  MotionPrior motion_;
-  OdometryChain odometry_;
-  ContradictionMonitor monitor_;
-  JumpHypothesis jump_;
-  MapPart map_;
-  bool starts_anywhere_ = false;  ///< with the next scan
-  GraphBackEnd back_end_;
-  CorrectionCount corrections_;
-  std::vector<DrivenScan> scans_;  ///< all so far, those of earlier drives first
-  Pose2 T_map_sensor_;
-  Eigen::Matrix3d covariance_ = Eigen::Matrix3d::Zero();  ///< of it, map axes
+  class State;
+  std::unique_ptr<State> state_;
 };
 
 }  // namespace cca

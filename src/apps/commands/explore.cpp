@@ -26,6 +26,7 @@
 #include "io/files/atomic_file.hpp"
 #include "io/files/late_library.hpp"
 #include "io/files/memory_file.hpp"
+#include "io/maps/map_folder.hpp"
 #include "io/poses/local_frame.hpp"
 
 namespace cca::apps {

@@ -18,6 +18,7 @@
 #include "io/files/atomic_file.hpp"
 #include "io/files/stray_places.hpp"
 #include "io/logs/measurements.hpp"
+#include "io/maps/map_folder.hpp"
 #include "io/maps/map_picture.hpp"
 #include "io/plans/plan_reader.hpp"
 

@@ -15,6 +15,7 @@
 #include "apps/runs/interruption.hpp"
 #include "cca_mrpt/io/map_products.hpp"
 #include "commands.hpp"
+#include "io/maps/map_folder.hpp"
 #include "io/poses/local_frame.hpp"
 
 namespace cca::apps {

@@ -14,6 +14,7 @@
 #include "commands.hpp"
 #include "io/files/memory_file.hpp"
 #include "io/maps/grid_recorder.hpp"
+#include "io/maps/map_folder.hpp"
 
 namespace cca::apps {
 namespace {
@@ -61,7 +62,7 @@ MapProducts productsOf(const Merged& merged, const Eigen::Vector2d& origin,
   products.summary["maps"] = options.maps;
   products.summary["finished"] = true;
   products.summary["key_frames"] = memory.graph.size();
-  products.summary["loops"] = merged.slam->slam().loops().size();
+  products.summary["loops"] = merged.slam->slam().loopsClosed();
   products.summary["parameters"] = parametersJson(parameters, {"mapping"});
   return products;
 }
@@ -77,7 +78,7 @@ void merge(const MergeOptions& options, const Parameters& parameters) {
   if (!options.quiet) {
     std::printf("%zu lines from %zu maps, %d key frames, %zu loops between and within them\n",
                 products.lines.size(), options.maps.size(), products.graph.size(),
-                merged.slam->slam().loops().size());
+                merged.slam->slam().loopsClosed());
     std::printf("%s holds the map: map.png to look at, lines.csv and others to use\n",
                 options.out.c_str());
   }

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "cca_mrpt/mapping/scan_agreement.hpp"
-#include "cca_mrpt/slam/visit_agreement.hpp"
+#include "slam/visit_agreement.hpp"
 
 namespace cca::apps {
 

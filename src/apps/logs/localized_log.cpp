@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "localized_log.hpp"
+#include "known_map/global_localisation.hpp"
+#include "known_map/plan_sight.hpp"
 
 #include <algorithm>
 #include <chrono>

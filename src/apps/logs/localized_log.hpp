@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "cca_mrpt/io/log_reader.hpp"
-#include "cca_mrpt/io/pose_files.hpp"
 #include "cca_mrpt/known_map/known_map.hpp"
 #include "io/plans/plan_reader.hpp"
+#include "io/poses/pose_files.hpp"
 #include "pose_errors.hpp"
 
 namespace cca::apps {

@@ -15,6 +15,7 @@
 #include "contradiction.hpp"
 #include "io/files/stray_places.hpp"
 #include "io/poses/trajectory_error.hpp"
+#include "slam/loop_review.hpp"
 
 namespace cca::apps {
 namespace {
@@ -69,7 +70,7 @@ void MappedLogs::take(const std::string& path, LocalLog& log,
     progress.show(
         log.progress(),
         std::to_string(scans()) + " scans" +
-            (slam_ ? ", " + std::to_string(slam_->slam().loops().size()) + " loops closed" : ""));
+            (slam_ ? ", " + std::to_string(slam_->slam().loopsClosed()) + " loops closed" : ""));
     interrupted_ = interruption.requested();
   }
   warn(log.warnings());
@@ -210,10 +211,10 @@ MapProducts MappedLogs::products() const {
   if (slam_) {
     const Slam& slam = slam_->slam();
     const std::vector<bool>& known = session_->isLocalised();
-    products.graph = slam.keyFrames().graph;
+    products.graph = slam.graph();
     products.memory = packedMemory({slam.memory(), origin_});
     summary["key_frames"] = products.graph.size();
-    summary["loops"] = slam.loops().size();
+    summary["loops"] = slam.loopsClosed();
     addVisits(summary, slam.review());
     summary["scans_without_place"] = std::count(known.begin(), known.end(), false);
     if (logs_.memory) {

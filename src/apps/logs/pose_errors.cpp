@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "cca_mrpt/slam/surface_matching.hpp"
+#include "slam/surface_matching.hpp"
 
 namespace cca::apps {
 namespace {

@@ -4,7 +4,7 @@
 #include <Eigen/Core>
 #include <string>
 
-#include "cca_mrpt/navigation/planning/explained_decision.hpp"
+#include "cca_mrpt/navigation/explained_decision.hpp"
 #include "io/files/atomic_file.hpp"
 
 namespace cca::apps {

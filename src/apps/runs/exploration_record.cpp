@@ -9,6 +9,7 @@
 #include "apps/options/moved.hpp"
 #include "io/files/atomic_file.hpp"
 #include "io/files/memory_file.hpp"
+#include "io/maps/map_folder.hpp"
 #include "io/poses/local_frame.hpp"
 #include "io/poses/trajectory_error.hpp"
 
@@ -149,7 +150,7 @@ nlohmann::ordered_json ExplorationRecord::summary(const Simulation& simulation,
   summary["pose"] = parameters_.run.pose;
   summary["pose_error_rms_m"] = rounded(error.rms_m, 1e4);
   summary["pose_error_worst_m"] = rounded(error.max_m, 1e4);
-  summary["loops"] = slam ? slam->slam().loops().size() : 0;
+  summary["loops"] = slam ? slam->slam().loopsClosed() : 0;
   summary["corrections"] = slam ? slam->corrections() : 0;
   if (slam && slam->remembered() > 0) {
     summary["found_in_memory"] = slam->slam().isInMemory();
@@ -183,7 +184,7 @@ void ExplorationRecord::write(const Simulation& simulation, const MappingSession
   MapProducts all = products(simulation, mapping);
   all.replay = packedReplay(simulation, all.lines);
   if (slam) {
-    all.graph = slam->slam().keyFrames().graph;
+    all.graph = slam->slam().graph();
     all.memory = packedMemory({slam->slam().memory(), origin_});
   }
   all.summary = summary(simulation, mapping, slam, end);

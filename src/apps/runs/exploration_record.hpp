@@ -8,13 +8,13 @@
 #include "cca_mrpt/io/map_products.hpp"
 #include "cca_mrpt/io/parameters.hpp"
 #include "cca_mrpt/io/scan_grid.hpp"
-#include "cca_mrpt/navigation/planning/global_planner.hpp"
 #include "cca_mrpt/session/exploration_session.hpp"
 #include "cca_mrpt/simulation/coverage.hpp"
 #include "cca_mrpt/simulation/simulation.hpp"
 #include "cca_mrpt/slam/slam_localiser.hpp"
 #include "io/logs/rawlog_writer.hpp"
 #include "io/replay/replay.hpp"
+#include "navigation/planning/global_planner.hpp"
 
 namespace cca::apps {
 

@@ -13,6 +13,8 @@
 #include "apps/options/replay_moment.hpp"
 #include "cca_mrpt/session/earlier_drive.hpp"
 #include "io/poses/pose_source.hpp"
+#include "navigation/planning/global_planner.hpp"
+#include "navigation/world/world_model.hpp"
 #include "on_all_cores.hpp"
 #include "tour_left.hpp"
 

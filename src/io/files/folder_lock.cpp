@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "cca_mrpt/io/folder_lock.hpp"
+#include "io/files/folder_lock.hpp"
 
 #include <fcntl.h>
 #include <sys/file.h>

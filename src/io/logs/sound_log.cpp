@@ -6,8 +6,8 @@
 #include <string>
 #include <utility>
 
-#include "cca_mrpt/sensing/scan_faults.hpp"
 #include "laser_place.hpp"
+#include "sensing/scan_faults.hpp"
 
 namespace cca {
 namespace {

@@ -5,8 +5,8 @@
 #include <map>
 #include <utility>
 
-#include "cca_mrpt/sensing/motion_compensation.hpp"
 #include "laser_place.hpp"
+#include "sensing/motion_compensation.hpp"
 
 namespace cca {
 namespace {

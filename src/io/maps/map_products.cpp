@@ -10,12 +10,14 @@
 #include "io/files/atomic_file.hpp"
 #include "io/files/memory_file.hpp"
 #include "io/lines/line_formats.hpp"
+#include "io/maps/map_folder.hpp"
 #include "io/maps/map_picture.hpp"
 #include "io/maps/map_scene.hpp"
 #include "io/maps/metric_map.hpp"
 #include "io/maps/occupancy_files.hpp"
 #include "io/plans/plan_files.hpp"
 #include "io/poses/local_frame.hpp"
+#include "io/poses/pose_files.hpp"
 #include "io/replay/replay.hpp"
 
 namespace cca {

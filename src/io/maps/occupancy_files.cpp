@@ -4,9 +4,9 @@
 #include <cstdio>
 #include <filesystem>
 
-#include "cca_mrpt/simulation/occupancy_image.hpp"
 #include "io/files/atomic_file.hpp"
 #include "io/files/gzip_archive.hpp"
+#include "simulation/occupancy_image.hpp"
 
 namespace cca {
 namespace {

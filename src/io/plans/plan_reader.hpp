@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "cca_mrpt/known_map/plan_lines.hpp"
 #include "cca_mrpt/mapping/line_map.hpp"
+#include "known_map/plan_lines.hpp"
 
 namespace cca {
 

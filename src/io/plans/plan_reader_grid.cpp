@@ -2,9 +2,9 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "cca_mrpt/floor_plan/region_outline.hpp"
-#include "cca_mrpt/geometry/cross.hpp"
 #include "cca_mrpt/geometry/line_segment.hpp"
+#include "floor_plan/region_outline.hpp"
+#include "geometry/cross.hpp"
 #include "plan_reader_formats.hpp"
 
 namespace cca {

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <cstdio>
 
-#include "cca_mrpt/geometry/cross.hpp"
+#include "geometry/cross.hpp"
 
 namespace cca {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "cca_mrpt/io/pose_files.hpp"
+#include "io/poses/pose_files.hpp"
 
 #include <algorithm>
 #include <cmath>

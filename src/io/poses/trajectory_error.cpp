@@ -5,7 +5,7 @@
 #include <cassert>
 #include <cmath>
 
-#include "cca_mrpt/geometry/cross.hpp"
+#include "geometry/cross.hpp"
 
 namespace cca {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "cca_mrpt/navigation/control/delegated_driver.hpp"
+#include "navigation/control/delegated_driver.hpp"
 
 #include <cmath>
 #include <utility>

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "cca_mrpt/navigation/control/progress.hpp"
+#include "navigation/control/progress.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
-#include "cca_mrpt/navigation/world/grid_paths.hpp"
+#include "navigation/world/grid_paths.hpp"
 
 namespace cca {
 namespace {

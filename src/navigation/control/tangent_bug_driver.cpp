@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "cca_mrpt/navigation/control/tangent_bug_driver.hpp"
+#include "navigation/control/tangent_bug_driver.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
-#include "cca_mrpt/navigation/control/motion_control.hpp"
-#include "cca_mrpt/sensing/beam.hpp"
+#include "navigation/control/motion_control.hpp"
+#include "sensing/beam.hpp"
 
 namespace cca {
 namespace {

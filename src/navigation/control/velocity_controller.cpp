@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "cca_mrpt/navigation/control/velocity_controller.hpp"
+#include "navigation/control/velocity_controller.hpp"
 
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <cmath>
 
-#include "cca_mrpt/navigation/control/motion_control.hpp"
-#include "cca_mrpt/sensing/beam.hpp"
-#include "cca_mrpt/sensing/near_surfaces.hpp"
+#include "navigation/control/motion_control.hpp"
+#include "sensing/beam.hpp"
+#include "sensing/near_surfaces.hpp"
 
 namespace cca {
 namespace {

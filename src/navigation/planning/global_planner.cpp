@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "cca_mrpt/navigation/planning/global_planner.hpp"
+#include "navigation/planning/global_planner.hpp"
 
 #include <algorithm>
 #include <sstream>

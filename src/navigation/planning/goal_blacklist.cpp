@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "cca_mrpt/navigation/planning/goal_blacklist.hpp"
+#include "navigation/planning/goal_blacklist.hpp"
 
 #include <algorithm>
 #include <utility>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "cca_mrpt/navigation/planning/travel_budget.hpp"
+#include "navigation/planning/travel_budget.hpp"
 
 #include <algorithm>
 

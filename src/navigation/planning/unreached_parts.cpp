@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "cca_mrpt/navigation/planning/unreached_parts.hpp"
+#include "navigation/planning/unreached_parts.hpp"
 
 #include <algorithm>
 #include <utility>

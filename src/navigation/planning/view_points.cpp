@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "cca_mrpt/navigation/planning/view_points.hpp"
+#include "navigation/planning/view_points.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
-#include "cca_mrpt/geometry/cross.hpp"
-#include "cca_mrpt/sensing/beam.hpp"
+#include "geometry/cross.hpp"
+#include "sensing/beam.hpp"
 
 namespace cca {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "cca_mrpt/navigation/planning/view_search.hpp"
+#include "navigation/planning/view_search.hpp"
 
 #include <algorithm>
 #include <limits>

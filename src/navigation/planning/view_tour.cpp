@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "cca_mrpt/navigation/planning/view_tour.hpp"
+#include "navigation/planning/view_tour.hpp"
 
 #include <algorithm>
 #include <limits>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
 
-#include "cca_mrpt/navigation/world/frontier.hpp"
-#include "cca_mrpt/navigation/world/grid_paths.hpp"
+#include "navigation/world/frontier.hpp"
+#include "navigation/world/grid_paths.hpp"
 
 namespace cca {
 namespace {

@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "cca_mrpt/sensing/beam.hpp"
 #include "cca_mrpt/sensing/range_noise.hpp"
-#include "surface_points.hpp"
+#include "navigation/world/surface_points.hpp"
+#include "sensing/beam.hpp"
 
 namespace cca {
 namespace {

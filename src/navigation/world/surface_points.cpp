@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "surface_points.hpp"
+#include "navigation/world/surface_points.hpp"
 
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 
-#include "cca_mrpt/geometry/cross.hpp"
-#include "cca_mrpt/sensing/beam.hpp"
+#include "geometry/cross.hpp"
+#include "sensing/beam.hpp"
 
 namespace cca {
 namespace {

@@ -7,10 +7,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "cca_mrpt/sensing/beam.hpp"
 #include "io/plans/plan_reader.hpp"
+#include "motion/commanded_motion.hpp"
 #include "ros/messages/pose_message.hpp"
 #include "ros/nodes/node_localisation.hpp"
+#include "sensing/beam.hpp"
 
 namespace cca {
 namespace {

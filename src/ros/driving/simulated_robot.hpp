@@ -6,10 +6,10 @@
 #include <string>
 
 #include "cca_mrpt/sensing/missing_returns.hpp"
-#include "cca_mrpt/sensing/motion_compensation.hpp"
 #include "cca_mrpt/simulation/simulation.hpp"
 #include "ros/bags/bag_recorder.hpp"
 #include "ros/input/frame_names.hpp"
+#include "sensing/motion_compensation.hpp"
 
 namespace cca {
 

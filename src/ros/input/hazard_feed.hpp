@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "cca_mrpt/sensing/hazard_memory.hpp"
 #include "ros/input/transforms.hpp"
+#include "sensing/hazard_memory.hpp"
 
 namespace cca {
 

@@ -15,10 +15,10 @@
 
 #include "cca_mrpt/sensing/missing_returns.hpp"
 #include "cca_mrpt/sensing/scan.hpp"
-#include "cca_mrpt/sensing/scan_faults.hpp"
 #include "ros/input/pose_gate.hpp"
 #include "ros/input/scan_placement.hpp"
 #include "scan_period.hpp"
+#include "sensing/scan_faults.hpp"
 #include "transform_feed.hpp"
 
 namespace cca {

@@ -4,8 +4,8 @@
 #include <optional>
 #include <string>
 
-#include "cca_mrpt/sensing/motion_compensation.hpp"
 #include "ros/input/transforms.hpp"
+#include "sensing/motion_compensation.hpp"
 
 namespace cca {
 

@@ -6,11 +6,12 @@
 #include <stdexcept>
 #include <utility>
 
-#include "cca_mrpt/known_map/planned_sights.hpp"
 #include "cca_mrpt/sensing/range_noise.hpp"
 #include "cca_mrpt/session/earlier_drive.hpp"
 #include "io/files/memory_file.hpp"
+#include "known_map/planned_sights.hpp"
 #include "live/exploration_moment.hpp"
+#include "navigation/planning/global_planner.hpp"
 
 namespace cca {
 namespace {
@@ -92,7 +93,7 @@ Observation Exploration::sense(const Measurement& measurement, const Velocity& v
   // A correction makes the ways anew from what was seen. The plan stays where it is.
   const bool is_plan_due = known_plan_ && observation.is_localised;
   if (is_plan_due && (was_corrected || !is_plan_seen_)) lookAtPlan(observation.T_map_robot);
-  if (slam_) notes_["loops"] = slam_->slam().loops().size();
+  if (slam_) notes_["loops"] = slam_->slam().loopsClosed();
   if (slam_ && slam_->remembered() > 0) notes_["found_in_memory"] = slam_->slam().isInMemory();
   return observation;
 }
@@ -201,7 +202,7 @@ void Exploration::finishPoses() {
   const std::lock_guard<std::mutex> lock(saver_.mutex());
   if (!hasBegun() || !session_->mapping().localiser().correctsPast()) return;
   session_->finish();
-  if (slam_) notes_["loops"] = slam_->slam().loops().size();
+  if (slam_) notes_["loops"] = slam_->slam().loopsClosed();
   publisher_.correctWay(session_->mapping());
 }
 

@@ -11,10 +11,10 @@
 #include <vector>
 
 #include "cca_mrpt/io/parameters.hpp"
-#include "cca_mrpt/known_map/plan_lines.hpp"
 #include "cca_mrpt/session/exploration_session.hpp"
 #include "cca_mrpt/slam/slam_localiser.hpp"
 #include "io/maps/grid_recorder.hpp"
+#include "known_map/plan_lines.hpp"
 #include "ros/output/exploration_publisher.hpp"
 #include "ros/output/map_saver.hpp"
 #include "ros/output/plan_server.hpp"

@@ -221,7 +221,7 @@ class LineMapper {
     products.grid = grid_.grid().copy();
     products.summary["scans"] = session_->times().size();
     products.summary["agreement"] = session_->agreement().overall();
-    if (slam_) products.summary["loops"] = slam_->slam().loops().size();
+    if (slam_) products.summary["loops"] = slam_->slam().loopsClosed();
     if (slam_ && slam_->remembered() > 0) {
       products.summary["found_in_memory"] = slam_->slam().isInMemory();
     }

@@ -8,8 +8,9 @@
 #include <stdexcept>
 
 #include "cca_mrpt/known_map/known_map.hpp"
-#include "cca_mrpt/sensing/motion_compensation.hpp"
 #include "io/plans/plan_reader.hpp"
+#include "known_map/global_localisation.hpp"
+#include "known_map/plan_sight.hpp"
 #include "node_diagnostics.hpp"
 #include "node_localisation.hpp"
 #include "node_main.hpp"
@@ -19,6 +20,7 @@
 #include "ros/output/line_publisher.hpp"
 #include "ros/output/pose_publisher.hpp"
 #include "ros/parameters/private_parameters.hpp"
+#include "sensing/motion_compensation.hpp"
 
 namespace cca {
 namespace {

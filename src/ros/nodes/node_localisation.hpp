@@ -9,10 +9,10 @@
 #include <string>
 
 #include "cca_mrpt/localisation/localiser.hpp"
-#include "cca_mrpt/slam/external_corrections.hpp"
 #include "cca_mrpt/slam/slam_localiser.hpp"
 #include "ros/input/frame_names.hpp"
 #include "ros/input/scan_feed.hpp"
+#include "slam/external_corrections.hpp"
 
 namespace cca {
 

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "exploration_publisher.hpp"
+#include "cca_mrpt/navigation/world/exploration_grid.hpp"
 
 #include <geometry_msgs/PoseStamped.h>
 #include <nav_msgs/MapMetaData.h>
 #include <nav_msgs/OccupancyGrid.h>
 #include <std_msgs/String.h>
 
+#include "navigation/world/world_model.hpp"
 #include "ros/messages/grid_message.hpp"
 #include "ros/messages/line_messages.hpp"
 #include "ros/messages/pose_message.hpp"

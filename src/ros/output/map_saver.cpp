@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "io/files/memory_file.hpp"
+#include "io/maps/map_folder.hpp"
 
 namespace cca {
 

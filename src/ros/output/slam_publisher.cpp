@@ -2,6 +2,7 @@
 #include "slam_publisher.hpp"
 
 #include "ros/messages/line_messages.hpp"
+#include "slam/loop_closing.hpp"
 
 namespace cca {
 
@@ -14,14 +15,14 @@ void SlamPublisher::publish(const Estimate& estimate, const Pose2& T_odom_robot,
                             const SlamLocaliser& localiser, const ros::Time& stamp) {
   pose_.publish(estimate, T_odom_robot, stamp);
   const Slam& slam = localiser.slam();
-  if (estimate.was_corrected || slam.loops().size() != loops_shown_) publishLoops(slam, stamp);
+  if (estimate.was_corrected || slam.loopsClosed() != loops_shown_) publishLoops(slam, stamp);
 }
 
 void SlamPublisher::note(const Estimate& estimate, const SlamLocaliser& localiser,
                          NodeDiagnostics& diagnostics) const {
   const Slam& slam = localiser.slam();
   diagnostics.note("slam: agreement of the last scan", estimate.agreement);
-  diagnostics.note("slam: loops closed", slam.loops().size());
+  diagnostics.note("slam: loops closed", slam.loopsClosed());
   diagnostics.note("slam: lost", !estimate.is_known);
   diagnostics.note("slam: found in the earlier map", slam.remembered() > 0 && slam.isInMemory());
   diagnostics.note("slam: corrections of the past", localiser.corrections());
@@ -31,14 +32,14 @@ void SlamPublisher::publishLoops(const Slam& slam, const ros::Time& stamp) {
   std_msgs::Header header;
   header.frame_id = map_frame_;
   header.stamp = stamp;
-  const PoseGraph& graph = slam.keyFrames().graph;
+  const PoseGraph& graph = slam.graph();
   std::vector<Eigen::Vector2d> ends;
   for (const LoopVerdict& loop : slam.loops()) {
     ends.push_back(graph.pose(loop.frame).position());
     ends.push_back(graph.pose(loop.candidate).position());
   }
   loop_markers_.publish(loopMarkers(ends, header));
-  loops_shown_ = slam.loops().size();
+  loops_shown_ = slam.loopsClosed();
 }
 
 }  // namespace cca

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "cca_mrpt/navigation/control/tangent_bug/motion_to_goal.hpp"
+#include "navigation/control/tangent_bug/motion_to_goal.hpp"
 
 #include <algorithm>
 

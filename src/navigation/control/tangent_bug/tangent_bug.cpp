@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "cca_mrpt/navigation/control/tangent_bug/tangent_bug.hpp"
+#include "navigation/control/tangent_bug/tangent_bug.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-#include "cca_mrpt/geometry/cross.hpp"
-#include "cca_mrpt/sensing/beam.hpp"
 #include "cca_mrpt/sensing/range_noise.hpp"
+#include "geometry/cross.hpp"
+#include "sensing/beam.hpp"
 
 namespace cca {
 namespace {

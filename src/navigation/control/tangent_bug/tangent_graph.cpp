@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "cca_mrpt/navigation/control/tangent_bug/tangent_graph.hpp"
+#include "navigation/control/tangent_bug/tangent_graph.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-#include "cca_mrpt/geometry/cross.hpp"
+#include "geometry/cross.hpp"
 
 namespace cca {
 namespace {

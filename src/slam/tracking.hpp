@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "cca_mrpt/slam/scan_matcher.hpp"
+#include "slam/correlative_search.hpp"
+#include "slam/key_frames.hpp"
+#include "slam/surface_matching.hpp"
+
+namespace cca {
+
+/// A scan at the pose where it fits its surroundings best.
+struct LocalMatch {
+  MatchResult match;
+  double agreement = 0.0;  ///< of its rays with those of the nearest key frames, [0, 1]
+  double in_common = 0.0;  ///< returns of which these key frames say something
+};
+
+/// Agreement above which Gauss-Newton from the prediction suffices; no correlative search.
+inline constexpr double kGoodAgreement = 0.9;
+
+/// What the rays of two scans say of each other's returns. A return behind a wall that stood there
+/// contradicts, too: by what it saw through.
+SightCount mutualSights(const ScanSurface& reference, const ScanSurface& query,
+                        const Pose2& T_reference_query);
+
+/// Removes from a new key frame, and from the nearest ones in view, what the others saw through.
+/// Cost: that of a match.
+void removeMovers(KeyFrames& frames, int frame, const std::vector<int>& view);
+
+/// Scan-to-map matching: the map is the key frames around the robot.
+class ScanTracker {
+ public:
+  explicit ScanTracker(ScanMatcher matcher) : matcher_(matcher) {}
+
+  /// The key frames that the next scans are matched with, best first.
+  const std::vector<int>& view() const { return view_; }
+  /// Those that have most in common with what is seen from a pose, among those tied to `anchor`.
+  void lookAround(const KeyFrames& frames, int anchor, const Pose2& T_map_sensor);
+  /// That frame alone.
+  void lookAt(int frame) { view_ = {frame}; }
+
+  /// Matches a scan from `start` on.
+  /// @param reach  m, how far off `start` may be.
+  LocalMatch matchLocally(const KeyFrames& frames, const ScanSurface& surface,
+                          const PoseBelief& prior, const Pose2& start, double reach) const;
+
+  /// Matches a scan from where it was predicted; where the prior is wide, or the scan does not
+  /// agree there, after a correlative search of the prior's three sigmas.
+  LocalMatch localise(const KeyFrames& frames, const ScanSurface& surface,
+                      const PoseBelief& prior) const;
+
+  /// Matches a scan after a search in all directions, a metre around the prior's mean.
+  LocalMatch searchAllDirections(const KeyFrames& frames, const ScanSurface& surface,
+                                 const PoseBelief& prior) const;
+
+ private:
+  Pose2 correlativeSearch(const KeyFrames& frames, const ScanSurface& surface,
+                          SearchWindow window) const;
+
+  ScanMatcher matcher_;
+  std::vector<int> view_;
+};
+
+/// m, of a match that begins within the least window of a search: this and a half of it.
+inline constexpr double kFirstMatchReach = 0.3;
+
+/// The belief where the odometry says nothing of where the robot is: what the match finds counts.
+PoseBelief withoutOdometry(PoseBelief prior);
+
+}  // namespace cca
