@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "sensing/beam.hpp"
@@ -153,6 +154,12 @@ std::vector<bool> MovingPoints::update(const Scan& scan, double range_sigma, dou
   findUnsettled(scan, points, moving, range_sigma, time);
   past_.push_back({scan, points, time});
   return moving;
+}
+
+double MovingPoints::distanceTo(const Eigen::Vector2d& p_map) const {
+  double nearest = std::numeric_limits<double>::infinity();
+  for (const Place& place : places_) nearest = std::min(nearest, (place.p_map - p_map).norm());
+  return nearest;
 }
 
 // The latest scan of at least that age; else the oldest.

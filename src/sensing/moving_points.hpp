@@ -32,6 +32,10 @@ class MovingPoints {
   /// place. Somebody slow, or somebody who has just come from behind something.
   const std::vector<Eigen::Vector2d>& unsettled() const { return unsettled_; }
 
+  /// m, from p_map [m, map frame] to the nearest place where a mover was within the last kMemory;
+  /// infinite where there was none. Cost: O(places).
+  double distanceTo(const Eigen::Vector2d& p_map) const;
+
   static constexpr double kFarthest = 6.0;  ///< m; a leg has one beam of a cheap laser there
   /// s; longer than people pause, who are gone again after two
   static constexpr double kMemory = 3.0;

@@ -13,8 +13,10 @@ namespace {
 
 constexpr double kAtRest = 0.05;        // rad/s; such a scan is bent by no sweep worth telling
 constexpr double kTurning = 0.3;        // rad/s, by which bent scans differ from others
+constexpr double kDriving = 0.25;       // m/s, likewise: 5 cm between the ends of a slow sweep
+constexpr double kAsFast = 0.02;        // m/s, by which odometry's speed wavers
 constexpr double kTurnedAway = 0.5;     // rad: a turn at constant rate shows its sweep at the seam
-constexpr double kNearReference = 0.5;  // m; farther off, other surfaces come into view
+constexpr double kNearReference = 0.8;  // m; farther off, other surfaces come into view
 constexpr double kLongestTurn = 7.0;    // rad, a full turn: odometry's heading has drifted by then
 constexpr double kClip = 0.3;           // m, of a difference: occlusions are no matter of the sweep
 constexpr double kOneSurface = 0.1;     // of the range, between neighbouring beams
@@ -114,10 +116,13 @@ void SweepIdentification::add(const Scan& scan, double duration, const Twist& se
   const bool is_near =
       reference_ && reference_->turned < kLongestTurn &&
       (T_odom_sensor.position() - reference_->T_odom_sensor.position()).norm() < kNearReference;
-  if (!is_near || std::abs(sensor.angular) < kAtRest) {
+  const bool is_comparable = is_near && isComparable(sensor, T_odom_sensor);
+  const bool is_straighter = reference_ && std::abs(sensor.angular) < kAtRest &&
+                             sensor.linear.norm() < reference_->linear.norm() + kAsFast;
+  if (!is_near || (is_straighter && !is_comparable)) {
     return begin(scan, duration, sensor, T_odom_sensor);
   }
-  if (!isComparable(sensor, T_odom_sensor)) return;
+  if (!is_comparable) return;
   const Pose2 T_reference_sensor = reference_->T_odom_sensor.inverse() * T_odom_sensor;
   Costs costs;
   for (std::size_t h = 0; h < kHypotheses; ++h) {
@@ -129,6 +134,7 @@ void SweepIdentification::add(const Scan& scan, double duration, const Twist& se
 }
 
 bool SweepIdentification::isComparable(const Twist& sensor, const Pose2& T_odom_sensor) const {
+  if ((sensor.linear - reference_->linear).norm() > kDriving) return true;
   if (std::abs(sensor.angular) < kTurning) return false;
   const double heading = wrapAngle(T_odom_sensor.theta - reference_->T_odom_sensor.theta);
   return std::abs(sensor.angular - reference_->angular) > kTurning ||
@@ -142,6 +148,7 @@ void SweepIdentification::begin(const Scan& scan, double duration, const Twist& 
     reference_->scans[h] = under(h, scan, duration, sensor);
   }
   reference_->angular = sensor.angular;
+  reference_->linear = sensor.linear;
   reference_->T_odom_sensor = T_odom_sensor;
 }
 

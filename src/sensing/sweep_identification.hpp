@@ -18,11 +18,12 @@ enum class SweepSense {
 
 /// Finds out which way a laser sweeps: messages do not tell it reliably.
 ///
-/// Under the right hypothesis, scans taken while the robot turns agree in shape with one taken at
-/// another turning rate, or at another heading, nearby: a rigid motion joins them. Under a wrong
-/// one they are bent. Each scan taken while turning is undistorted under the three hypotheses and
-/// laid onto a reference scan likewise undistorted, at the heading that fits best; odometry tells
-/// the rest. The mean differences of their ranges are the observations of a sequential paired test.
+/// Under the right hypothesis, scans taken while the robot moves agree in shape with one taken
+/// nearby at another speed or turning rate, or at another heading: a rigid motion joins them. Under
+/// a wrong one they are bent. Each scan taken while moving is undistorted under the three
+/// hypotheses and laid onto a reference scan likewise undistorted, at the heading that fits best;
+/// odometry tells the rest. The mean differences of their ranges are the observations of a
+/// sequential paired test.
 class SweepIdentification {
  public:
   /// Takes the next scan. Cost: O(beams), some hundred thousand operations until it is settled.
@@ -46,6 +47,7 @@ class SweepIdentification {
     std::array<Scan, kHypotheses> scans;  ///< undistorted under each
     Costs turn{};                         ///< rad, by which odometry's heading is off since then
     double angular = 0.0;                 ///< rad/s
+    Eigen::Vector2d linear{0.0, 0.0};     ///< m/s
     double turned = 0.0;                  ///< rad, since then, of both senses
     Pose2 T_odom_sensor;
   };

@@ -100,10 +100,10 @@ Tally drivesIn(const std::string& name) {
 }
 
 TEST(DriveTo, RandomPlacesOfAPlanAreReachedWithoutAContact) {
-  // Not among those of every run: in the office two walkers who turn at the corridor's end and the
-  // robot behind them wait for one another (four of five arrive), docs/log/localisation.md.
-  std::vector<std::string> worlds{"apartment"};
-  if (drives() >= 20) worlds = {"apartment", "office", "gallery", "random", "warehouse"};
+  // In the office two walkers at the end of a corridor and the robot behind them would wait
+  // for one another for ever.
+  std::vector<std::string> worlds{"apartment", "office"};
+  if (drives() >= 12) worlds = {"apartment", "office", "gallery", "random", "warehouse"};
   for (const std::string& name : worlds) {
     const Tally tally = drivesIn(name);
     std::printf("%-12s %d of %d arrived, %d contacts, way / shortest %.3f\n", name.c_str(),

@@ -99,6 +99,41 @@ TEST(MotionCompensation, DoesNotTakeTheErrorOfWheelsForASweep) {
   }
 }
 
+/// The same of a robot that never turns: from rest it drives 4 m straight on, as wheels of this
+/// scale see it.
+double learnedStraightOn(double sweep, double told, double scale) {
+  const SweptRoom room;
+  std::mt19937 generator(7);
+  std::normal_distribution<double> noise(0.0, 0.01);
+  MotionCompensation compensation;
+  constexpr double kPeriod = 0.18, kSpeed = 0.7, kAcceleration = 0.5, kWay = 4.0;
+  double way = 0.0, speed = 0.0;
+  for (int k = 0; way < kWay; ++k) {
+    const double before = speed;
+    if (k > 5) speed = std::min(kSpeed, speed + kAcceleration * kPeriod);
+    way += 0.5 * (before + speed) * kPeriod;
+    Scan scan = room.sweep(kFullTurn, Pose2{way - 2.0, 0.3, 0.1} * kMount,
+                           sensorTwist({{speed, 0.0}, 0.0}, kMount), sweep);
+    for (double& range : scan.ranges) range += noise(generator);
+    scan.sweep_duration = told;
+    const Pose2 T_odom_robot{scale * way, 0.0, 0.1};
+    compensation.undistort(scan, {SensorReading{T_odom_robot * kMount, k * kPeriod}});
+  }
+  return compensation.sweepDuration();
+}
+
+TEST(MotionCompensation, FindsTheSweepOfARobotThatNeverTurns) {
+  EXPECT_NEAR(learnedStraightOn(0.18, 0.0, 1.02), 0.18, 0.01);
+  EXPECT_NEAR(learnedStraightOn(-0.18, 0.0, 1.02), -0.18, 0.01);
+  EXPECT_NEAR(learnedStraightOn(-0.18, 0.18, 0.98), -0.18, 0.01);
+}
+
+TEST(MotionCompensation, DoesNotTakeWheelsThatCountWrongForASweep) {
+  for (const double scale : {0.9, 0.95, 1.0, 1.05, 1.1}) {
+    EXPECT_EQ(learnedStraightOn(0.0, 0.0, scale), 0.0) << scale;
+  }
+}
+
 TEST(MotionCompensation, LearnsNothingWhereItIsTold) {
   EXPECT_EQ(learned({kFullTurn, 0.17, 0.18, 0.0}, 120, MotionCompensation(0.0)), 0.0);
   EXPECT_EQ(learned({kFullTurn, 0.0, 0.18, 0.0}, 120, MotionCompensation(-0.1)), -0.1);

@@ -52,14 +52,18 @@ class VelocityController {
                   const Pose2& T_map_robot, const std::vector<Hazard>& hazards, double clearance,
                   double time) const;
   std::vector<Hazard> hazards(const LocalView& view, const PredictedState& state,
-                              const MovingPoints& movers, double clearance) const;
+                              const MovingPoints& movers, double clearance, double time) const;
   void noteWhetherHeld(bool is_held, double time);
+  void noteWhetherPeopleStand(bool is_held, double nearest_mover, double time);
   void remember(const LocalView& view, double heeded);
 
   CommandedMotion motion_;
   std::deque<std::vector<Eigen::Vector2d>> lately_near_map_;  ///< by scan, where ranges are noisy
   ProgressClock held_;  ///< while it stands, wants to drive, and that is not safe
   double gets_away_until_ = -std::numeric_limits<double>::infinity();  ///< s
+  ProgressClock people_stand_;  ///< while the robot stands, wants to drive, and they are in reach
+  double unseen_until_ = -std::numeric_limits<double>::infinity();       ///< s
+  double creeps_past_until_ = -std::numeric_limits<double>::infinity();  ///< s
 };
 
 }  // namespace cca
