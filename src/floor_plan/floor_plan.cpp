@@ -152,9 +152,12 @@ void takeLeaning(PlanRoom& room, FloorPlan& plan) {
   }
 }
 
-/// Where each room is widest, for its name; and the area of it that no beam crossed.
-void noteCells(const OccupancyRaster& grid, const Raster<float>& clearance,
-               const Raster<int>& labels, std::vector<PlanRoom>& rooms) {
+/// Where each room has the most free floor around; and the area of it that no beam crossed.
+void noteCells(const OccupancyRaster& grid, const Mask& open, const Raster<int>& labels,
+               std::vector<PlanRoom>& rooms) {
+  Mask obstacles = open;
+  for (std::uint8_t& value : obstacles.values) value = value == 0;
+  const Raster<float> clearance = distanceTransform(obstacles);
   std::vector<float> widest(rooms.size(), -1.0F);
   const double cell = grid.resolution * grid.resolution;
   for (std::size_t k = 0; k < labels.values.size(); ++k) {
@@ -260,7 +263,7 @@ FloorPlan floorPlan(const OccupancyRaster& whole, const std::vector<MapLine>& ma
     plan.room_of.values[k] = regions.labels.values[k] + 1;
   plan.furniture = freeStanding(structure.furniture);
   plan.rooms.resize(static_cast<std::size_t>(regions.count));
-  noteCells(grid, clearance, regions.labels, plan.rooms);
+  noteCells(grid, structure.open, regions.labels, plan.rooms);
   const std::vector<RegionOutline> borders = outlinesOfRegions(regions.labels, regions.count);
   const Mask obstacles = obstaclesSeen(grid, lines);
   for (std::size_t k = 0; k < plan.rooms.size(); ++k) {

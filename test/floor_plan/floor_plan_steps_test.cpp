@@ -84,8 +84,8 @@ TEST(Structure, TellsAPillarFromAWallInTheMiddleOfAHall) {
 TEST(Structure, CountsNarrowUnknownStripesBetweenBeamsAsFloor) {
   OccupancyRaster grid;
   grid.columns = 60;
-  grid.rows = 20;
-  grid.values.assign(1200, Occupancy::kFree);
+  grid.rows = 60;
+  grid.values.assign(3600, Occupancy::kFree);
   const auto fill = [&](int from, int to, Occupancy value) {
     for (int y = 0; y < grid.rows; ++y) {
       for (int x = from; x < to; ++x) grid[{x, y}] = value;

@@ -279,8 +279,7 @@ TEST(FloorPlan, TakesBeamsThroughAWindowForNoRoom) {
   }
   for (int beam = 0; beam < 4; ++beam) {
     for (int x = 3; x < 90; ++x) {
-      for (int y = 0; y < 2; ++y)
-        wide[window + Cell{x, 5 * beam - 9 + y}] = Occupancy::kFree;
+      for (int y = 0; y < 2; ++y) wide[window + Cell{x, 5 * beam - 9 + y}] = Occupancy::kFree;
     }
   }
   const FloorPlan plan = floorPlan(wide, map.lines);

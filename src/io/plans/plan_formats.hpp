@@ -50,6 +50,9 @@ using RoomLabels = std::vector<std::pair<Eigen::Vector2d, std::string>>;
 /// @throws std::runtime_error naming file, row and column of what is missing or no finite number.
 RoomLabels readRoomLabels(const std::string& text, const std::string& file);
 
+/// The same of a file. @throws std::runtime_error where it cannot be read, too.
+RoomLabels roomLabelsOfFile(const std::string& path);
+
 /// Gives rooms the names of the labels that lie in them; of several in one room the first counts.
 /// @return  the labels that lie in no room.
 RoomLabels nameRooms(FloorPlan& plan, const RoomLabels& labels);

@@ -3,6 +3,8 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <filesystem>
+#include <fstream>
 #include <sstream>
 #include <stdexcept>
 
@@ -101,6 +103,15 @@ RoomLabels readRoomLabels(const std::string& text, const std::string& file) {
                       fields[column[2]]});
   }
   return labels;
+}
+
+RoomLabels roomLabelsOfFile(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  if (!file || std::filesystem::is_directory(path))
+    throw std::runtime_error(path + ": cannot be read");
+  std::ostringstream text;
+  text << file.rdbuf();
+  return readRoomLabels(text.str(), path);
 }
 
 RoomLabels nameRooms(FloorPlan& plan, const RoomLabels& labels) {
