@@ -155,9 +155,15 @@ void takeLeaning(PlanRoom& room, FloorPlan& plan) {
 /// Where each room has the most free floor around; and the area of it that no beam crossed.
 void noteCells(const OccupancyRaster& grid, const Mask& open, const Raster<int>& labels,
                std::vector<PlanRoom>& rooms) {
-  Mask obstacles = open;
-  for (std::uint8_t& value : obstacles.values) value = value == 0;
-  const Raster<float> clearance = distanceTransform(obstacles);
+  Mask ends = open;  // an opening ends a room as a wall does: who is sent there is to be inside
+  for (std::size_t k = 0; k < ends.values.size(); ++k) {
+    const Cell c = labels.cell(k);
+    const bool is_inside = std::all_of(kNeighbours.begin(), kNeighbours.end(), [&](const Cell& n) {
+      return labels.at(c + n, -1) == labels.values[k];
+    });
+    ends.values[k] = open.values[k] == 0 || !is_inside;
+  }
+  const Raster<float> clearance = distanceTransform(ends);
   std::vector<float> widest(rooms.size(), -1.0F);
   const double cell = grid.resolution * grid.resolution;
   for (std::size_t k = 0; k < labels.values.size(); ++k) {

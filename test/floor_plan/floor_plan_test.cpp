@@ -287,6 +287,23 @@ TEST(FloorPlan, TakesBeamsThroughAWindowForNoRoom) {
   EXPECT_NEAR(plan.rooms[0].area, 20.0, 0.2);
 }
 
+TEST(FloorPlan, LabelsARoomWhereMostFloorIsFreeWithinIt) {
+  // A hall, and a narrow room with a door into it; a table in the middle of the hall.
+  const Polygon outline{{0, 0},   {6, 0},      {6, 2},      {6.12, 2}, {6.12, 1.6}, {9, 1.6},
+                        {9, 3.2}, {6.12, 3.2}, {6.12, 2.9}, {6, 2.9},  {6, 6},      {0, 6}};
+  const Polygon table{{2.6, 2.6}, {2.6, 3.4}, {3.4, 3.4}, {3.4, 2.6}};
+  const DrawnMap map = drawMap({outline, table}, {0.0, 0.0, 0.0});
+  const FloorPlan plan = floorPlan(map.grid, map.lines);
+  ASSERT_EQ(plan.rooms.size(), 2u);
+  const PlanRoom& hall = plan.rooms[plan.rooms[0].area > 10.0 ? 0 : 1];
+  const PlanRoom& narrow = plan.rooms[plan.rooms[0].area > 10.0 ? 1 : 0];
+  EXPECT_EQ(roomAt(plan, hall.label), hall.id);
+  EXPECT_GT((hall.label - Eigen::Vector2d(3.0, 3.0)).norm(), 1.3);  // not on the table
+  EXPECT_EQ(roomAt(plan, narrow.label), narrow.id);
+  EXPECT_GT(narrow.label.x(), 6.7);  // not in the door
+  EXPECT_NEAR(narrow.label.y(), 2.4, 0.1);
+}
+
 TEST(FloorPlan, SaysWhereAnUnfinishedMapEnds) {
   DrawnMap map = drawMap({{{0, 0}, {8, 0}, {8, 4}, {0, 4}}}, {0.0, 0.0, 0.0});
   const double whole = floorPlan(map.grid, map.lines).rooms.at(0).open_border;

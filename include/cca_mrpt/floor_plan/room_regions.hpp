@@ -15,7 +15,7 @@ namespace cca {
 /// more.
 struct RoomTuning {
   double widest_narrowing = 0.55;  ///< relative width; of kNarrowing and kAtCorner
-  double widest_abutting = 0.85;   ///< the same of kAbutting
+  double widest_abutting = 0.85;   ///< relative width of kAbutting: one jamb is a mere flank
   double widest_collinear = 0.9;   ///< the same of kCollinear and kBetweenEnds
   /// Support [see wallSupport()] of a kAbutting below which the wall that ends there leads past the
   /// gap: it parts as a narrowing. Walls in line are then shorter than half of the gap.
