@@ -1,6 +1,6 @@
 # Messages and the catkin package; included before any target that uses them.
 add_message_files(DIRECTORY msg FILES LineSegment.msg LineMap.msg)
-add_service_files(DIRECTORY srv FILES RoomAt.srv)
+add_service_files(DIRECTORY srv FILES DriveToRoom.srv RoomAt.srv)
 generate_messages(DEPENDENCIES geometry_msgs std_msgs)
 # The layers are exported as CMake targets, by cca_mrpt-extras.cmake.
 #catkin_lint: ignore missing_export_lib unused_include_path

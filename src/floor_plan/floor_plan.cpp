@@ -154,9 +154,18 @@ void takeLeaning(PlanRoom& room, FloorPlan& plan) {
   }
 }
 
-/// Where each room is widest, for its name; and the area of it that no beam crossed.
-void noteCells(const OccupancyRaster& grid, const Raster<float>& clearance,
-               const Raster<int>& labels, std::vector<PlanRoom>& rooms) {
+/// Where each room has the most free floor around; and the area of it that no beam crossed.
+void noteCells(const OccupancyRaster& grid, const Mask& open, const Raster<int>& labels,
+               std::vector<PlanRoom>& rooms) {
+  Mask ends = open;  // an opening ends a room as a wall does: who is sent there is to be inside
+  for (std::size_t k = 0; k < ends.values.size(); ++k) {
+    const Cell c = labels.cell(k);
+    const bool is_inside = std::all_of(kNeighbours.begin(), kNeighbours.end(), [&](const Cell& n) {
+      return labels.at(c + n, -1) == labels.values[k];
+    });
+    ends.values[k] = open.values[k] == 0 || !is_inside;
+  }
+  const Raster<float> clearance = distanceTransform(ends);
   std::vector<float> widest(rooms.size(), -1.0F);
   const double cell = grid.resolution * grid.resolution;
   for (std::size_t k = 0; k < labels.values.size(); ++k) {
@@ -260,7 +269,7 @@ FloorPlan floorPlan(const OccupancyRaster& whole, const std::vector<MapLine>& ma
     plan.room_of.values[k] = regions.labels.values[k] + 1;
   plan.furniture = freeStanding(structure.furniture);
   plan.rooms.resize(static_cast<std::size_t>(regions.count));
-  noteCells(grid, clearance, regions.labels, plan.rooms);
+  noteCells(grid, structure.open, regions.labels, plan.rooms);
   const std::vector<RegionOutline> borders = outlinesOfRegions(regions.labels, regions.count);
   const Mask obstacles = obstaclesSeen(grid, lines);
   for (std::size_t k = 0; k < plan.rooms.size(); ++k) {

@@ -30,6 +30,7 @@ struct Passage {
 struct PassageTuning {
   double narrowest = 0.4;      ///< m; no person passes below it
   double widest = 2.7;         ///< m; of gaps that a wall's line crosses: a double door and some
+  double widest_door = 1.4;    ///< m; a leaf and a half: beyond a wider gap begins another wall
   double shortest_wall = 0.3;  ///< m; a line below it is no wall that could go on
   double end_error = 0.3;      ///< m; lines end that much before their wall does
   double depth = 0.04;         ///< m; a gap is looked for so far inside of a wall's face

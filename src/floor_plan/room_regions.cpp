@@ -141,8 +141,6 @@ double widestDoor(const Passage& passage, const RoomTuning& tuning) {
     case PassageEvidence::kAbutting:
       return isBesideWall(passage, tuning) ? tuning.widest_narrowing : tuning.widest_abutting;
     case PassageEvidence::kCollinear:
-      if (passage.width() > tuning.door_leaf) return tuning.widest_abutting;
-      break;
     case PassageEvidence::kBetweenEnds:
       break;
   }
@@ -262,9 +260,7 @@ class RegionGraph {
     const int a = root(border.rooms[0]), b = root(border.rooms[1]);
     const double width = border.passage.width();
     // A shallow room with its door in the long side is as wide as a square of its area.
-    const bool is_gap =
-        isInWall(border.passage, tuning_) ||
-        (border.passage.evidence != PassageEvidence::kNarrowing && width <= tuning_.door_leaf);
+    const bool is_gap = border.passage.evidence != PassageEvidence::kNarrowing;
     const auto besideOf = [&](std::size_t side, bool is_door) {  // m
       const std::size_t region = at(side ? b : a);
       const double extent = is_door && is_gap

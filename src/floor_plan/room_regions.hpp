@@ -11,20 +11,19 @@ namespace cca {
 
 /// When a passage parts two rooms. Its relative width is its width over that of the narrower of
 /// both regions: that of sections beside it, at most twice the greatest clearance in the region;
-/// or, for the door of a gap in a wall and one that is no wider than a leaf, the side of a square
-/// of its area if that is more.
+/// or, for a gap that a line or a corner speaks for, the side of a square of its area if that is
+/// more.
 struct RoomTuning {
   double widest_narrowing = 0.55;  ///< relative width; of kNarrowing and kAtCorner
-  double widest_abutting = 0.85;   ///< the same of kAbutting, and of wide kCollinear
+  double widest_abutting = 0.85;   ///< relative width of kAbutting: one jamb is a mere flank
   double widest_collinear = 0.9;   ///< the same of kCollinear and kBetweenEnds
   /// Support [see wallSupport()] of a kAbutting below which the wall that ends there leads past the
-  /// gap: it parts as a narrowing. Walls in line are then shorter than a quarter of the gap.
-  double least_support = 0.2;
+  /// gap: it parts as a narrowing. Walls in line are then shorter than half of the gap.
+  double least_support = 1.0 / 3.0;
   /// The same from which on a gap with two jambs lies in a wall: there is no less wall than gap.
   /// The space beside it then reaches over floor that was hidden, to the next thing seen: a room
   /// that was glimpsed through its door is no narrower than the door.
   double in_wall = 0.5;
-  double door_leaf = 1.4;    ///< m; a gap in a wall's line that is wider holds no door
   double least_step = 0.16;  ///< m, three cells; a door is that much narrower than the space beside
   /// The mouth of a corridor is as wide as that. Its relative width on the other side is at most
   /// that; a corridor with an alcove is twice as wide there, and one space still.

@@ -2,6 +2,7 @@
 #include "floor_plan/structure.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <set>
 
 #include "floor_plan/distance_transform.hpp"
@@ -14,6 +15,7 @@ constexpr double kDepth = 0.04;       // m inside of a wall's face, where its li
 constexpr double kOpposite =
     0.5;  // cosine; walls on two sides run to 60 degrees against each other
 constexpr double kIntoCorner = 1.42;  // a disc's radius to the corner that it fits into
+constexpr double kBesideFace = 0.08;  // m; a cell and its neighbours across, not those aslant
 
 /// m, the longest line of each component.
 std::vector<double> longestLines(const Components& parts, const std::vector<MapLine>& lines) {
@@ -99,6 +101,81 @@ std::vector<char> furnitureAmong(const Components& parts, const std::vector<MapL
   return is_furniture;
 }
 
+Mask maskOf(const OccupancyRaster& grid, Occupancy value) {
+  Mask mask = grid.alike(std::uint8_t{0});
+  for (std::size_t k = 0; k < grid.values.size(); ++k) mask.values[k] = grid.values[k] == value;
+  return mask;
+}
+
+/// The cells of `way` that a walk of at most `steps` over such cells joins to floor.
+Mask besideFloor(const OccupancyRaster& grid, const Mask& way, int steps) {
+  Mask reached = grid.alike(std::uint8_t{0});
+  std::vector<std::size_t> front, next;
+  for (std::size_t k = 0; k < grid.values.size(); ++k) {
+    if (grid.values[k] == Occupancy::kFree) front.push_back(k);
+  }
+  for (; steps > 0; --steps) {
+    next.clear();
+    for (const std::size_t k : front) {
+      for (const Cell step : kNeighbours) {
+        const Cell c = grid.cell(k) + step;
+        if (!way.at(c, 0) || reached[c]) continue;
+        reached[c] = 1;
+        next.push_back(grid.index(c));
+      }
+    }
+    front.swap(next);
+  }
+  return reached;
+}
+
+/// Unknown stripes between beams: the morphological closing of the floor over unknown cells. What
+/// lies beside a face stays: it may be the inside of a wall.
+/// @param lines  cells that lines cross.
+Mask betweenBeams(const OccupancyRaster& grid, const Mask& lines, double half_stripe) {
+  Mask faces = maskOf(grid, Occupancy::kOccupied);
+  for (std::size_t k = 0; k < faces.values.size(); ++k) faces.values[k] |= lines.values[k];
+  const Raster<float> from_face = distanceTransform(faces);
+  const Mask unknown = maskOf(grid, Occupancy::kUnknown);
+  Mask hidden = unknown;
+  for (std::size_t k = 0; k < hidden.values.size(); ++k)
+    hidden.values[k] &= static_cast<std::uint8_t>(from_face.values[k] > kBesideFace);
+  Mask between =
+      besideFloor(grid, hidden, static_cast<int>(std::lround(half_stripe / grid.resolution)));
+  Mask beyond = unknown;
+  for (std::size_t k = 0; k < beyond.values.size(); ++k)
+    beyond.values[k] &= static_cast<std::uint8_t>(!between.values[k]);
+  const Raster<float> from_beyond = distanceTransform(beyond);
+  const double edge = half_stripe + 0.5 * grid.resolution;
+  for (std::size_t k = 0; k < between.values.size(); ++k)
+    between.values[k] &= static_cast<std::uint8_t>(from_beyond.values[k] > edge);
+  return between;
+}
+
+/// Leaves out the parts of a space of which too little floor was seen: beams through a window make
+/// such ones beyond it. @param wide  floor seen that is no slit.
+void dropGlimpses(Mask& space, const Mask& wide, double least_seen) {
+  const Components parts = connectedComponents(space, 4);
+  std::vector<double> seen(parts.sizes.size(), 0.0);
+  const double cell_area = space.resolution * space.resolution;
+  for (std::size_t k = 0; k < space.values.size(); ++k) {
+    if (space.values[k] && wide.values[k])
+      seen[static_cast<std::size_t>(parts.labels.values[k])] += cell_area;
+  }
+  for (std::size_t k = 0; k < space.values.size(); ++k) {
+    if (space.values[k] && seen[static_cast<std::size_t>(parts.labels.values[k])] < least_seen)
+      space.values[k] = 0;
+  }
+}
+
+/// The cells with at least so much clearance.
+Mask atLeast(const Raster<float>& clearance, double least) {
+  Mask wide = clearance.alike(std::uint8_t{0});
+  for (std::size_t k = 0; k < wide.values.size(); ++k)
+    wide.values[k] = clearance.values[k] >= least;
+  return wide;
+}
+
 }  // namespace
 
 bool standsOn(const Mask& solid, const LineSegment& line) {
@@ -134,11 +211,15 @@ OccupancyRaster cropToKnown(const OccupancyRaster& grid, int margin_cells) {
 
 Structure tellStructure(const OccupancyRaster& grid, const std::vector<MapLine>& lines,
                         const StructureTuning& tuning) {
-  Mask blocked = grid.alike(std::uint8_t{0});
-  for (std::size_t k = 0; k < grid.values.size(); ++k)
-    blocked.values[k] = grid.values[k] != Occupancy::kFree;
+  Mask crossed = grid.alike(std::uint8_t{0});
   for (const MapLine& line : lines) {
-    for (const Cell c : cellsAlong(blocked, line.segment.start, line.segment.end)) blocked[c] = 1;
+    for (const Cell c : cellsAlong(crossed, line.segment.start, line.segment.end)) crossed[c] = 1;
+  }
+  const Mask between = betweenBeams(grid, crossed, tuning.half_stripe);
+  Mask blocked = crossed;
+  for (std::size_t k = 0; k < grid.values.size(); ++k) {
+    const bool is_floor = grid.values[k] == Occupancy::kFree || between.values[k];
+    blocked.values[k] = crossed.values[k] || !is_floor;
   }
   const Components parts = connectedComponents(blocked, 8);
   const std::vector<char> is_furniture = furnitureAmong(parts, lines, tuning);
@@ -147,7 +228,7 @@ Structure tellStructure(const OccupancyRaster& grid, const std::vector<MapLine>&
   for (std::size_t k = 0; k < grid.values.size(); ++k) {
     const int label = parts.labels.values[k];
     const bool is_small = label >= 0 && is_furniture[static_cast<std::size_t>(label)];
-    found.open.values[k] = label < 0;
+    found.open.values[k] = label < 0 && !between.values[k];
     found.furniture.values[k] = is_small;
     found.solid.values[k] = label >= 0 && !is_small;
   }
@@ -156,14 +237,14 @@ Structure tellStructure(const OccupancyRaster& grid, const std::vector<MapLine>&
 
 Mask spaceForRooms(const Structure& structure, const Raster<float>& clearance,
                    const StructureTuning& tuning) {
-  Mask wide = structure.solid.alike(std::uint8_t{0});
-  for (std::size_t k = 0; k < wide.values.size(); ++k)
-    wide.values[k] = clearance.values[k] >= tuning.half_slit;
-  const Raster<float> beside = distanceTransform(wide);
-  const double reach = kIntoCorner * tuning.half_slit + wide.resolution;
-  Mask space = structure.solid.alike(std::uint8_t{0});
-  for (std::size_t k = 0; k < space.values.size(); ++k)
+  const Raster<float> beside = distanceTransform(atLeast(clearance, tuning.half_slit));
+  const double reach = kIntoCorner * tuning.half_slit + clearance.resolution;
+  Mask space = structure.solid.alike(std::uint8_t{0}), unseen = space;
+  for (std::size_t k = 0; k < space.values.size(); ++k) {
     space.values[k] = structure.solid.values[k] == 0 && beside.values[k] <= reach;
+    unseen.values[k] = !structure.open.values[k] && !structure.furniture.values[k];
+  }
+  dropGlimpses(space, atLeast(distanceTransform(unseen), tuning.half_slit), tuning.least_seen);
   return space;
 }
 

@@ -22,13 +22,17 @@ struct StructureTuning {
   /// m; open floor narrower than twice that is no place for a person: beams through a window, or
   /// between the leaves of a door, leave slits behind it.
   double half_slit = 0.25;
+  /// m; unknown cells between two beams, up to twice that apart, are floor: nothing that parts a
+  /// room and shows to neither beam is that narrow.
+  double half_stripe = 0.1;
+  double least_seen = 1.0;  ///< m^2 of floor without slits that a space has at least: as a room
 };
 
 /// The building and what stands in it.
 struct Structure {
   Mask solid;      ///< walls, what leans on them, and the unknown behind them
   Mask furniture;  ///< free-standing obstacles with the unknown inside of them
-  Mask open;       ///< neither: seen free
+  Mask open;       ///< neither: seen free; what is in no mask is unknown floor between beams
 };
 
 /// The part of a grid that is known, with a margin of unknown cells around it. Empty where nothing

@@ -13,7 +13,8 @@ constexpr double kCosInLine = 0.97;  // 14 degrees: more is another wall
 constexpr double kAside = 0.3;       // m; a wall's other face, and the thicker wall beyond a gap
 constexpr double kLongWall = 6.0;    // m; a wall that is longer tells no more
 
-/// m of wall that leads up to a jamb from beyond, in the line of the passage, without a break.
+/// m of wall that leads up to a jamb from beyond, in the line of the passage. A wall goes on beyond
+/// its doors.
 double wallBeyond(const Eigen::Vector2d& jamb, const Eigen::Vector2d& outwards,
                   const std::vector<MapLine>& lines, double longest_break) {
   std::vector<std::pair<double, double>> pieces;  // m from the jamb: begin, end
@@ -41,8 +42,8 @@ double wallBeyond(const Eigen::Vector2d& jamb, const Eigen::Vector2d& outwards,
 double wallSupport(const Passage& passage, const std::vector<MapLine>& lines,
                    const PassageTuning& tuning) {
   const Eigen::Vector2d way = (passage.b - passage.a).normalized();
-  const double wall = wallBeyond(passage.a, -way, lines, tuning.end_error) +
-                      wallBeyond(passage.b, way, lines, tuning.end_error);
+  const double wall = wallBeyond(passage.a, -way, lines, tuning.widest_door) +
+                      wallBeyond(passage.b, way, lines, tuning.widest_door);
   return wall / (wall + passage.width());
 }
 

@@ -75,6 +75,11 @@ printf 'x,name\n1,a\n' >no_y.csv
 refuses 1 "no_y.csv: the header has no column y" "$program" plan map --labels no_y.csv --out none
 printf 'x,y,name\n1,east,a\n' >east.csv
 refuses 1 "east.csv, row 2, column y: 'east' is no finite number" "$program" plan map --labels east.csv --out none
+printf 'x,y,name\n1,1,\n' >no_name.csv
+refuses 1 "no_name.csv, row 2, column name: empty" "$program" plan map --labels no_name.csv --out none
+printf '\xef\xbb\xbfx,y,name\r\n1,1,Flur\r\n' >spreadsheet.csv
+check "labels of a spreadsheet are read" "$program" plan map --labels spreadsheet.csv --out spreadsheet
+grep -q '"Flur"' spreadsheet/rooms.csv || { echo "FAILED: no room is called Flur"; failed=1; }
 refuses 1 "none.csv: cannot be read" "$program" plan map --labels none.csv --out none
 [ ! -e none ] || { echo "FAILED: a plan that failed left a folder"; failed=1; }
 refuses 1 "is no folder of a map" "$program" plan nowhere

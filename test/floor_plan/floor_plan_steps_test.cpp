@@ -81,6 +81,31 @@ TEST(Structure, TellsAPillarFromAWallInTheMiddleOfAHall) {
   EXPECT_TRUE(at(found.open, 8.0, 4.0));
 }
 
+TEST(Structure, CountsNarrowUnknownStripesBetweenBeamsAsFloor) {
+  OccupancyRaster grid;
+  grid.columns = 60;
+  grid.rows = 60;
+  grid.values.assign(3600, Occupancy::kFree);
+  const auto fill = [&](int from, int to, Occupancy value) {
+    for (int y = 0; y < grid.rows; ++y) {
+      for (int x = from; x < to; ++x) grid[{x, y}] = value;
+    }
+  };
+  fill(0, 2, Occupancy::kUnknown);
+  fill(58, 60, Occupancy::kUnknown);
+  fill(10, 13, Occupancy::kUnknown);   // between two beams
+  fill(20, 28, Occupancy::kUnknown);   // too wide
+  fill(40, 41, Occupancy::kOccupied);  // a wall and its inside
+  fill(41, 43, Occupancy::kUnknown);
+  fill(43, 44, Occupancy::kOccupied);
+  const Structure found = tellStructure(grid, {});
+  EXPECT_FALSE(found.solid[Cell({11, 10})]);
+  EXPECT_FALSE(found.open[Cell({11, 10})]);
+  EXPECT_TRUE(found.solid[Cell({23, 10})]);
+  EXPECT_TRUE(found.solid[Cell({41, 10})]);
+  EXPECT_TRUE(found.solid[Cell({42, 10})]);
+}
+
 TEST(WallEnds, AreBothJambsOfADoor) {
   const DrawnMap map = drawMap({twoRooms()}, {0.3, 0.1, 0.6});
   const Structure found = tellStructure(cropToKnown(map.grid, 2), map.lines);
@@ -116,6 +141,20 @@ TEST(Jambs, StandBetweenCellsAndEndsOfTheFacesOtherwise) {
   EXPECT_NEAR(better.b.y(), 2.425, 1e-9);
   const Passage alone{{1.0, 1.0}, {1.0, 2.0}, PassageEvidence::kNarrowing};
   EXPECT_EQ(withJambsOfLines(alone, map.lines).a, alone.a);
+}
+
+TEST(WallSupport, GoesOnBeyondADoorOfTheSameWall) {
+  // A gap of 2 m; a wall of 1 m, a door of 0.9 m, a wall of 3 m; and beyond 2 m another wall.
+  const Passage gap{{0.0, 0.0}, {2.0, 0.0}, PassageEvidence::kCollinear};
+  const auto line = [](double from, double to) {
+    MapLine wall;
+    wall.segment.start = {from, 0.0};
+    wall.segment.end = {to, 0.0};
+    return wall;
+  };
+  EXPECT_NEAR(wallSupport(gap, {line(2.0, 3.0)}), 1.0 / 3.0, 1e-9);
+  EXPECT_NEAR(wallSupport(gap, {line(2.0, 3.0), line(3.9, 6.9)}), 4.0 / 6.0, 1e-9);
+  EXPECT_NEAR(wallSupport(gap, {line(2.0, 3.0), line(5.0, 9.0)}), 1.0 / 3.0, 1e-9);
 }
 
 TEST(SmallLoops, AreCutWhereTheRingCrossesItself) {

@@ -264,6 +264,46 @@ TEST(FloorPlan, FindsTheRoomsOfTwoBuildings) {
   EXPECT_EQ(plan.openings.size(), 2u);
 }
 
+TEST(FloorPlan, TakesBeamsThroughAWindowForNoRoom) {
+  DrawnMap map = drawMap({{{0, 0}, {5, 0}, {5, 4}, {0, 4}}}, {0.0, 0.0, 0.0});
+  OccupancyRaster wide = map.grid;  // with 5 m beyond the wall
+  wide.columns += 100;
+  wide.values.assign(static_cast<std::size_t>(wide.columns * wide.rows), Occupancy::kUnknown);
+  for (int y = 0; y < wide.rows; ++y) {
+    for (int x = 0; x < map.grid.columns; ++x) wide[{x, y}] = map.grid[{x, y}];
+  }
+  // Four beams of 0.1 m, 0.15 m apart, through a window of 0.4 m.
+  const Cell window = wide.cellOf({5.02, 2.0});
+  for (int y = -4; y < 4; ++y) {
+    for (int x = -1; x < 3; ++x) wide[window + Cell{x, y}] = Occupancy::kFree;
+  }
+  for (int beam = 0; beam < 4; ++beam) {
+    for (int x = 3; x < 90; ++x) {
+      for (int y = 0; y < 2; ++y) wide[window + Cell{x, 5 * beam - 9 + y}] = Occupancy::kFree;
+    }
+  }
+  const FloorPlan plan = floorPlan(wide, map.lines);
+  ASSERT_EQ(plan.rooms.size(), 1u);
+  EXPECT_NEAR(plan.rooms[0].area, 20.0, 0.2);
+}
+
+TEST(FloorPlan, LabelsARoomWhereMostFloorIsFreeWithinIt) {
+  // A hall, and a room that narrows away from its door; a table in the middle of the hall.
+  const Polygon outline{{0, 0},   {6, 0},      {6, 2},      {6.12, 2}, {6.12, 1.9}, {9, 2.1},
+                        {9, 2.8}, {6.12, 3.0}, {6.12, 2.9}, {6, 2.9},  {6, 6},      {0, 6}};
+  const Polygon table{{2.6, 2.6}, {2.6, 3.4}, {3.4, 3.4}, {3.4, 2.6}};
+  const DrawnMap map = drawMap({outline, table}, {0.0, 0.0, 0.0});
+  const FloorPlan plan = floorPlan(map.grid, map.lines);
+  ASSERT_EQ(plan.rooms.size(), 2u);
+  const PlanRoom& hall = plan.rooms[plan.rooms[0].area > 10.0 ? 0 : 1];
+  const PlanRoom& narrow = plan.rooms[plan.rooms[0].area > 10.0 ? 1 : 0];
+  EXPECT_EQ(roomAt(plan, hall.label), hall.id);
+  EXPECT_GT((hall.label - Eigen::Vector2d(3.0, 3.0)).norm(), 1.3);  // not on the table
+  EXPECT_EQ(roomAt(plan, narrow.label), narrow.id);
+  EXPECT_GT(narrow.label.x(), 6.5);  // not in the door
+  EXPECT_NEAR(narrow.label.y(), 2.45, 0.1);
+}
+
 TEST(FloorPlan, SaysWhereAnUnfinishedMapEnds) {
   DrawnMap map = drawMap({{{0, 0}, {8, 0}, {8, 4}, {0, 4}}}, {0.0, 0.0, 0.0});
   const double whole = floorPlan(map.grid, map.lines).rooms.at(0).open_border;

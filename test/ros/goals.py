@@ -10,7 +10,8 @@ import time
 import actionlib
 import rospy
 from actionlib_msgs.msg import GoalStatus
-from geometry_msgs.msg import PoseStamped, Twist
+from cca_mrpt.srv import DriveToRoom, RoomAt
+from geometry_msgs.msg import Point, PoseStamped, Twist
 from move_base_msgs.msg import MoveBaseAction, MoveBaseGoal
 from nav_msgs.msg import OccupancyGrid, Path
 from nav_msgs.srv import GetMap
@@ -25,6 +26,7 @@ from ros_watch import Watch, yaw
 
 SPEED = 4  # of the wall's time
 IN_A_WALL = (3.0, -0.5)  # outside of two_rooms
+OTHER_ROOM = (7.0, 2.0)  # where the robot does not start
 
 
 def stamped(x, y, theta, frame="map"):
@@ -59,7 +61,10 @@ class Goals(OwnMaster):
         self.ask("rosparam", "set", "/use_sim_time", "true")
         self.node("simulator", "_world:=two_rooms", "_speed:=%d" % SPEED)
         recorded = os.path.join(self.home.name, "run.bag")
-        explore = self.node("explore", "_world:=none", "_pose:=tf", "_out:=" + self.out, "_save_at_end:=false",
+        labels = os.path.join(self.home.name, "labels.csv")
+        with open(labels, "w") as file:
+            file.write("x,y,name\n%f,%f,the other one\n" % OTHER_ROOM)
+        explore = self.node("explore", "_labels:=" + labels, "_world:=none", "_pose:=tf", "_out:=" + self.out, "_save_at_end:=false",
                             "_record:=" + recorded)
         rospy.init_node("goals")
         self.status, self.commands = Watch("status", String), Watch("cmd_vel", Twist)
@@ -110,6 +115,24 @@ class Goals(OwnMaster):
             self.assertEqual(self.outcome(client, 120), GoalStatus.SUCCEEDED)
             self.assertLess(self.robot.off(*start[:2]), 0.25)
             self.expect("finished: the goal is reached")
+        with self.subTest("to a room, by its name and by its id"):
+            to_room = rospy.ServiceProxy("explore/drive_to_room", DriveToRoom)
+            room_at = rospy.ServiceProxy("explore/room_at", RoomAt)
+            home = room_at(Point(start[0], start[1], 0.0))
+            answer = to_room("the other one")
+            self.assertTrue(answer.success, answer.message)
+            self.assertNotEqual(answer.id, home.id)
+            place = answer.goal.pose.position
+            self.assertEqual(room_at(place).id, answer.id)
+            self.assertTrue(until(lambda: self.robot.off(place.x, place.y) < 0.25, 60), answer)
+            answer = to_room(str(home.id))
+            self.assertTrue(answer.success, answer.message)
+            place = answer.goal.pose.position
+            self.assertTrue(until(lambda: self.robot.off(place.x, place.y) < 0.25, 60), answer)
+            answer = to_room("cellar")
+            self.assertFalse(answer.success)
+            self.assertIn("'the other one'", answer.message)
+            self.assertFalse(to_room("").success)
         with self.subTest("a patrol, with a place in between that no way leads to"):
             patrol = rospy.Publisher("patrol", Path, queue_size=1)
             self.assertTrue(until(lambda: patrol.get_num_connections() > 0))

@@ -47,7 +47,8 @@ struct PlanRoom {
   double unseen_area = 0.0;    ///< m^2 of its area that no beam has crossed: under furniture
   double open_border =
       0.0;  ///< m of its border that is neither wall nor opening: where the map ends
-  Eigen::Vector2d label = Eigen::Vector2d::Zero();  ///< m: a point well inside, for its name
+  /// m: the place with the most free floor around, for its name, and for robots to be sent to.
+  Eigen::Vector2d label = Eigen::Vector2d::Zero();
 };
 
 /// An obstacle that is no part of the building.

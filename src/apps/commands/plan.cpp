@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <cstdio>
-#include <filesystem>
-#include <fstream>
 #include <memory>
-#include <sstream>
 #include <stdexcept>
 #include <string>
 
@@ -18,15 +15,6 @@ struct PlanCommandOptions {
   std::string map, out, labels;
   bool force = false, quiet = false;
 };
-
-RoomLabels labelsOf(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  if (!file || std::filesystem::is_directory(path))
-    throw std::runtime_error(path + ": cannot be read");
-  std::ostringstream text;
-  text << file.rdbuf();
-  return readRoomLabels(text.str(), path);
-}
 
 void tellPlan(const FloorPlan& plan, const std::string& out) {
   double area = 0.0, open_border = 0.0;
@@ -51,7 +39,7 @@ void tellPlan(const FloorPlan& plan, const std::string& out) {
 void plan(const PlanCommandOptions& options) {
   const std::string out = options.out.empty() ? options.map : options.out;
   RoomLabels labels;
-  if (!options.labels.empty()) labels = labelsOf(options.labels);
+  if (!options.labels.empty()) labels = roomLabelsOfFile(options.labels);
   FloorPlan found = planOfFolder(options.map);
   const RoomLabels outside = nameRooms(found, labels);
   writePlanFiles(out, found, titleOfFolder(options.map), options.force);

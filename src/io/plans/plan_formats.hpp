@@ -47,8 +47,12 @@ using RoomLabels = std::vector<std::pair<Eigen::Vector2d, std::string>>;
 
 /// Reads a CSV whose header names x, y and name; a name may stand in double quotes.
 /// @param file  its name, for messages.
-/// @throws std::runtime_error naming file, row and column of what is missing or no finite number.
+/// @throws std::runtime_error naming file, row and column of what is missing, empty or no finite
+/// number.
 RoomLabels readRoomLabels(const std::string& text, const std::string& file);
+
+/// The same of a file. @throws std::runtime_error where it cannot be read, too.
+RoomLabels roomLabelsOfFile(const std::string& path);
 
 /// Gives rooms the names of the labels that lie in them; of several in one room the first counts.
 /// @return  the labels that lie in no room.

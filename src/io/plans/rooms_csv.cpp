@@ -3,6 +3,9 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
 #include <sstream>
 #include <stdexcept>
 
@@ -10,6 +13,8 @@
 
 namespace cca {
 namespace {
+
+constexpr const char* kByteOrderMark = "\xEF\xBB\xBF";  // spreadsheets begin their UTF-8 with it
 
 /// A field that other programs read back: in quotes, those inside doubled.
 std::string quoted(const std::string& text) {
@@ -77,6 +82,7 @@ RoomLabels readRoomLabels(const std::string& text, const std::string& file) {
   std::istringstream rows(text);
   std::string row;
   std::getline(rows, row);
+  if (row.rfind(kByteOrderMark, 0) == 0) row.erase(0, std::strlen(kByteOrderMark));
   const std::vector<std::string> header = fieldsOf(row);
   std::size_t column[3];
   const char* const names[3] = {"x", "y", "name"};
@@ -96,11 +102,21 @@ RoomLabels readRoomLabels(const std::string& text, const std::string& file) {
       if (column[k] >= fields.size())
         throw std::runtime_error(where + ", column " + names[k] + ": missing");
     }
+    if (fields[column[2]].empty()) throw std::runtime_error(where + ", column name: empty");
     labels.push_back({{coordinate(fields[column[0]], where + ", column x"),
                        coordinate(fields[column[1]], where + ", column y")},
                       fields[column[2]]});
   }
   return labels;
+}
+
+RoomLabels roomLabelsOfFile(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  if (!file || std::filesystem::is_directory(path))
+    throw std::runtime_error(path + ": cannot be read");
+  std::ostringstream text;
+  text << file.rdbuf();
+  return readRoomLabels(text.str(), path);
 }
 
 RoomLabels nameRooms(FloorPlan& plan, const RoomLabels& labels) {

@@ -42,8 +42,9 @@ Exploration::Exploration(ros::NodeHandle& node, ros::NodeHandle& private_node, S
             [this](const RunCommand& command) { heed(command); }),
       mode_(settings_.autostart ? Mode::kRunning : Mode::kStopped),
       saver_(private_node, settings_.out, [this] { return products(); }),
-      plan_(node, private_node, settings_.map_frame, saver_.mutex(),
-            [this] { return products(); }) {
+      plan_(node, private_node, settings_.map_frame,
+            settings_.labels.empty() ? RoomLabels{} : roomLabelsOfFile(settings_.labels),
+            saver_.mutex(), [this] { return products(); }) {
   services_ = {private_node.advertiseService("start", &Exploration::onStart, this),
                private_node.advertiseService("stop", &Exploration::onStop, this),
                private_node.advertiseService("pause", &Exploration::onPause, this),

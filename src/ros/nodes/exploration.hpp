@@ -30,6 +30,7 @@ class Exploration {
  public:
   struct Settings {
     std::string map_frame = "map";
+    std::string labels;  ///< CSV with names of rooms; empty: none
     std::string title = "exploration";
     std::string out = "cca_map";  ///< folder for ~save, relative to where the node runs
     bool autostart = true;

@@ -65,6 +65,7 @@ Settings readSettings() {
   parameters.text("odom_frame", s.driver.frames.odom);
   parameters.text("base_frame", s.driver.frames.base);
   parameters.text("laser_frame", s.driver.frames.laser);
+  parameters.text("labels", s.exploration.labels);
   parameters.text("out", s.exploration.out);
   parameters.flag("autostart", s.exploration.autostart);
   parameters.flag("save_at_end", s.exploration.save_at_end);

@@ -37,6 +37,7 @@ struct LineMapperParameters {
   std::string out = "cca_map";  ///< directory, relative to where the node runs
   bool save_at_end = false;
   std::string record;  ///< bag to write
+  std::string labels;  ///< CSV with names of rooms; empty: none
   RunPage::Settings page;
   Parameters program;
 };
@@ -61,6 +62,7 @@ LineMapperParameters readParameters(const ros::NodeHandle& private_node) {
   parameters.text("out", p.out);
   parameters.flag("save_at_end", p.save_at_end);
   parameters.text("record", p.record);
+  parameters.text("labels", p.labels);
   p.page.read(parameters);
   parameters.program(p.program, {"mapping"});
   parameters.refuseUnknown();
@@ -84,8 +86,9 @@ class LineMapper {
         scan_lines_(node.advertise<cca_mrpt::LineMap>("scan_lines", 10)),
         reset_(private_node.advertiseService("reset", &LineMapper::onReset, this)),
         saver_(private_node, parameters_.out, [this] { return products(); }),
-        plan_(node, private_node, parameters_.frames.map, saver_.mutex(),
-              [this] { return products(); }) {
+        plan_(node, private_node, parameters_.frames.map,
+              parameters_.labels.empty() ? RoomLabels{} : roomLabelsOfFile(parameters_.labels),
+              saver_.mutex(), [this] { return products(); }) {
     begin();
     if (slam_) {
       slam_publisher_.emplace(node, parameters_.frames);

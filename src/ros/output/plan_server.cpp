@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "plan_server.hpp"
 
+#include <geometry_msgs/PoseStamped.h>
+
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <exception>
 #include <utility>
@@ -18,21 +21,43 @@ std::string inWords(const PlanRoom& room) {
   char text[96];
   std::snprintf(text, sizeof text, "room %d, %.1f m2%s", room.id, room.area,
                 room.open_border > 0.5 ? ", not yet seen to its end" : "");
-  return text;
+  return room.name.empty() ? text : room.name + ": " + text;
+}
+
+/// The room of a name, else of an id; nullptr: none.
+const PlanRoom* roomCalled(const std::string& name, const std::vector<PlanRoom>& rooms) {
+  for (const bool by_name : {true, false}) {
+    for (const PlanRoom& room : rooms) {
+      if (!name.empty() && name == (by_name ? room.name : std::to_string(room.id))) return &room;
+    }
+  }
+  return nullptr;
+}
+
+std::string callNames(const std::vector<PlanRoom>& rooms) {
+  std::string names;
+  for (const PlanRoom& room : rooms)
+    names += (names.empty() ? "" : ", ") +
+             (room.name.empty() ? std::to_string(room.id) : "'" + room.name + "'");
+  return names.empty() ? "there are no rooms yet" : "there are " + names;
 }
 
 }  // namespace
 
 PlanServer::PlanServer(ros::NodeHandle& node, const ros::NodeHandle& private_node,
-                       std::string map_frame, std::mutex& mutex, MapSaver::Snapshot snapshot)
+                       std::string map_frame, RoomLabels labels, std::mutex& mutex,
+                       MapSaver::Snapshot snapshot)
     : map_frame_(std::move(map_frame)),
+      labels_(std::move(labels)),
       mutex_(mutex),
       snapshot_(std::move(snapshot)),
       node_(private_node),
       markers_(node.advertise<visualization_msgs::MarkerArray>("plan", 1, true)),
+      goals_(node.advertise<geometry_msgs::PoseStamped>("move_base_simple/goal", 1)),
       spinner_(1, &queue_) {
   node_.setCallbackQueue(&queue_);
-  service_ = node_.advertiseService("room_at", &PlanServer::onRoomAt, this);
+  services_ = {node_.advertiseService("room_at", &PlanServer::onRoomAt, this),
+               node_.advertiseService("drive_to_room", &PlanServer::onDriveToRoom, this)};
   const auto callback = [this](const ros::WallTimerEvent&) { show(); };
   timer_ = node_.createWallTimer(kPlanPeriod, callback);
   spinner_.start();
@@ -51,6 +76,7 @@ void PlanServer::makePlan() {
                               planned_.end(), is_same))
     return;
   plan_ = planOfMap(seenFrom(-map.origin, map).lines, *map.grid, map.origin);
+  nameRooms(plan_, labels_);
   planned_ = map.trajectory;
   is_shown_ = false;
 }
@@ -96,6 +122,45 @@ bool PlanServer::onRoomAt(cca_mrpt::RoomAt::Request& request,
   response.label.x = room->label.x();
   response.label.y = room->label.y();
   return true;
+}
+
+bool PlanServer::onDriveToRoom(cca_mrpt::DriveToRoom::Request& request,
+                               cca_mrpt::DriveToRoom::Response& response) {
+  response.success = false;
+  try {
+    makePlan();
+  } catch (const std::exception& error) {
+    response.message = error.what();
+    return true;
+  }
+  const PlanRoom* room = roomCalled(request.room, plan_.rooms);
+  if (!room) {
+    response.message = "no room is called '" + request.room + "'; " + callNames(plan_.rooms);
+    return true;
+  }
+  sendTo(*room, response);
+  return true;
+}
+
+void PlanServer::sendTo(const PlanRoom& room, cca_mrpt::DriveToRoom::Response& response) {
+  const Eigen::Vector2d here =
+      planned_.empty() ? Eigen::Vector2d(room.label) : planned_.back().position();
+  const Eigen::Vector2d way = room.label - here;
+  const double heading = way.isZero() ? 0.0 : std::atan2(way.y(), way.x());  // as it drives in
+  geometry_msgs::PoseStamped& goal = response.goal;
+  goal.header.frame_id = map_frame_;
+  goal.header.stamp = ros::Time::now();
+  goal.pose.position.x = room.label.x();
+  goal.pose.position.y = room.label.y();
+  goal.pose.orientation.z = std::sin(0.5 * heading);
+  goal.pose.orientation.w = std::cos(0.5 * heading);
+  response.id = static_cast<std::uint32_t>(room.id);
+  response.message = inWords(room);
+  response.success = goals_.getNumSubscribers() > 0;
+  if (response.success)
+    goals_.publish(goal);
+  else
+    response.message = "nobody listens to " + goals_.getTopic();
 }
 
 }  // namespace cca

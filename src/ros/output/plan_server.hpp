@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cca_mrpt/DriveToRoom.h>
 #include <cca_mrpt/RoomAt.h>
 #include <ros/callback_queue.h>
 #include <ros/ros.h>
@@ -10,26 +11,34 @@
 #include <vector>
 
 #include "cca_mrpt/floor_plan/floor_plan.hpp"
+#include "io/plans/plan_formats.hpp"
 #include "map_saver.hpp"
 
 namespace cca {
 
 /// The floor plan of the map as it grows: `plan` (latched markers), every few seconds where
-/// somebody looks, and `~room_at`. It is made in a thread of its own of a copy of the map, so that
-/// scans and robot do not wait for it.
+/// somebody looks, `~room_at` and `~drive_to_room`. It is made in a thread of its own of a copy of
+/// the map, so that scans and robot do not wait for it.
+///
+/// Goals go to `move_base_simple/goal`: whoever drives the robot takes them from there.
 class PlanServer {
  public:
   /// @param mutex     held while `snapshot` is called.
+  /// @param labels    names of rooms, in the map frame.
   /// @param snapshot  as of MapSaver.
   PlanServer(ros::NodeHandle& node, const ros::NodeHandle& private_node, std::string map_frame,
-             std::mutex& mutex, MapSaver::Snapshot snapshot);
+             RoomLabels labels, std::mutex& mutex, MapSaver::Snapshot snapshot);
 
  private:
   void show();
   void makePlan();
   bool onRoomAt(cca_mrpt::RoomAt::Request& request, cca_mrpt::RoomAt::Response& response);
+  bool onDriveToRoom(cca_mrpt::DriveToRoom::Request& request,
+                     cca_mrpt::DriveToRoom::Response& response);
+  void sendTo(const PlanRoom& room, cca_mrpt::DriveToRoom::Response& response);
 
   std::string map_frame_;
+  RoomLabels labels_;
   std::mutex& mutex_;
   MapSaver::Snapshot snapshot_;
   FloorPlan plan_;
@@ -37,8 +46,8 @@ class PlanServer {
   bool is_shown_ = true;        ///< there is nothing to show yet
   ros::NodeHandle node_;
   ros::CallbackQueue queue_;
-  ros::Publisher markers_;
-  ros::ServiceServer service_;
+  ros::Publisher markers_, goals_;
+  std::vector<ros::ServiceServer> services_;
   ros::WallTimer timer_;
   ros::AsyncSpinner spinner_;  // last: its thread ends before anything that it uses
 };
