@@ -152,6 +152,10 @@ nb::object filesAndArrays(MappedScans result) {
     summary["key_frames"] = result.graph.size();
     summary["loops"] = result.loops;
   }
+  if (result.found_in_memory) {
+    summary["resumed"] = result.resumed;
+    summary["found_in_memory"] = *result.found_in_memory;
+  }
   if (!result.origin.isZero())
     summary["frame_origin_m"] = nb::make_tuple(result.origin.x(), result.origin.y());
   summary["map_lines"] = result.map.lines.size();

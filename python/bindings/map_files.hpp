@@ -3,6 +3,7 @@
 
 #include <nanobind/nanobind.h>
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -34,6 +35,8 @@ struct MappedScans {
   double agreement = 0.0;
   Eigen::Vector2d origin = Eigen::Vector2d::Zero();  ///< m, map frame: where that frame lies
   bool finished = false;
+  std::string resumed;                  ///< folder of the map that this one goes on with
+  std::optional<bool> found_in_memory;  ///< whether its place was found there
   std::string warnings, shortcoming;
   std::string replay;  ///< Replay::packed(), of the same frame; empty: there is none
 };

@@ -9,13 +9,13 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <exception>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <thread>
 #include <utility>
 
-#include "apps/logs/contradiction.hpp"
+#include "apps/logs/session_warnings.hpp"
 #include "apps/options/moved.hpp"
 #include "apps/runs/on_all_cores.hpp"
 #include "arguments.hpp"
@@ -24,6 +24,7 @@
 #include "cca_mrpt/navigation/world/exploration_grid.hpp"
 #include "cca_mrpt/session/earlier_drive.hpp"
 #include "cca_mrpt/slam/slam_localiser.hpp"
+#include "io/files/memory_file.hpp"
 #include "io/files/stray_places.hpp"
 #include "io/logs/measurements.hpp"
 #include "io/logs/scan_cut_off.hpp"
@@ -165,6 +166,7 @@ struct Mapping {
 
   Estimate add(LogRecord record) {
     beams += record.scan.size();
+    unguided += !record.odometry;
     ReplayMoment moment;
     moment.time = record.has_time ? record.time : 0.0;
     recorder->add(moment.time, referencePose(record));
@@ -174,8 +176,23 @@ struct Mapping {
     return estimate;
   }
 
+  /// Goes on with the map in a folder, before the first scan.
+  void resume(const std::string& folder) {
+    earlier = loadMemory(folder);
+    resumed = folder;
+    rememberDrive(earlier->memory, *slam, *session);
+  }
+
+  /// Another log begins: its drive may begin anywhere in the place of the first one.
+  void beginDrive() {
+    if (session->trajectory().empty()) return;
+    session->beginDrive();
+    if (slam) slam->startAnywhere();
+  }
+
   void finish() {
     session->finish(apps::doOnAllCores);
+    if (earlier && slam->slam().isInMemory()) origin = earlier->origin;
     finished = true;
     if (page) page->finish(session->lineMap().lines(), "all is mapped");
   }
@@ -202,7 +219,9 @@ struct Mapping {
   std::unique_ptr<ScanRecorder> recorder;  ///< the session's
   std::unique_ptr<MappingSession> session;
   Eigen::Vector2d origin = Eigen::Vector2d::Zero();  ///< m, map frame: where its frame lies
-  std::size_t beams = 0;
+  std::size_t beams = 0, unguided = 0;  ///< of all scans; scans without odometry
+  std::optional<StoredMemory> earlier;  ///< of earlier drives, that this one goes on with
+  std::string resumed;                  ///< the folder that it is from
   bool maps_at_the_end, finished = false, is_paused = false;
 };
 using SharedMapping = Locked<Mapping>;
@@ -220,7 +239,9 @@ MappedScans resultOf(const Mapping& mapping) {
     result.graph = slam.keyFrames().graph;
     result.memory = {slam.memory(), mapping.origin};
     result.loops = slam.loops().size();
+    if (mapping.earlier) result.found_in_memory = slam.isInMemory();
   }
+  result.resumed = mapping.resumed;
   result.grid = mapping.recorder->raster();
   result.pose = nameOf(mapping.pose);
   result.beams = mapping.beams;
@@ -228,7 +249,10 @@ MappedScans resultOf(const Mapping& mapping) {
   result.origin = mapping.origin;
   result.finished = mapping.finished;
   result.replay = mapping.recorder->replay(result.map.lines, mapping.origin);
-  result.shortcoming = apps::contradiction(session.agreement());
+  const Slam* slam = mapping.slam ? &mapping.slam->slam() : nullptr;
+  result.warnings = apps::sessionWarnings(session, slam, mapping.pose, mapping.unguided,
+                                          mapping.resumed, mapping.origin);
+  result.shortcoming = apps::shortcomingOf(session, slam);
   return result;
 }
 
@@ -251,43 +275,147 @@ LivePageSettings pageAt(const std::string& address, int port, const std::string&
   return settings;
 }
 
-/// @param page  where a page is to be served; nothing: there is none.
-/// @param told  called with its address.
-nb::object mapLog(nb::handle records, const std::string& pose, const std::string& title,
-                  const std::optional<std::pair<std::string, int>>& page, nb::handle told,
-                  nb::kwargs keywords) {
-  CcaParameters parameters;
-  readParameters(keywords, parameters);
-  const nb::object iterator = nb::iter(records);
-  auto reader = std::make_unique<PythonLog>(iterator);
-  std::unique_ptr<Mapping> mapping;
-  std::optional<MappedScans> result;
-  const bool is_auto = pose == "auto";
-  PoseSource source = is_auto ? PoseSource::kSlam : sourceOf(pose);
-  std::optional<LivePageSettings> served;
-  if (page) served = pageAt(page->first, page->second, title);
-  const auto isPaused = [&] { return mapping->isPaused(); };
-  try {
-    const nb::gil_scoped_release others_may_run;
-    LocalLog log(soundScansOf(std::move(reader)));
-    if (is_auto && log.beginsCorrected()) source = PoseSource::kLog;
-    mapping = std::make_unique<Mapping>(source, parameters, true, title);
-    mapping->origin = log.origin();
-    if (served) {
-      const std::string url = mapping->serve(*served);
+/// A log to map: its name, empty where it has none, and an iterable of its records.
+using NamedLog = std::pair<std::string, nb::object>;
+
+/// Goes through the logs that are mapped, one after the other, in the frame of the first.
+class DrivesToMap {
+ public:
+  /// @param logs  one or more; outlive this.
+  explicit DrivesToMap(const std::vector<NamedLog>& logs) : logs_(logs) {}
+
+  /// The next log; null after the last. Without the interpreter's lock.
+  std::unique_ptr<LocalLog> next() {
+    if (number_ == logs_.size()) return nullptr;
+    const NamedLog& named = logs_[number_++];
+    {
       const nb::gil_scoped_acquire turn;
-      told(url);
+      iterator_ = nb::iter(named.second);
     }
+    auto log = std::make_unique<LocalLog>(soundScansOf(std::make_unique<PythonLog>(iterator_)));
+    if (number_ == 1) origin_ = log->origin();
+    log->moveTo(origin_);
+    return log;
+  }
+
+  /// What is wrong with the log that next() gave, or could not give.
+  std::runtime_error named(const std::runtime_error& error) const {
+    const std::string& name = logs_[number_ - 1].first;
+    return std::runtime_error(name.empty() ? error.what() : name + ": " + error.what());
+  }
+
+ private:
+  const std::vector<NamedLog>& logs_;
+  nb::object iterator_;  ///< of the log that is being read
+  std::size_t number_ = 0;
+  Eigen::Vector2d origin_ = Eigen::Vector2d::Zero();
+};
+
+/// A session that takes logs one after the other.
+class LogMapping {
+ public:
+  LogMapping(const std::vector<NamedLog>& logs, PoseSource pose, const CcaParameters& parameters,
+             const std::string& title)
+      : drives_(logs), pose_(pose), parameters_(parameters), title_(title) {}
+
+  /// Whether the log's own poses are taken where its first scan has corrected ones.
+  bool prefers_corrected = false;
+  std::optional<std::string> resumed;  ///< folder of a map to go on with
+  /// Called with the session when it has been made.
+  std::function<void(Mapping&)> begun = [](Mapping&) {};
+
+  /// Maps all. Without the interpreter's lock.
+  MappedScans run() {
+    std::string warnings;
+    while (takeNext(warnings)) continue;
+    mapping_->finish();
+    MappedScans result = resultOf(*mapping_);
+    apps::appendWarning(result.warnings, warnings);
+    result.warnings = warnings;
+    return result;
+  }
+
+ private:
+  /// @return  false after the last log.
+  bool takeNext(std::string& warnings) {
+    std::unique_ptr<LocalLog> log;
+    try {
+      log = drives_.next();
+    } catch (const std::runtime_error& error) {
+      throw drives_.named(error);
+    }
+    if (!log) return false;
+    if (mapping_) {
+      mapping_->beginDrive();
+    } else {
+      begin(*log);
+    }
+    try {
+      take(*log);
+    } catch (const std::runtime_error& error) {
+      throw drives_.named(error);
+    }
+    apps::appendWarning(log->warnings(), warnings);
+    return true;
+  }
+
+  void begin(const LocalLog& first) {
+    if (prefers_corrected && first.beginsCorrected()) pose_ = PoseSource::kLog;
+    mapping_ = std::make_unique<Mapping>(pose_, parameters_, true, title_);
+    mapping_->origin = first.origin();
+    if (resumed) mapping_->resume(*resumed);
+    begun(*mapping_);
+  }
+
+  void take(LocalLog& log) {
+    const auto isPaused = [this] { return mapping_->isPaused(); };
     while (auto record = log.next()) {
       if (isPaused()) {
         const nb::gil_scoped_acquire turn;
         waitForViewers(isPaused);
       }
-      mapping->add(std::move(*record));
+      mapping_->add(std::move(*record));
     }
-    mapping->finish();
-    result = resultOf(*mapping);
-    result->warnings = log.warnings();
+  }
+
+  DrivesToMap drives_;
+  PoseSource pose_;
+  CcaParameters parameters_;
+  std::string title_;
+  std::unique_ptr<Mapping> mapping_;
+};
+
+/// @param resume  the folder of a map to go on with; nothing: none.
+/// @param page    where a page is to be served; nothing: there is none.
+/// @param told    called with its address.
+nb::object mapLogs(const std::vector<NamedLog>& logs, const std::string& pose,
+                   const std::optional<std::string>& resume, const std::string& title,
+                   const std::optional<std::pair<std::string, int>>& page, nb::handle told,
+                   nb::kwargs keywords) {
+  CcaParameters parameters;
+  readParameters(keywords, parameters);
+  if (logs.empty()) throw nb::value_error("logs: one or more are needed");
+  const bool is_auto = pose == "auto", is_joined = logs.size() > 1 || resume;
+  const PoseSource source = is_auto ? PoseSource::kSlam : sourceOf(pose);
+  if (source != PoseSource::kSlam && is_joined) {
+    throw nb::value_error(
+        ("pose: '" + pose + "': several logs, and logs with resume, are joined by 'slam'").c_str());
+  }
+  std::optional<LivePageSettings> served;
+  if (page) served = pageAt(page->first, page->second, title);
+  LogMapping mapping(logs, source, parameters, title);
+  mapping.prefers_corrected = is_auto && !is_joined;
+  mapping.resumed = resume;
+  mapping.begun = [&](Mapping& own) {
+    if (!served) return;
+    const std::string url = own.serve(*served);
+    const nb::gil_scoped_acquire turn;
+    told(url);
+  };
+  std::optional<MappedScans> result;
+  try {
+    const nb::gil_scoped_release others_may_run;
+    result = mapping.run();
   } catch (const std::runtime_error& error) {
     throw nb::value_error(error.what());
   }
@@ -389,13 +517,14 @@ void addEstimate(nb::module_& module) {
 void addSession(nb::module_& module) {
   addEstimate(module);
   static const std::string signature = parameterSignature<CcaParameters>(
-      "map_records(records: collections.abc.Iterable[LogRecord], pose: str, title: str, "
-      "page: tuple[str, int] | None, told: collections.abc.Callable[[str], object]",
+      "map_logs(logs: collections.abc.Sequence[tuple[str, collections.abc.Iterable[LogRecord]]], "
+      "pose: str, "
+      "resume: str | None, title: str, page: tuple[str, int] | None, told: collections.abc.Callable[[str], object]",
       "tuple[dict[str, typing.Any], dict[str, bytes]]");
-  module.def("map_records", &mapLog, nb::arg("records"), nb::arg("pose"), nb::arg("title"),
-             nb::arg("page").none(), nb::arg("told"), nb::arg("parameters"),
+  module.def("map_logs", &mapLogs, nb::arg("logs"), nb::arg("pose"), nb::arg("resume").none(),
+             nb::arg("title"), nb::arg("page").none(), nb::arg("told"), nb::arg("parameters"),
              nb::sig(signature.c_str()),
-             "What a map of scans holds, and its files by name: see `cca_mrpt.map`.");
+             "What a map of logs holds, and its files by name: see `cca_mrpt.map`.");
   static const std::string merging =
       parameterSignature<CcaParameters>("merge_maps(maps: collections.abc.Sequence[str]",
                                         "tuple[dict[str, typing.Any], dict[str, bytes]]");

@@ -67,12 +67,13 @@ def save_map(made: Map, out: Path, options: argparse.Namespace, told: str) -> st
 
 def run_map(options: argparse.Namespace) -> str:
     """Write the line map of a log into a folder; what was done, in a sentence."""
-    out = options.out or Path("out") / Path(options.log).name.split(".")[0]
+    first = options.logs[0]
+    out = options.out or Path("out") / Path(first).name.split(".")[0]
     require_new(out, options.force, "lines.csv", "summary.json")
-    made = map_log(options.log, options.pose, serve=options.serve, serve_address=options.serve_address,
-                   **reading_of(options))
+    made = map_log(options.logs, options.pose, resume=options.resume, serve=options.serve,
+                   serve_address=options.serve_address, **reading_of(options))
     if made.warnings:
-        print(f"{options.log}: {made.warnings}", file=sys.stderr)
+        print(f"{first}: {made.warnings}", file=sys.stderr)
     return save_map(made, out, options, f"{len(made)} lines from {len(made.trajectory)} scans over "
                                         f"{made.summary['distance_m']:.1f} m, poses by {made.summary['pose']}")
 
@@ -195,8 +196,13 @@ def parse_port(text: str) -> int:
     return int(text)
 
 
-def add_log(command: argparse.ArgumentParser) -> None:
-    command.add_argument("log", metavar="LOG", help="CARMEN .log, ROS .bag, .db3, .mcap or a folder of ROS 2")
+def add_log(command: argparse.ArgumentParser, many: bool = False) -> None:
+    what = "CARMEN .log, ROS .bag, .db3, .mcap or a folder of ROS 2"
+    if many:
+        command.add_argument("logs", metavar="LOG", nargs="+",
+                             help=what + "; of several, each may begin anywhere in the same place")
+    else:
+        command.add_argument("log", metavar="LOG", help=what)
     command.add_argument("--topic", help="bags: of the scans (default: the one with most of them)")
     command.add_argument("--base-frame", help="bags: the robot's frame")
     command.add_argument("--odom-frame", help="bags: the frame of the robot's odometry")
@@ -221,10 +227,11 @@ def add_commands(commands: Any) -> None:
                          help="where the log begins, to half a metre and 15 degrees (default: anywhere)")
     command.add_argument("--scale", type=float, default=0.0, help="metres of a unit of the drawing (default: as it tells)")
     add_output(command, True, "the poses")
-    command = commands.add_parser("map", help="line map of a whole log")
-    add_log(command)
+    command = commands.add_parser("map", help="line map of a whole log, or of several")
+    add_log(command, many=True)
     command.add_argument("--pose", default="auto", choices=POSES,
                          help="where the poses come from (auto: the log's own where it has corrected ones, else SLAM)")
+    command.add_argument("--resume", metavar="DIR", help="an earlier map: go on with it, from anywhere in it")
     add_output(command, False, "the map")
     command.add_argument("--serve", type=parse_port, nargs="?", const=8048, metavar="PORT",
                          help="show the map in browsers as it grows, at this port [8048]; 0: any free")

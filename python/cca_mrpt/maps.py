@@ -7,13 +7,14 @@ import io
 import json
 import os
 import sys
+from collections import abc
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Dict, Iterable, List, NamedTuple, Optional, Sequence, Tuple, Union
+from typing import TYPE_CHECKING, Any, Dict, Iterable, List, NamedTuple, Optional, Sequence, Tuple, Union, cast
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ._core import MAP_LINE, Estimate, LogRecord, MappingSession, PolyLine, map_records, merge_maps, read_chains, replay_with_rooms, write_files_into
+from ._core import MAP_LINE, Estimate, LogRecord, MappingSession, PolyLine, map_logs, merge_maps, read_chains, replay_with_rooms, write_files_into
 from .grids import Grid, read_grid
 from .logs import Log, read_log
 from .plotting import plot
@@ -25,6 +26,7 @@ if TYPE_CHECKING:
     from .floor_plans import FloorPlan
     from .parameters import MapParameters
 
+Source = Union[str, "os.PathLike[str]", Iterable[LogRecord]]  # of scans
 POSES = ("auto", "log", "odometry", "slam")
 # What a map's folder holds that Python keeps as it is; the program writes more.
 FILES = ("lines.csv", "arcs.csv", "lines.geojson", "lines.svg", "lines.dxf", "poses.csv", "poses.tum", "graph.g2o", "map.slam",
@@ -132,7 +134,7 @@ class Map:
         return f"Map({len(self.lines)} lines, {length:.1f} m, {len(self.trajectory)} scans)"
 
 
-def _log_of(source: Union[str, "os.PathLike[str]", Iterable[LogRecord]], reading: Dict[str, Any]) -> Iterable[LogRecord]:
+def _log_of(source: Source, reading: Dict[str, Any]) -> Iterable[LogRecord]:
     if isinstance(source, (str, os.PathLike)):
         return read_log(source, **{name: value for name, value in reading.items() if value is not None})
     if any(value is not None for value in reading.values()):
@@ -140,41 +142,56 @@ def _log_of(source: Union[str, "os.PathLike[str]", Iterable[LogRecord]], reading
     return source
 
 
+def _sources_of(path: "Union[Source, Sequence[Source]]") -> "Sequence[Source]":
+    """The logs: a list of records is one of them."""
+    if isinstance(path, (list, tuple)) and path and all(isinstance(part, (str, os.PathLike, abc.Iterable)) for part in path):
+        return path
+    return [cast("Source", path)]
+
+
 def _tell_address(url: str) -> None:
     print(f"cca_mrpt: the run can be seen at {url}", file=sys.stderr, flush=True)
 
 
-def map(path: Union[str, "os.PathLike[str]", Iterable[LogRecord]], pose: str = "auto", *, topic: Optional[str] = None,
+def map(path: "Union[Source, Sequence[Source]]", pose: str = "auto", *,
+        resume: "Optional[Union[str, os.PathLike[str]]]" = None, topic: Optional[str] = None,
         base_frame: Optional[str] = None, odom_frame: Optional[str] = None, mount: Optional[Sequence[float]] = None,
         upside_down: bool = False, serve: Optional[int] = None, serve_address: str = "127.0.0.1",
         **parameters: Unpack[MapParameters]) -> Map:
-    """The line map of a whole log: the same as the program `cca-mrpt map` makes, byte for byte.
+    """The line map of a whole log, or of several: the same as the program `cca-mrpt map` makes, byte for byte.
 
     Args:
-        path: a log or a bag, see `read_log`; or any iterable of `LogRecord`.
+        path: a log or a bag, see `read_log`; or any iterable of `LogRecord`. Or a list of those, of one place: the second
+            and later ones may begin anywhere in the place of the first, whose frame stays.
         pose: where the poses come from: "log": as somebody has corrected them, else the odometry's; "odometry": the
-            wheels alone; "slam": line SLAM; "auto": the log's where it has corrected ones, else SLAM.
+            wheels alone; "slam": line SLAM; "auto": the log's where it has corrected ones, else SLAM. Several logs, and
+            logs with `resume`, are joined by SLAM.
+        resume: folder of an earlier map with a map.slam: go on with it, from anywhere in it, in its frame. Where its place
+            is not found, this is the map of the log alone; `summary["found_in_memory"]` and a warning say so.
         topic, base_frame, odom_frame, mount, upside_down: of bags, see `read_log`.
         serve: a port: the map is shown in browsers as it grows, at the address that is printed on stderr. See
             `Mapper.serve`; while a viewer pauses, no scan is read.
         parameters: of `LineMap`.
 
     Raises:
-        FileNotFoundError, ImportError, ValueError: as `read_log`; also where the log lacks what `pose` needs.
+        FileNotFoundError, ImportError, ValueError: as `read_log`; also where the log lacks what `pose` needs, or the
+            map.slam of `resume` is missing or damaged.
     """
     if pose not in POSES:
         raise ValueError(f"pose: {pose!r} is none of {' '.join(POSES)}")
-    log = _log_of(path, {"topic": topic, "base_frame": base_frame, "odom_frame": odom_frame, "mount": mount,
-                         "upside_down": upside_down or None})
-    try:
-        page = None if serve is None else (serve_address, serve)
-        held, files = map_records(log, pose, Path(getattr(log, "path", "scans")).name, page, _tell_address, **parameters)
-    except ValueError as error:
-        name = getattr(log, "path", None)
-        raise ValueError(f"{name}: {error}" if name and name not in str(error) else str(error)) from None
-    result = Map(held, files, log.warnings if isinstance(log, Log) else "")
-    if isinstance(log, Log):
-        result.summary = {"log": log.path, **result.summary}
+    reading = {"topic": topic, "base_frame": base_frame, "odom_frame": odom_frame, "mount": mount,
+               "upside_down": upside_down or None}
+    logs = [_log_of(source, reading) for source in _sources_of(path)]
+    paths = [log.path if isinstance(log, Log) else "" for log in logs]
+    page = None if serve is None else (serve_address, serve)
+    earlier = None if resume is None else os.fspath(resume)
+    held, files = map_logs(list(zip(paths, logs)), pose, earlier, Path(paths[0] if paths and paths[0] else "scans").name, page,
+                           _tell_address, **parameters)
+    result = Map(held, files, "; ".join(log.warnings for log in logs if isinstance(log, Log) and log.warnings))
+    if len(paths) > 1 and all(paths):
+        result.summary = {"logs": paths, **result.summary}
+    elif paths[0]:
+        result.summary = {"log": paths[0], **result.summary}
     return result
 
 

@@ -62,10 +62,7 @@ class MappedLogs : public MapRecorder {
   void record(const MappedScan& mapped, const LineMap& map) override;
   void show(const ReplayMoment& moment, const Scan& scan, const LineMap& map);
   void heedCommands(const Interruption& interruption);
-  std::string withoutOdometry() const;
-  std::string slamWarnings() const;
-  std::string strayWarning() const;
-  void warn(const std::string& warning);
+  const Slam* slam() const { return slam_ ? &slam_->slam() : nullptr; }
   static void addVisits(nlohmann::ordered_json& summary, const LoopReview& review);
   void addPoseError(nlohmann::ordered_json& summary) const;
 
