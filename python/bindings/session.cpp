@@ -19,15 +19,15 @@
 #include "apps/options/moved.hpp"
 #include "apps/runs/on_all_cores.hpp"
 #include "arguments.hpp"
+#include "cca_mrpt/io/map_products.hpp"
+#include "cca_mrpt/io/scan_raster.hpp"
 #include "cca_mrpt/localisation/given_poses.hpp"
 #include "cca_mrpt/localisation/wheel_odometry.hpp"
-#include "cca_mrpt/navigation/world/exploration_grid.hpp"
 #include "cca_mrpt/session/earlier_drive.hpp"
 #include "cca_mrpt/slam/slam_localiser.hpp"
 #include "io/files/memory_file.hpp"
 #include "io/files/stray_places.hpp"
 #include "io/logs/measurements.hpp"
-#include "io/logs/scan_cut_off.hpp"
 #include "io/logs/sound_log.hpp"
 #include "io/poses/local_frame.hpp"
 #include "line_arrays.hpp"
@@ -38,26 +38,27 @@
 #include "owned_array.hpp"
 #include "parameters.hpp"
 #include "python_log.hpp"
+#include "unpickled.hpp"
 
 namespace cca::python {
 namespace {
 
-/// What is kept of the scans of a map beside it: occupancy, as the program's ScanGrid has it, and
-/// what a page shows of a map that is made at the end.
+/// What is kept of the scans of a map beside it: occupancy, and what a page shows of a map that is
+/// made at the end.
 class ScanRecorder : public MapRecorder {
  public:
   /// @param title  of the replay, for people.
   explicit ScanRecorder(std::string title) : title_(std::move(title)), replay_(title_) {}
 
   void restart() override {
-    cells_ = ExplorationGrid();
+    raster_ = ScanRaster(p_begin_);
     replay_ = Replay(title_);
     last_moment_.reset();
     distance_ = 0.0;
     if (page_) page_->restart();
   }
   void record(const MappedScan& mapped, const LineMap& map) override {
-    if (mapped.scan.size() >= 2 && fits(mapped.scan)) cells_.insert(cutOff(mapped.scan));
+    raster_.insert(mapped.scan);
     if (!is_replayed_ || mapped.is_of_earlier_drive) return;
     ReplayMoment moment;
     moment.time = told_[mapped.number].time;
@@ -72,8 +73,13 @@ class ScanRecorder : public MapRecorder {
     moment.distance = distance_;
     replay_.add(moment, mapped.scan, map);
   }
-  OccupancyRaster raster() const;
+  std::optional<OccupancyRaster> raster() const { return raster_.raster(); }
 
+  /// Before the first scan. @param p_begin  m: about where they begin.
+  void beginAt(const Eigen::Vector2d& p_begin) {
+    p_begin_ = p_begin;
+    raster_ = ScanRaster(p_begin_);
+  }
   /// Of the next scan. @param reference  the pose that the run can be judged by.
   void add(double seconds, const std::optional<Pose2>& reference) {
     told_.push_back({seconds, reference});
@@ -89,18 +95,8 @@ class ScanRecorder : public MapRecorder {
   }
 
  private:
-  /// A broken pose must not exhaust the memory.
-  bool fits(const Scan& scan) const {
-    if (!cells_.covers(scan.T_map_sensor.position())) return false;
-    const Cell here = cells_.cellOf(scan.T_map_sensor.position());
-    const double x = std::max<double>(std::abs(here.x - cells_.lowest().x),
-                                      std::abs(here.x - cells_.highest().x));
-    const double y = std::max<double>(std::abs(here.y - cells_.lowest().y),
-                                      std::abs(here.y - cells_.highest().y));
-    return cells_.revealed() == 0 || (x + kReach) * (y + kReach) < kMostCells;
-  }
-  static constexpr double kReach = 1000.0, kMostCells = 1e8;  // cells
-  ExplorationGrid cells_;
+  std::optional<Eigen::Vector2d> p_begin_;
+  ScanRaster raster_;
   /// What a log tells of a scan beside what is mapped.
   struct Telling {
     double time;  ///< s
@@ -114,26 +110,6 @@ class ScanRecorder : public MapRecorder {
   double distance_ = 0.0;  ///< m, up to the last moment
   LivePage* page_ = nullptr;
 };
-
-OccupancyRaster ScanRecorder::raster() const {
-  OccupancyRaster raster;
-  const Cell low = cells_.lowest(), high = cells_.highest();
-  raster.resolution = cells_.resolution();
-  if (high.x < low.x || high.y < low.y) return raster;
-  raster.columns = high.x - low.x + 1;
-  raster.rows = high.y - low.y + 1;
-  raster.origin = raster.resolution * Eigen::Vector2d(low.x, low.y);
-  for (int y = low.y; y <= high.y; ++y) {
-    for (int x = low.x; x <= high.x; ++x) {
-      const CellState state = cells_.at({x, y});
-      const bool is_wall = state == CellState::kOccupied || state == CellState::kPresumedWall;
-      raster.values.push_back(is_wall                     ? Occupancy::kOccupied
-                              : state == CellState::kFree ? Occupancy::kFree
-                                                          : Occupancy::kUnknown);
-    }
-  }
-  return raster;
-}
 
 std::unique_ptr<Localiser> localiserOf(PoseSource source) {
   if (source == PoseSource::kSlam) return std::make_unique<SlamLocaliser>();
@@ -151,10 +127,13 @@ PoseSource sourceOf(const std::string& name) {
 
 /// A session, and what the files of its map need besides.
 struct Mapping {
-  /// @param title  of what is recorded, for people.
+  /// @param of_what  is recorded, for people.
   Mapping(PoseSource source, const CcaParameters& parameters, bool at_the_end,
-          const std::string& title)
-      : pose(source), recorder(std::make_unique<ScanRecorder>(title)), maps_at_the_end(at_the_end) {
+          const std::string& of_what)
+      : pose(source),
+        title(of_what),
+        recorder(std::make_unique<ScanRecorder>(of_what)),
+        maps_at_the_end(at_the_end) {
     if (at_the_end) recorder->keepReplay();
     auto localiser = localiserOf(source);
     slam = dynamic_cast<SlamLocaliser*>(localiser.get());
@@ -214,12 +193,13 @@ struct Mapping {
   }
 
   PoseSource pose;
+  std::string title;
   SlamLocaliser* slam = nullptr;           ///< of the session
   std::unique_ptr<LivePage> page;          ///< null: none
   std::unique_ptr<ScanRecorder> recorder;  ///< the session's
   std::unique_ptr<MappingSession> session;
   Eigen::Vector2d origin = Eigen::Vector2d::Zero();  ///< m, map frame: where its frame lies
-  std::size_t beams = 0, unguided = 0;  ///< of all scans; scans without odometry
+  std::size_t beams = 0, unguided = 0;               ///< of all scans; scans without odometry
   std::optional<StoredMemory> earlier;  ///< of earlier drives, that this one goes on with
   std::string resumed;                  ///< the folder that it is from
   bool maps_at_the_end, finished = false, is_paused = false;
@@ -228,28 +208,32 @@ using SharedMapping = Locked<Mapping>;
 
 MappedScans resultOf(const Mapping& mapping) {
   const MappingSession& session = *mapping.session;
-  MappedScans result;
-  result.map = {session.lineMap().lines(), session.lineMap().polyLines(), session.lineMap().arcs()};
-  result.trajectory = session.trajectory();
-  result.times = session.times();
-  result.is_placed = session.isLocalised();
-  result.distance = drivenLength(result.trajectory);
-  if (mapping.slam) {
-    const Slam& slam = mapping.slam->slam();
-    result.graph = slam.keyFrames().graph;
-    result.memory = {slam.memory(), mapping.origin};
-    result.loops = slam.loops().size();
-    if (mapping.earlier) result.found_in_memory = slam.isInMemory();
-  }
-  result.resumed = mapping.resumed;
-  result.grid = mapping.recorder->raster();
-  result.pose = nameOf(mapping.pose);
-  result.beams = mapping.beams;
-  result.agreement = session.agreement().overall();
-  result.origin = mapping.origin;
-  result.finished = mapping.finished;
-  result.replay = mapping.recorder->replay(result.map.lines, mapping.origin);
   const Slam* slam = mapping.slam ? &mapping.slam->slam() : nullptr;
+  MappedScans result;
+  MapProducts& products = result.products;
+  products = mapProducts(mapping.title, session);
+  products.origin = mapping.origin;
+  products.grid = mapping.recorder->raster();
+  products.replay = mapping.recorder->replay(products.lines, mapping.origin);
+  result.is_placed = session.isLocalised();
+  auto& summary = products.summary;
+  if (!mapping.title.empty()) summary["title"] = mapping.title;
+  summary["finished"] = mapping.finished;
+  summary["pose"] = nameOf(mapping.pose);
+  summary["scans"] = products.trajectory.size();
+  summary["beams"] = mapping.beams;
+  summary["distance_m"] = drivenLength(products.trajectory);
+  summary["agreement"] = session.agreement().overall();
+  if (slam) {
+    products.graph = slam->keyFrames().graph;
+    products.memory = packedMemory({slam->memory(), mapping.origin});
+    summary["key_frames"] = products.graph.size();
+    summary["loops"] = slam->loops().size();
+  }
+  if (mapping.earlier) {
+    summary["resumed"] = mapping.resumed;
+    summary["found_in_memory"] = slam->isInMemory();
+  }
   result.warnings = apps::sessionWarnings(session, slam, mapping.pose, mapping.unguided,
                                           mapping.resumed, mapping.origin);
   result.shortcoming = apps::shortcomingOf(session, slam);
@@ -363,6 +347,7 @@ class LogMapping {
     if (prefers_corrected && first.beginsCorrected()) pose_ = PoseSource::kLog;
     mapping_ = std::make_unique<Mapping>(pose_, parameters_, true, title_);
     mapping_->origin = first.origin();
+    mapping_->recorder->beginAt(first.start());
     if (resumed) mapping_->resume(*resumed);
     begun(*mapping_);
   }
@@ -419,7 +404,7 @@ nb::object mapLogs(const std::vector<NamedLog>& logs, const std::string& pose,
   } catch (const std::runtime_error& error) {
     throw nb::value_error(error.what());
   }
-  return filesAndArrays(std::move(*result));
+  return filesAndArrays(*result);
 }
 
 nb::object mergeMaps(const std::vector<std::string>& maps, nb::kwargs keywords) {
@@ -441,11 +426,12 @@ nb::object mergeMaps(const std::vector<std::string>& maps, nb::kwargs keywords) 
     }
     mapping.finished = true;
     result = resultOf(mapping);
-    result->graph = result->memory.memory.graph;
+    result->products.graph = mapping.slam->slam().memory().graph;
+    result->products.summary["key_frames"] = result->products.graph.size();
   } catch (const std::runtime_error& error) {
     throw nb::value_error(error.what());
   }
-  return filesAndArrays(std::move(*result));
+  return filesAndArrays(*result);
 }
 
 void constructMapper(SharedMapping* self, const std::string& pose, nb::kwargs keywords) {
@@ -519,7 +505,8 @@ void addSession(nb::module_& module) {
   static const std::string signature = parameterSignature<CcaParameters>(
       "map_logs(logs: collections.abc.Sequence[tuple[str, collections.abc.Iterable[LogRecord]]], "
       "pose: str, "
-      "resume: str | None, title: str, page: tuple[str, int] | None, told: collections.abc.Callable[[str], object]",
+      "resume: str | None, title: str, page: tuple[str, int] | None, told: "
+      "collections.abc.Callable[[str], object]",
       "tuple[dict[str, typing.Any], dict[str, bytes]]");
   module.def("map_logs", &mapLogs, nb::arg("logs"), nb::arg("pose"), nb::arg("resume").none(),
              nb::arg("title"), nb::arg("page").none(), nb::arg("told"), nb::arg("parameters"),
@@ -533,8 +520,13 @@ void addSession(nb::module_& module) {
              "What the map of several maps holds, and its files: see `cca_mrpt.merge`.");
   static const std::string construction =
       parameterSignature<CcaParameters>("__init__(self, pose: str", "None");
-  nb::class_<SharedMapping>(module, "MappingSession",
-                            "The pipeline from scans to a map: see `cca_mrpt.Mapper`.")
+  nb::class_<SharedMapping> mapping_type(
+      module, "MappingSession", "The pipeline from scans to a map: see `cca_mrpt.Mapper`.");
+  refusePickle(
+      mapping_type,
+      "a Mapper cannot be pickled: it is in the middle of a drive; pickle its map(), or save "
+      "it and go on with it by cca_mrpt.map(log, resume=folder)");
+  mapping_type
       .def("__init__", &constructMapper, nb::arg("pose"), nb::arg("parameters"),
            nb::sig(construction.c_str()))
       .def("step", &stepMapper, nb::arg("record"))

@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any, Dict, Iterable, List, NamedTuple, Optiona
 import numpy as np
 from numpy.typing import NDArray
 
-from ._core import MAP_LINE, Estimate, LogRecord, MappingSession, PolyLine, map_logs, merge_maps, read_chains, replay_with_rooms, write_files_into
+from ._core import MAP_LINE, Estimate, LogRecord, MappingSession, PolyLine, map_logs, merge_maps, pictures_of_map, read_chains, write_files_into
 from .grids import Grid, read_grid
 from .logs import Log, read_log
 from .plotting import plot
@@ -29,8 +29,8 @@ if TYPE_CHECKING:
 Source = Union[str, "os.PathLike[str]", Iterable[LogRecord]]  # of scans
 POSES = ("auto", "log", "odometry", "slam")
 # What a map's folder holds that Python keeps as it is; the program writes more.
-FILES = ("lines.csv", "arcs.csv", "lines.geojson", "lines.svg", "lines.dxf", "poses.csv", "poses.tum", "graph.g2o", "map.slam",
-         "replay.html")
+FILES = ("lines.csv", "arcs.csv", "lines.geojson", "lines.svg", "lines.dxf", "map.pgm", "map.yaml", "map.png", "poses.csv",
+         "poses.tum", "graph.g2o", "map.slam", "replay.html")
 
 
 class MapArc(NamedTuple):
@@ -54,7 +54,7 @@ class Map:
         times: (N,) s; numbers where the log tells no times.
         is_placed: (N,) bool: whether the place of that scan is known; others are in no map.
         summary: numbers of the run, as in summary.json.
-        grid: which places are free (a `Grid`); None: the folder that it was loaded from has no map.yaml.
+        grid: which places are free (a `Grid`); None: nothing was seen, or the folder that it is from has no map.yaml.
         warnings: what could not be read, or was guessed; empty where all was well.
         shortcoming: why it is not the map that was asked for (the scans contradict it); empty where it is.
     """
@@ -66,7 +66,8 @@ class Map:
         self.trajectory: NDArray[np.float64] = held["trajectory"]
         self.times: NDArray[np.float64] = np.asarray(held["times"], dtype=float)
         self.is_placed: NDArray[np.bool_] = np.asarray(held["is_placed"], dtype=bool)
-        self.summary: Dict[str, Any] = dict(held["summary"])
+        told_numbers = held["summary"]
+        self.summary: Dict[str, Any] = dict(json.loads(told_numbers) if isinstance(told_numbers, str) else told_numbers)
         self.grid: Optional[Grid] = Grid(*held["grid"]) if held.get("grid") else None
         self.warnings = warnings = "; ".join(filter(None, [warnings, held.get("warnings", "")]))
         if not self.is_placed.all():
@@ -76,7 +77,8 @@ class Map:
             self.summary["warnings"] = told
         self._files = files
         self.shortcoming: str = held.get("shortcoming", "")
-        self._replay: Tuple[str, Tuple[float, float]] = held.get("replay", ("", (0.0, 0.0)))
+        # A page of the run, packed, and where its frame lies; of a map that was loaded the files hold it.
+        self._replay: Optional[Tuple[str, Tuple[float, float]]] = (held["replay"], held["frame_origin"]) if "replay" in held else None
 
     def save(self, folder: Union[str, "os.PathLike[str]"], force: bool = False) -> List[str]:
         """Write the map into a folder, which is made where it is missing; each file whole or not at all.
@@ -85,18 +87,17 @@ class Map:
             force: overwrite a map that is there.
 
         Returns:
-            The files' names: lines.csv, arcs.csv, lines.geojson, .svg, .dxf, poses.csv, poses.tum, of SLAM graph.g2o
-            and map.slam, of `map` replay.html; summary.json comes last.
+            The files' names: lines.csv, arcs.csv, lines.geojson, .svg, .dxf, map.pgm and .yaml, map.png (where the
+            package was built beside Cairo), poses.csv, poses.tum, of SLAM graph.g2o and map.slam, of `map`
+            replay.html; summary.json comes last.
 
         Raises:
             FileExistsError: one of them is there already.
             RuntimeError: it cannot be written; names the file and the reason.
         """
         where, contents = Path(folder), dict(self._files)
-        if self._replay[0] and self.grid:
-            cells, resolution, origin = self.grid
-            page = replay_with_rooms(*self._replay, self.lines_csv(), cells, resolution, origin)
-            contents["replay.html"] = page.encode()
+        if self._replay:
+            contents.update(self._pictures(self.summary.get("title") or where.resolve().name))
         names = [*contents, "summary.json"]
         taken = [name for name in names if (where / name).exists()]
         if taken and not force:
@@ -108,6 +109,13 @@ class Map:
             (where / name).unlink(missing_ok=True)
         write_files_into(os.fspath(where), {"summary.json": (json.dumps(self.summary, indent=1) + "\n").encode()})
         return names
+
+    def _pictures(self, title: str) -> Dict[str, bytes]:
+        assert self._replay is not None
+        packed, frame_origin = self._replay
+        cells, resolution, origin = self.grid or Grid(np.zeros((0, 0), np.uint8), 1.0, (0.0, 0.0))
+        return pictures_of_map(title, self.lines_csv(), np.ascontiguousarray(self.lines["ends"]), self.poly_lines, self.trajectory,
+                               np.ascontiguousarray(cells), resolution, origin, frame_origin, packed)
 
     def plot(self, ax: Optional[Axes] = None) -> Axes:
         """Draw lines and trajectory to scale by matplotlib: the axes."""

@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <cstdio>
-#include <filesystem>
-#include <fstream>
 #include <memory>
-#include <sstream>
 #include <stdexcept>
 #include <string>
 
 #include "commands.hpp"
+#include "io/files/content.hpp"
 #include "io/plans/plan_files.hpp"
 #include "io/plans/plan_formats.hpp"
 
@@ -18,15 +16,6 @@ struct PlanCommandOptions {
   std::string map, out, labels;
   bool force = false, quiet = false;
 };
-
-RoomLabels labelsOf(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  if (!file || std::filesystem::is_directory(path))
-    throw std::runtime_error(path + ": cannot be read");
-  std::ostringstream text;
-  text << file.rdbuf();
-  return readRoomLabels(text.str(), path);
-}
 
 void tellPlan(const FloorPlan& plan, const std::string& out) {
   double area = 0.0, open_border = 0.0;
@@ -51,10 +40,10 @@ void tellPlan(const FloorPlan& plan, const std::string& out) {
 void plan(const PlanCommandOptions& options) {
   const std::string out = options.out.empty() ? options.map : options.out;
   RoomLabels labels;
-  if (!options.labels.empty()) labels = labelsOf(options.labels);
+  if (!options.labels.empty()) labels = readRoomLabels(contentOf(options.labels), options.labels);
   FloorPlan found = planOfFolder(options.map);
   const RoomLabels outside = nameRooms(found, labels);
-  writePlanFiles(out, found, titleOfFolder(options.map), options.force);
+  writePlanFiles(out, planFiles(found, titleOfFolder(options.map)), options.force);
   if (!options.quiet) tellPlan(found, out);
   for (const auto& [p, name] : outside) {
     std::fprintf(stderr, "cca-mrpt: %s: (%.2f, %.2f), %s, lies in no room\n",

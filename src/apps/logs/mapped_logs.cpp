@@ -104,17 +104,14 @@ void MappedLogs::finish() {
   }
   background_->wait();
   if (logs_.memory && slam_->slam().isInMemory()) origin_ = logs_.memory->origin;
-  appendWarning(
-      sessionWarnings(*session_, slam(), logs_.pose, unguided_, logs_.resumed, origin_),
-      warnings_);
+  appendWarning(sessionWarnings(*session_, slam(), logs_.pose, unguided_, logs_.resumed, origin_),
+                warnings_);
 }
 
-std::string MappedLogs::shortcoming() const {
-  return shortcomingOf(*session_, slam());
-}
+std::string MappedLogs::shortcoming() const { return shortcomingOf(*session_, slam()); }
 
 void MappedLogs::restart() {
-  grid_ = ScanGrid(start_);
+  grid_ = ScanRaster(start_);
   replay_ = Replay(fileName(logs_.paths.front()));
   last_moment_.reset();
   distance_ = 0.0;
@@ -140,7 +137,7 @@ void MappedLogs::record(const MappedScan& mapped, const LineMap& map) {
 
 MapProducts MappedLogs::products() const {
   MapProducts products = mapProducts(fileName(logs_.paths.front()), *session_);
-  products.grid = grid_.grid();
+  products.grid = grid_.raster();
   products.origin = origin_;
   Replay replay = replay_;
   replay.finish(products.lines);

@@ -10,7 +10,7 @@
 #include "apps/runs/interruption.hpp"
 #include "cca_mrpt/io/map_products.hpp"
 #include "cca_mrpt/io/parameters.hpp"
-#include "cca_mrpt/io/scan_grid.hpp"
+#include "cca_mrpt/io/scan_raster.hpp"
 #include "cca_mrpt/session/mapping_session.hpp"
 #include "cca_mrpt/slam/slam_localiser.hpp"
 #include "io/files/memory_file.hpp"
@@ -78,7 +78,7 @@ class MappedLogs : public MapRecorder {
   LivePage* page_ = nullptr;
   // What background_ alone changes until finish().
   std::vector<Telling> told_;  ///< of each scan
-  ScanGrid grid_;
+  ScanRaster grid_;
   Replay replay_;
   std::optional<Pose2> last_moment_;
   double distance_ = 0.0;  ///< m, up to the last moment
