@@ -8,12 +8,21 @@
 namespace cca {
 namespace {
 
+constexpr std::size_t kLongestQuote = 40;  // bytes of a field: more would hide the rule
+
 /// Times without a unit: seconds up to the year 5138, then milliseconds, microseconds, nanoseconds
 /// of times since 1970.
 double secondsOf(double stamp) {
   const double size = std::abs(stamp);
   if (size < 1e11) return stamp;
   return stamp * (size < 1e14 ? 1e-3 : size < 1e17 ? 1e-6 : 1e-9);
+}
+
+/// The beginning of a field, for messages: a file may hold any bytes.
+std::string quoted(std::string_view field) {
+  std::string text = "'";
+  for (const char c : field.substr(0, kLongestQuote)) text += c >= ' ' && c <= '~' ? c : '?';
+  return text + "'";
 }
 
 /// A row of a CSV of ranges.
@@ -37,8 +46,7 @@ class CsvRow {
     const auto value = numberOf(field);
     if (value && std::isfinite(*value)) return *value * quantity.unit;
     throw MalformedLine("column " + std::to_string(*quantity.column + 1) +
-                        ": a finite number is needed, not '" + std::string(field.substr(0, 40)) +
-                        "'");
+                        ": a finite number is needed, not " + quoted(field));
   }
 
   Pose2 pose(const std::array<CsvQuantity, 3>& quantities) const {
@@ -70,8 +78,8 @@ class CsvRow {
   double rangeIn(std::size_t column) const {
     if (fields_[column].empty()) return std::numeric_limits<double>::quiet_NaN();
     if (const auto value = numberOf(fields_[column])) return *value;
-    throw MalformedLine("column " + std::to_string(column + 1) + ": a range is needed, not '" +
-                        std::string(fields_[column].substr(0, 40)) + "'");
+    throw MalformedLine("column " + std::to_string(column + 1) + ": a range is needed, not " +
+                        quoted(fields_[column]));
   }
 
   const CsvHeader& header_;
