@@ -5,7 +5,7 @@
 set -eu
 
 packages="build-essential ca-certificates cmake libboost-dev libcairo2-dev libcli11-dev libeigen3-dev libmrpt-dev
-  libcpp-httplib-dev libnanoflann-dev mrpt-common ninja-build nlohmann-json3-dev pkg-config zlib1g-dev"
+  libcpp-httplib-dev libnanoflann-dev libpng-dev mrpt-common ninja-build nlohmann-json3-dev pkg-config zlib1g-dev"
 ros="catkin libactionlib-dev libdiagnostic-updater-dev libdynamic-reconfigure-config-init-mutex-dev libgeometry-msgs-dev
   libmove-base-msgs-dev libnav-msgs-dev
   librosbag-dev libroscpp-dev libroslib-dev libsensor-msgs-dev libstd-msgs-dev libstd-srvs-dev libtf2-dev libtf2-msgs-dev

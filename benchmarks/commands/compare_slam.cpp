@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "apps/runs/interruption.hpp"
-#include "cca_mrpt/io/scan_grid.hpp"
+#include "cca_mrpt/io/scan_raster.hpp"
 #include "cca_mrpt/mapping/line_map.hpp"
 #include "commands/commands.hpp"
 #include "io/files/atomic_file.hpp"
@@ -120,7 +120,7 @@ void draw(const std::string& path, const std::string& title, const Log& log,
   products.title = title;
   products.trajectory = trajectory;
   LineMap map;
-  ScanGrid grid(trajectory.front().position());
+  ScanRaster grid(trajectory.front().position());
   for (std::size_t k = 0; k < log.size(); ++k) {
     Scan scan = log[k].scan;
     scan.T_map_sensor = trajectory[k] * log[k].T_robot_sensor;
@@ -129,7 +129,7 @@ void draw(const std::string& path, const std::string& title, const Log& log,
   }
   products.lines = map.lines();
   products.poly_lines = map.polyLines();
-  products.grid = grid.grid();
+  products.grid = grid.raster();
   writePicture(path, products);
 }
 

@@ -6,7 +6,7 @@
 
 #include "cca_mrpt/io/log_reader.hpp"
 #include "cca_mrpt/io/map_products.hpp"
-#include "cca_mrpt/io/scan_grid.hpp"
+#include "cca_mrpt/io/scan_raster.hpp"
 #include "cca_mrpt/mapping/line_map.hpp"
 
 int main(int argc, char** argv) try {
@@ -15,7 +15,7 @@ int main(int argc, char** argv) try {
     return 2;
   }
   cca::LineMap map;
-  cca::ScanGrid grid;  // for the picture's background and map.pgm
+  cca::ScanRaster grid;  // for the picture's background and map.pgm
   cca::MapProducts products;
   const auto log = cca::openLog(argv[1]);
   while (const auto record = log->next()) {
@@ -27,7 +27,7 @@ int main(int argc, char** argv) try {
   products.title = argv[1];
   products.lines = map.lines();
   products.poly_lines = map.polyLines();
-  products.grid = grid.grid();
+  products.grid = grid.raster();
   cca::writeMapFolder(argv[2], products);
   std::printf("%zu scans, %zu lines\n", products.trajectory.size(), products.lines.size());
 } catch (const std::exception& error) {

@@ -14,7 +14,8 @@
 #include "cca_mrpt/io/log_reader.hpp"
 #include "cca_mrpt/sensing/missing_returns.hpp"
 #include "io/files/atomic_file.hpp"
-#include "io/logs/carmen_reader.hpp"
+#include "io/files/gzip_lines.hpp"
+#include "io/logs/text_formats.hpp"
 #include "locked.hpp"
 #include "module.hpp"
 
@@ -34,7 +35,12 @@ std::optional<Triple> triple(const std::optional<Pose2>& pose) {
 void open(Log* self, const std::string& path) {
   try {
     const nb::gil_scoped_release others_may_run;
-    new (self) Log(openCarmenLog(path));
+    auto log = openTextLog(path, fileHead(path, kLogHead));
+    if (!log) {
+      throw std::runtime_error(path + ": not a log of a known kind (" + kTextLogKinds +
+                               ", ROS bags; MRPT's logs are read by the program)");
+    }
+    new (self) Log(std::move(log));
   } catch (const std::runtime_error& error) {
     throw nb::value_error(error.what());
   }
@@ -211,11 +217,12 @@ void addLogs(nb::module_& module) {
           "judge", [](MissingReturns& own, LogRecord& record) { own.judge(record.scan); },
           nb::arg("record"),
           "Judge a scan by those before it: whether a missing return tells of free space.");
-  nb::class_<Log>(module, "CarmenLog", "The scans of a CARMEN log, one after the other, once.")
+  nb::class_<Log>(module, "TextLog",
+                  "The scans of a log that is text, one after the other, once; see `read_log`.")
       .def("__init__", &open, nb::arg("path"))
       .def(
           "__iter__", [](nb::handle self) { return nb::borrow(self); },
-          nb::sig("def __iter__(self) -> CarmenLog"))
+          nb::sig("def __iter__(self) -> TextLog"))
       .def("__next__", &next)
       .def_prop_ro(
           "progress",

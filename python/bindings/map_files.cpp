@@ -10,7 +10,10 @@
 #include <stdexcept>
 #include <utility>
 
+#include "io/files/memory_file.hpp"
 #include "io/lines/line_formats.hpp"
+#include "io/maps/map_frame.hpp"
+#include "io/maps/occupancy_files.hpp"
 #include "io/poses/local_frame.hpp"
 #include "io/poses/pose_files.hpp"
 #include "io/replay/replay.hpp"
@@ -22,25 +25,6 @@ namespace cca::python {
 namespace {
 
 namespace nb = nanobind;
-
-/// Into the map frame, as writeMapFolder() does: by one addition, so that the same numbers come
-/// out.
-void moveToMapFrame(MappedScans& result) {
-  const Eigen::Vector2d p_frame = -result.origin;
-  for (MapLine& line : result.map.lines) {
-    line.segment.start -= p_frame;
-    line.segment.end -= p_frame;
-    line.segment.moments.mean -= p_frame;
-  }
-  for (PolyLine& chain : result.map.poly_lines) {
-    for (auto& vertex : chain.vertices) vertex -= p_frame;
-  }
-  for (MapArc& arc : result.map.arcs) arc.arc.centre -= p_frame;
-  for (Pose2& pose : result.trajectory) pose = seenFrom(p_frame, pose);
-  for (int k = 0; k < result.graph.size(); ++k)
-    result.graph.place(k, seenFrom(p_frame, result.graph.pose(k)));
-  result.grid.origin -= p_frame;
-}
 
 /// (array of Occupancy, rows from the lowest y on; resolution; origin).
 nb::object gridTuple(const OccupancyRaster& grid) {
@@ -63,32 +47,27 @@ nb::object trajectoryArray(const std::vector<Pose2>& trajectory) {
   return ownedArray(std::move(numbers), trajectory.size(), 3);
 }
 
-std::vector<StampedPose> stamped(const MappedScans& result) {
-  std::vector<StampedPose> poses;
-  for (std::size_t k = 0; k < result.trajectory.size(); ++k)
-    poses.push_back({result.times[k], result.trajectory[k]});
-  return poses;
-}
-
-nb::dict filesOf(const MappedScans& result) {
+/// Of a map in the map frame.
+nb::dict filesOf(const MapProducts& map) {
   nb::dict files;
   const auto put = [&files](const char* name, const std::string& content) {
     files[name] = nb::bytes(content.data(), content.size());
   };
-  const auto& [lines, poly_lines, arcs] = result.map;
-  put("lines.csv", linesCsv(lines));
-  put("arcs.csv", arcsCsv(arcs));
-  put("lines.geojson", linesGeoJson(lines, poly_lines, result.trajectory, arcs));
-  put("lines.svg", linesSvg(lines, poly_lines, result.trajectory, arcs));
-  put("lines.dxf", linesDxf(lines, poly_lines, result.trajectory, arcs));
-  if (!result.trajectory.empty()) {
-    put("poses.csv", posesCsv(stamped(result)));
-    put("poses.tum", posesTum(stamped(result)));
+  put("lines.csv", linesCsv(map.lines));
+  put("arcs.csv", arcsCsv(map.arcs));
+  put("lines.geojson", linesGeoJson(map.lines, map.poly_lines, map.trajectory, map.arcs));
+  put("lines.svg", linesSvg(map.lines, map.poly_lines, map.trajectory, map.arcs));
+  put("lines.dxf", linesDxf(map.lines, map.poly_lines, map.trajectory, map.arcs));
+  if (map.grid) {
+    put("map.pgm", occupancyPgm(*map.grid));
+    put("map.yaml", occupancyYaml(*map.grid, "map.pgm"));
   }
-  if (result.graph.size() > 0) {
-    put("graph.g2o", graphG2o(result.graph));
-    put(kMemoryFile, packedMemory(result.memory));
+  if (!map.trajectory.empty()) {
+    put("poses.csv", posesCsv(stampedPoses(map)));
+    put("poses.tum", posesTum(stampedPoses(map)));
   }
+  if (map.graph.size() > 0) put("graph.g2o", graphG2o(map.graph));
+  if (!map.memory.empty()) put(kMemoryFile, map.memory);
   return files;
 }
 
@@ -124,42 +103,34 @@ void addMapFiles(nb::module_& module) {
   module.def("page_of_runs", &replayPage, nb::arg("runs"), "The page of one run, or two.");
 }
 
-nb::object filesAndArrays(MappedScans result) {
-  moveToMapFrame(result);
+nb::object filesAndArrays(const MappedScans& result) {
+  const Eigen::Vector2d& origin = result.products.origin;
+  MapProducts map = seenFrom(-origin, result.products);
+  if (map.grid) map.grid = asWritten(std::move(*map.grid), origin);
   double length = 0.0;
-  for (const MapLine& line : result.map.lines) length += line.segment.length();
+  for (const MapLine& line : map.lines) length += line.segment.length();
   nb::list is_placed;
   for (const bool placed : result.is_placed) is_placed.append(placed);
-  nb::dict held, summary;
-  held["lines"] = lineArray(result.map.lines);
-  held["poly_lines"] = nb::cast(result.map.poly_lines);
-  held["arcs"] = arcsOf(result.map.arcs);
-  held["trajectory"] = trajectoryArray(result.trajectory);
-  held["times"] = nb::cast(result.times);
+  nb::dict held;
+  held["lines"] = lineArray(map.lines);
+  held["poly_lines"] = nb::cast(map.poly_lines);
+  held["arcs"] = arcsOf(map.arcs);
+  held["trajectory"] = trajectoryArray(map.trajectory);
+  held["times"] = nb::cast(map.times);
   held["is_placed"] = is_placed;
   held["warnings"] = result.warnings;
   held["shortcoming"] = result.shortcoming;
-  held["replay"] =
-      nb::make_tuple(result.replay, nb::make_tuple(result.origin.x(), result.origin.y()));
-  held["grid"] = gridTuple(result.grid);
-  summary["finished"] = result.finished;
-  summary["pose"] = result.pose;
-  summary["scans"] = result.trajectory.size();
-  summary["beams"] = result.beams;
-  summary["distance_m"] = result.distance;
-  summary["agreement"] = result.agreement;
-  if (result.graph.size() > 0) {
-    summary["key_frames"] = result.graph.size();
-    summary["loops"] = result.loops;
-  }
-  if (!result.origin.isZero())
-    summary["frame_origin_m"] = nb::make_tuple(result.origin.x(), result.origin.y());
-  summary["map_lines"] = result.map.lines.size();
-  summary["map_poly_lines"] = result.map.poly_lines.size();
-  summary["map_arcs"] = result.map.arcs.size();
+  held["replay"] = map.replay;
+  held["frame_origin"] = nb::make_tuple(origin.x(), origin.y());
+  held["grid"] = map.grid ? gridTuple(*map.grid) : nb::none();
+  auto& summary = map.summary;
+  if (!origin.isZero()) summary["frame_origin_m"] = {origin.x(), origin.y()};
+  summary["map_lines"] = map.lines.size();
+  summary["map_poly_lines"] = map.poly_lines.size();
+  summary["map_arcs"] = map.arcs.size();
   summary["map_length_m"] = length;
-  held["summary"] = summary;
-  return nb::make_tuple(held, filesOf(result));
+  held["summary"] = summary.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
+  return nb::make_tuple(held, filesOf(map));
 }
 
 }  // namespace cca::python

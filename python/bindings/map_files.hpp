@@ -6,39 +6,19 @@
 #include <string>
 #include <vector>
 
-#include "cca_mrpt/floor_plan/raster.hpp"
-#include "cca_mrpt/mapping/line_map.hpp"
-#include "cca_mrpt/slam/pose_graph.hpp"
-#include "io/files/memory_file.hpp"
+#include "cca_mrpt/io/map_products.hpp"
 
 namespace cca::python {
 
-struct LinesAndChains {
-  std::vector<MapLine> lines;
-  std::vector<PolyLine> poly_lines;
-  std::vector<MapArc> arcs;
-};
-
-/// What a session has made of its scans, in the session's frame.
+/// What a session has made of its scans, in the session's frame. The summary lacks what
+/// filesAndArrays() counts.
 struct MappedScans {
-  LinesAndChains map;
-  std::vector<Pose2> trajectory;
-  std::vector<double> times;
+  MapProducts products;
   std::vector<bool> is_placed;
-  double distance = 0.0;  ///< m
-  PoseGraph graph;        ///< of SLAM; empty: there was none
-  StoredMemory memory;
-  OccupancyRaster grid;  ///< of the scans, in the same frame
-  std::size_t loops = 0, beams = 0;
-  std::string pose;
-  double agreement = 0.0;
-  Eigen::Vector2d origin = Eigen::Vector2d::Zero();  ///< m, map frame: where that frame lies
-  bool finished = false;
   std::string warnings, shortcoming;
-  std::string replay;  ///< Replay::packed(), of the same frame; empty: there is none
 };
 
 /// (dict of arrays and numbers, dict of files by name), in the map frame.
-nanobind::object filesAndArrays(MappedScans result);
+nanobind::object filesAndArrays(const MappedScans& result);
 
 }  // namespace cca::python

@@ -12,9 +12,9 @@
 #include "cca_mrpt/mapping/line_extraction.hpp"
 #include "io/lines/line_formats.hpp"
 #include "line_arrays.hpp"
-#include "map_files.hpp"
 #include "module.hpp"
 #include "parameters.hpp"
+#include "unpickled.hpp"
 
 namespace cca::python {
 namespace {
@@ -43,6 +43,12 @@ void insertIntoMap(SharedLineMap& map, nb::handle ranges, double angle_min, doub
   if (!map.with([&scan](LineMap& own) { return own.insert(scan); }))
     throw nb::value_error("pose: further than 10 000 km from the map's origin");
 }
+
+struct LinesAndChains {
+  std::vector<MapLine> lines;
+  std::vector<PolyLine> poly_lines;
+  std::vector<MapArc> arcs;
+};
 
 LinesAndChains everything(SharedLineMap& map) {
   return map.with([](LineMap& own) {
@@ -96,7 +102,11 @@ void addLineMap(nb::module_& module) {
   const auto count = [](SharedLineMap& map) {
     return map.with([](LineMap& own) { return own.lines().size(); });
   };
-  nb::class_<SharedLineMap>(module, "LineMap", docs.c_str())
+  nb::class_<SharedLineMap> line_map_type(module, "LineMap", docs.c_str());
+  refusePickle(line_map_type,
+               "a LineMap cannot be pickled: it holds the evidence of each wall, which no file of "
+               "ours has; copy it, or pickle its lines() or a Map (cca_mrpt.map)");
+  line_map_type
       .def(
           "__init__",
           [](SharedLineMap* self, nb::kwargs keywords) {

@@ -15,6 +15,7 @@
 #include "module.hpp"
 #include "owned_array.hpp"
 #include "parameters.hpp"
+#include "unpickled.hpp"
 
 namespace cca::python {
 namespace {
@@ -123,7 +124,13 @@ void addGrid(nb::module_& module) {
   const auto copyOf = [](SharedGrid& grid) {
     return new SharedGrid(grid.with([](ExplorationGrid& own) { return own; }));
   };
-  nb::class_<SharedGrid>(module, "ExplorationGrid", "What is known of each place; grows by itself.")
+  nb::class_<SharedGrid> grid_type(module, "ExplorationGrid",
+                                   "What is known of each place; grows by itself.");
+  refusePickle(
+      grid_type,
+      "an ExplorationGrid cannot be pickled: it holds the evidence of each cell; copy it, or "
+      "pickle its states() and origin");
+  grid_type
       .def(
           "__init__",
           [](SharedGrid* self, double cell_side) {
@@ -217,7 +224,11 @@ void addExplorer(nb::module_& module) {
   static const std::string signature =
       parameterSignature<CcaParameters, RobotParameters, ExplorerParameters>("__init__(self",
                                                                              "None");
-  nb::class_<SharedExplorer>(module, "Explorer", docs.c_str())
+  nb::class_<SharedExplorer> explorer_type(module, "Explorer", docs.c_str());
+  refusePickle(explorer_type,
+               "an Explorer cannot be pickled: it is in the middle of a drive; pickle the lines() "
+               "of its line_map()");
+  explorer_type
       .def(
           "__init__",
           [](SharedExplorer* self, nb::kwargs keywords) {

@@ -1,324 +1,23 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "cca_mrpt/session/mapping_session.hpp"
-
-#include <nanobind/stl/optional.h>
-#include <nanobind/stl/pair.h>
 #include <nanobind/stl/string.h>
-#include <nanobind/stl/vector.h>
 
 #include <algorithm>
-#include <chrono>
-#include <cmath>
-#include <exception>
 #include <memory>
-#include <optional>
-#include <thread>
-#include <utility>
+#include <stdexcept>
 
-#include "apps/logs/contradiction.hpp"
-#include "apps/options/moved.hpp"
-#include "apps/runs/on_all_cores.hpp"
 #include "arguments.hpp"
-#include "cca_mrpt/localisation/given_poses.hpp"
-#include "cca_mrpt/localisation/wheel_odometry.hpp"
-#include "cca_mrpt/navigation/world/exploration_grid.hpp"
-#include "cca_mrpt/session/earlier_drive.hpp"
-#include "cca_mrpt/slam/slam_localiser.hpp"
-#include "io/files/stray_places.hpp"
-#include "io/logs/measurements.hpp"
-#include "io/logs/scan_cut_off.hpp"
-#include "io/logs/sound_log.hpp"
-#include "io/poses/local_frame.hpp"
 #include "line_arrays.hpp"
-#include "live/live_page.hpp"
 #include "locked.hpp"
-#include "map_files.hpp"
 #include "module.hpp"
 #include "owned_array.hpp"
 #include "parameters.hpp"
-#include "python_log.hpp"
+#include "scan_mapping.hpp"
+#include "unpickled.hpp"
 
 namespace cca::python {
 namespace {
 
-/// What is kept of the scans of a map beside it: occupancy, as the program's ScanGrid has it, and
-/// what a page shows of a map that is made at the end.
-class ScanRecorder : public MapRecorder {
- public:
-  /// @param title  of the replay, for people.
-  explicit ScanRecorder(std::string title) : title_(std::move(title)), replay_(title_) {}
-
-  void restart() override {
-    cells_ = ExplorationGrid();
-    replay_ = Replay(title_);
-    last_moment_.reset();
-    distance_ = 0.0;
-    if (page_) page_->restart();
-  }
-  void record(const MappedScan& mapped, const LineMap& map) override {
-    if (mapped.scan.size() >= 2 && fits(mapped.scan)) cells_.insert(cutOff(mapped.scan));
-    if (!is_replayed_ || mapped.is_of_earlier_drive) return;
-    ReplayMoment moment;
-    moment.time = told_[mapped.number].time;
-    moment.distance = distance_;
-    moment.T_map_robot = mapped.T_map_robot;
-    moment.truth = told_[mapped.number].reference;
-    if (page_ && page_->isDue()) page_->show({moment, mapped.scan, map, {}, {}});
-    const std::optional<Pose2> last = last_moment_;
-    if (!apps::keepIfMoved(last_moment_, mapped.T_map_robot)) return;
-    const double step = last ? (mapped.T_map_robot.position() - last->position()).norm() : 0.0;
-    if (step < apps::kLongestStep) distance_ += step;
-    moment.distance = distance_;
-    replay_.add(moment, mapped.scan, map);
-  }
-  OccupancyRaster raster() const;
-
-  /// Of the next scan. @param reference  the pose that the run can be judged by.
-  void add(double seconds, const std::optional<Pose2>& reference) {
-    told_.push_back({seconds, reference});
-  }
-  /// From now on, what is recorded can be looked at: of maps that are made once.
-  void keepReplay() { is_replayed_ = true; }
-  void showOn(LivePage* page) { page_ = page; }
-  /// Replay::packed(); empty where there is none. @param lines  as the run leaves them.
-  std::string replay(const std::vector<MapLine>& lines, const Eigen::Vector2d& origin) const {
-    Replay replay = replay_;
-    replay.finish(lines);
-    return replay.empty() ? "" : replay.packed(origin);
-  }
-
- private:
-  /// A broken pose must not exhaust the memory.
-  bool fits(const Scan& scan) const {
-    if (!cells_.covers(scan.T_map_sensor.position())) return false;
-    const Cell here = cells_.cellOf(scan.T_map_sensor.position());
-    const double x = std::max<double>(std::abs(here.x - cells_.lowest().x),
-                                      std::abs(here.x - cells_.highest().x));
-    const double y = std::max<double>(std::abs(here.y - cells_.lowest().y),
-                                      std::abs(here.y - cells_.highest().y));
-    return cells_.revealed() == 0 || (x + kReach) * (y + kReach) < kMostCells;
-  }
-  static constexpr double kReach = 1000.0, kMostCells = 1e8;  // cells
-  ExplorationGrid cells_;
-  /// What a log tells of a scan beside what is mapped.
-  struct Telling {
-    double time;  ///< s
-    std::optional<Pose2> reference;
-  };
-  std::vector<Telling> told_;  ///< of each scan
-  std::string title_;
-  Replay replay_;
-  bool is_replayed_ = false;
-  std::optional<Pose2> last_moment_;
-  double distance_ = 0.0;  ///< m, up to the last moment
-  LivePage* page_ = nullptr;
-};
-
-OccupancyRaster ScanRecorder::raster() const {
-  OccupancyRaster raster;
-  const Cell low = cells_.lowest(), high = cells_.highest();
-  raster.resolution = cells_.resolution();
-  if (high.x < low.x || high.y < low.y) return raster;
-  raster.columns = high.x - low.x + 1;
-  raster.rows = high.y - low.y + 1;
-  raster.origin = raster.resolution * Eigen::Vector2d(low.x, low.y);
-  for (int y = low.y; y <= high.y; ++y) {
-    for (int x = low.x; x <= high.x; ++x) {
-      const CellState state = cells_.at({x, y});
-      const bool is_wall = state == CellState::kOccupied || state == CellState::kPresumedWall;
-      raster.values.push_back(is_wall                     ? Occupancy::kOccupied
-                              : state == CellState::kFree ? Occupancy::kFree
-                                                          : Occupancy::kUnknown);
-    }
-  }
-  return raster;
-}
-
-std::unique_ptr<Localiser> localiserOf(PoseSource source) {
-  if (source == PoseSource::kSlam) return std::make_unique<SlamLocaliser>();
-  if (source == PoseSource::kOdometry) return std::make_unique<WheelOdometry>();
-  return std::make_unique<GivenPoses>();
-}
-
-/// @throws nb::value_error
-PoseSource sourceOf(const std::string& name) {
-  for (const PoseSource source : {PoseSource::kLog, PoseSource::kOdometry, PoseSource::kSlam}) {
-    if (name == nameOf(source)) return source;
-  }
-  throw nb::value_error(("pose: '" + name + "' is none of auto log odometry slam").c_str());
-}
-
-/// A session, and what the files of its map need besides.
-struct Mapping {
-  /// @param title  of what is recorded, for people.
-  Mapping(PoseSource source, const CcaParameters& parameters, bool at_the_end,
-          const std::string& title)
-      : pose(source), recorder(std::make_unique<ScanRecorder>(title)), maps_at_the_end(at_the_end) {
-    if (at_the_end) recorder->keepReplay();
-    auto localiser = localiserOf(source);
-    slam = dynamic_cast<SlamLocaliser*>(localiser.get());
-    MappingSession::Settings settings;
-    settings.mapping = parameters;
-    settings.maps_at_the_end = maps_at_the_end;
-    session = std::make_unique<MappingSession>(std::move(localiser), settings, recorder.get());
-  }
-
-  Estimate add(LogRecord record) {
-    beams += record.scan.size();
-    ReplayMoment moment;
-    moment.time = record.has_time ? record.time : 0.0;
-    recorder->add(moment.time, referencePose(record));
-    const Estimate estimate = session->add(measurementOf(std::move(record), pose));
-    moment.T_map_robot = estimate.T_map_robot;
-    if (page && page->isDue()) page->show({moment, session->scan(), session->lineMap(), {}, {}});
-    return estimate;
-  }
-
-  void finish() {
-    session->finish(apps::doOnAllCores);
-    finished = true;
-    if (page) page->finish(session->lineMap().lines(), "all is mapped");
-  }
-
-  std::string serve(LivePageSettings settings) {
-    settings.origin = origin;
-    page = openLivePage(settings);
-    if (maps_at_the_end) recorder->showOn(page.get());
-    return page->url();
-  }
-
-  /// Whether a viewer of the page wants no more scans to be taken for now.
-  bool isPaused() {
-    while (const auto command = page ? page->nextCommand() : std::nullopt) {
-      is_paused = command->kind != RunCommand::Kind::kStart;
-      page->setPaused(is_paused);
-    }
-    return is_paused;
-  }
-
-  PoseSource pose;
-  SlamLocaliser* slam = nullptr;           ///< of the session
-  std::unique_ptr<LivePage> page;          ///< null: none
-  std::unique_ptr<ScanRecorder> recorder;  ///< the session's
-  std::unique_ptr<MappingSession> session;
-  Eigen::Vector2d origin = Eigen::Vector2d::Zero();  ///< m, map frame: where its frame lies
-  std::size_t beams = 0;
-  bool maps_at_the_end, finished = false, is_paused = false;
-};
 using SharedMapping = Locked<Mapping>;
-
-MappedScans resultOf(const Mapping& mapping) {
-  const MappingSession& session = *mapping.session;
-  MappedScans result;
-  result.map = {session.lineMap().lines(), session.lineMap().polyLines(), session.lineMap().arcs()};
-  result.trajectory = session.trajectory();
-  result.times = session.times();
-  result.is_placed = session.isLocalised();
-  result.distance = drivenLength(result.trajectory);
-  if (mapping.slam) {
-    const Slam& slam = mapping.slam->slam();
-    result.graph = slam.graph();
-    result.memory = {slam.memory(), mapping.origin};
-    result.loops = slam.loopsClosed();
-  }
-  result.grid = mapping.recorder->raster();
-  result.pose = nameOf(mapping.pose);
-  result.beams = mapping.beams;
-  result.agreement = session.agreement().overall();
-  result.origin = mapping.origin;
-  result.finished = mapping.finished;
-  result.replay = mapping.recorder->replay(result.map.lines, mapping.origin);
-  result.shortcoming = apps::contradiction(session.agreement());
-  return result;
-}
-
-/// Waits while a viewer wants it. With the interpreter's lock; @throws what Ctrl-C raises.
-template <class IsPaused>
-void waitForViewers(IsPaused&& is_paused) {
-  while (is_paused()) {
-    if (PyErr_CheckSignals() != 0) throw nb::python_error();
-    const nb::gil_scoped_release others_may_run;
-    std::this_thread::sleep_for(std::chrono::milliseconds(20));
-  }
-}
-
-LivePageSettings pageAt(const std::string& address, int port, const std::string& title) {
-  if (port < 0 || port > 65535) throw nb::value_error("port: must be in [0, 65535]");
-  LivePageSettings settings;
-  settings.address = address;
-  settings.port = port;
-  settings.title = title;
-  return settings;
-}
-
-/// @param page  where a page is to be served; nothing: there is none.
-/// @param told  called with its address.
-nb::object mapLog(nb::handle records, const std::string& pose, const std::string& title,
-                  const std::optional<std::pair<std::string, int>>& page, nb::handle told,
-                  nb::kwargs keywords) {
-  CcaParameters parameters;
-  readParameters(keywords, parameters);
-  const nb::object iterator = nb::iter(records);
-  auto reader = std::make_unique<PythonLog>(iterator);
-  std::unique_ptr<Mapping> mapping;
-  std::optional<MappedScans> result;
-  const bool is_auto = pose == "auto";
-  PoseSource source = is_auto ? PoseSource::kSlam : sourceOf(pose);
-  std::optional<LivePageSettings> served;
-  if (page) served = pageAt(page->first, page->second, title);
-  const auto isPaused = [&] { return mapping->isPaused(); };
-  try {
-    const nb::gil_scoped_release others_may_run;
-    LocalLog log(soundScansOf(std::move(reader)));
-    if (is_auto && log.beginsCorrected()) source = PoseSource::kLog;
-    mapping = std::make_unique<Mapping>(source, parameters, true, title);
-    mapping->origin = log.origin();
-    if (served) {
-      const std::string url = mapping->serve(*served);
-      const nb::gil_scoped_acquire turn;
-      told(url);
-    }
-    while (auto record = log.next()) {
-      if (isPaused()) {
-        const nb::gil_scoped_acquire turn;
-        waitForViewers(isPaused);
-      }
-      mapping->add(std::move(*record));
-    }
-    mapping->finish();
-    result = resultOf(*mapping);
-    result->warnings = log.warnings();
-  } catch (const std::runtime_error& error) {
-    throw nb::value_error(error.what());
-  }
-  return filesAndArrays(std::move(*result));
-}
-
-nb::object mergeMaps(const std::vector<std::string>& maps, nb::kwargs keywords) {
-  CcaParameters parameters;
-  readParameters(keywords, parameters);
-  if (maps.size() < 2) throw nb::value_error("maps: two or more are needed");
-  std::optional<MappedScans> result;
-  try {
-    const nb::gil_scoped_release others_may_run;
-    std::vector<StoredMemory> stored;
-    for (const std::string& map : maps) stored.push_back(loadMemory(map));
-    Mapping mapping(PoseSource::kSlam, parameters, true, "");
-    mapping.origin = stored.front().origin;
-    std::vector<const SlamMemory*> drives;
-    for (const StoredMemory& map : stored) drives.push_back(&map.memory);
-    const auto apart = joinDrives(drives, *mapping.slam, *mapping.session, apps::doOnAllCores);
-    if (apart) {
-      throw std::runtime_error(maps[*apart] + ": no place of it was found in " + maps.front());
-    }
-    mapping.finished = true;
-    result = resultOf(mapping);
-    result->graph = result->memory.memory.graph;
-  } catch (const std::runtime_error& error) {
-    throw nb::value_error(error.what());
-  }
-  return filesAndArrays(std::move(*result));
-}
 
 void constructMapper(SharedMapping* self, const std::string& pose, nb::kwargs keywords) {
   CcaParameters parameters;
@@ -388,24 +87,16 @@ void addEstimate(nb::module_& module) {
 
 void addSession(nb::module_& module) {
   addEstimate(module);
-  static const std::string signature = parameterSignature<CcaParameters>(
-      "map_records(records: collections.abc.Iterable[LogRecord], pose: str, title: str, "
-      "page: tuple[str, int] | None, told: collections.abc.Callable[[str], object]",
-      "tuple[dict[str, typing.Any], dict[str, bytes]]");
-  module.def("map_records", &mapLog, nb::arg("records"), nb::arg("pose"), nb::arg("title"),
-             nb::arg("page").none(), nb::arg("told"), nb::arg("parameters"),
-             nb::sig(signature.c_str()),
-             "What a map of scans holds, and its files by name: see `cca_mrpt.map`.");
-  static const std::string merging =
-      parameterSignature<CcaParameters>("merge_maps(maps: collections.abc.Sequence[str]",
-                                        "tuple[dict[str, typing.Any], dict[str, bytes]]");
-  module.def("merge_maps", &mergeMaps, nb::arg("maps"), nb::arg("parameters"),
-             nb::sig(merging.c_str()),
-             "What the map of several maps holds, and its files: see `cca_mrpt.merge`.");
+  addLogMapping(module);
   static const std::string construction =
       parameterSignature<CcaParameters>("__init__(self, pose: str", "None");
-  nb::class_<SharedMapping>(module, "MappingSession",
-                            "The pipeline from scans to a map: see `cca_mrpt.Mapper`.")
+  nb::class_<SharedMapping> mapping_type(
+      module, "MappingSession", "The pipeline from scans to a map: see `cca_mrpt.Mapper`.");
+  refusePickle(
+      mapping_type,
+      "a Mapper cannot be pickled: it is in the middle of a drive; pickle its map(), or save "
+      "it and go on with it by cca_mrpt.map(log, resume=folder)");
+  mapping_type
       .def("__init__", &constructMapper, nb::arg("pose"), nb::arg("parameters"),
            nb::sig(construction.c_str()))
       .def("step", &stepMapper, nb::arg("record"))

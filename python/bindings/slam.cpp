@@ -13,6 +13,7 @@
 #include "locked.hpp"
 #include "module.hpp"
 #include "owned_array.hpp"
+#include "unpickled.hpp"
 
 namespace cca::python {
 namespace {
@@ -90,12 +91,18 @@ void addSlam(nb::module_& module) {
                                  .format(at.x, at.y, at.theta, p.agreement);
         return std::string(text.c_str());
       });
-  nb::class_<SharedSlam>(module, "Slam", R"(Line SLAM: poses from wheels and laser, with loops.
+  nb::class_<SharedSlam> slam_type(module, "Slam",
+                                   R"(Line SLAM: poses from wheels and laser, with loops.
 
 Args:
     start: (x, y, theta) of the robot in the map frame at the first scan; m, m, rad.
 
-May be used by several threads: their calls wait for each other.)")
+May be used by several threads: their calls wait for each other.)");
+  refusePickle(
+      slam_type,
+      "a Slam cannot be pickled: it is in the middle of a drive; save the Map of a Mapper, "
+      "and go on with it by cca_mrpt.map(log, resume=folder)");
+  slam_type
       .def(
           "__init__",
           [](SharedSlam* self, nb::handle start) {

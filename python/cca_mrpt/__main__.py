@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The command line: python -m cca_mrpt map LOG, merge MAP MAP, localize LOG, render FOLDER, info LOG, and batch."""
+"""The command line: python -m cca_mrpt map LOG, merge MAP MAP, localize LOG, plan FOLDER, render FOLDER, info LOG, and batch."""
 from __future__ import annotations
 
 import argparse
@@ -11,6 +11,7 @@ from pathlib import Path
 from typing import Any, Callable, Dict, List, Optional, Sequence, Tuple
 
 from ._core import write_files_into
+from .floor_plans import floor_plan
 from .localisation import localize
 from .logs import read_log
 from .maps import POSES, Map, merge
@@ -67,12 +68,13 @@ def save_map(made: Map, out: Path, options: argparse.Namespace, told: str) -> st
 
 def run_map(options: argparse.Namespace) -> str:
     """Write the line map of a log into a folder; what was done, in a sentence."""
-    out = options.out or Path("out") / Path(options.log).name.split(".")[0]
+    first = options.logs[0]
+    out = options.out or Path("out") / Path(first).name.split(".")[0]
     require_new(out, options.force, "lines.csv", "summary.json")
-    made = map_log(options.log, options.pose, serve=options.serve, serve_address=options.serve_address,
-                   **reading_of(options))
+    made = map_log(options.logs, options.pose, resume=options.resume, serve=options.serve,
+                   serve_address=options.serve_address, **reading_of(options))
     if made.warnings:
-        print(f"{options.log}: {made.warnings}", file=sys.stderr)
+        print(f"{first}: {made.warnings}", file=sys.stderr)
     return save_map(made, out, options, f"{len(made)} lines from {len(made.trajectory)} scans over "
                                         f"{made.summary['distance_m']:.1f} m, poses by {made.summary['pose']}")
 
@@ -111,6 +113,25 @@ def run_render(options: argparse.Namespace) -> str:
         raise Usage("--out: a page that ends in .html is needed")
     write_files_into(str(out.parent), {out.name: replay_page(run, options.beside).encode()})
     return f"{out} replays the run"
+
+
+def run_plan(options: argparse.Namespace) -> str:
+    """Write the floor plan of a map; what was done, in a sentence."""
+    out = options.out or Path(options.map)
+    plan = floor_plan(options.map, options.labels)
+    names = plan.save(out, force=options.force)
+    for (x, y), name in plan.labels_outside:
+        print(f"cca_mrpt: {options.labels}: ({x:.2f}, {y:.2f}), {name}, lies in no room", file=sys.stderr)
+    if not options.quiet:
+        area = sum(room.area for room in plan.rooms)
+        doors = sum(opening.kind == "door" for opening in plan.openings)
+        print(f"{len(plan.rooms)} rooms, {area:.1f} m^2 of floor, {doors} doors, {len(plan.openings) - doors} other openings, "
+              f"{len(plan.walls)} walls; {out} holds {', '.join(names)}")
+    if not plan.rooms:
+        raise Shortcoming(f"{options.map}: no room was found in this map")
+    if plan.labels_outside:
+        raise Shortcoming(f"{len(plan.labels_outside)} labels lie in no room")
+    return ""
 
 
 def run_info(options: argparse.Namespace) -> str:
@@ -195,8 +216,13 @@ def parse_port(text: str) -> int:
     return int(text)
 
 
-def add_log(command: argparse.ArgumentParser) -> None:
-    command.add_argument("log", metavar="LOG", help="CARMEN .log, ROS .bag, .db3, .mcap or a folder of ROS 2")
+def add_log(command: argparse.ArgumentParser, many: bool = False) -> None:
+    what = "CARMEN .log, CSV, CoreSLAM .dat, csm .json, ROS .bag, .db3, .mcap or a folder of ROS 2"
+    if many:
+        command.add_argument("logs", metavar="LOG", nargs="+",
+                             help=what + "; of several, each may begin anywhere in the same place")
+    else:
+        command.add_argument("log", metavar="LOG", help=what)
     command.add_argument("--topic", help="bags: of the scans (default: the one with most of them)")
     command.add_argument("--base-frame", help="bags: the robot's frame")
     command.add_argument("--odom-frame", help="bags: the frame of the robot's odometry")
@@ -221,10 +247,11 @@ def add_commands(commands: Any) -> None:
                          help="where the log begins, to half a metre and 15 degrees (default: anywhere)")
     command.add_argument("--scale", type=float, default=0.0, help="metres of a unit of the drawing (default: as it tells)")
     add_output(command, True, "the poses")
-    command = commands.add_parser("map", help="line map of a whole log")
-    add_log(command)
+    command = commands.add_parser("map", help="line map of a whole log, or of several")
+    add_log(command, many=True)
     command.add_argument("--pose", default="auto", choices=POSES,
                          help="where the poses come from (auto: the log's own where it has corrected ones, else SLAM)")
+    command.add_argument("--resume", metavar="DIR", help="an earlier map: go on with it, from anywhere in it")
     add_output(command, False, "the map")
     command.add_argument("--serve", type=parse_port, nargs="?", const=8048, metavar="PORT",
                          help="show the map in browsers as it grows, at this port [8048]; 0: any free")
@@ -233,6 +260,12 @@ def add_commands(commands: Any) -> None:
     command = commands.add_parser("merge", help="maps of one place, by one robot or several, become one")
     command.add_argument("maps", metavar="MAP", nargs="+", help="folders with a map.slam; the first one's frame stays")
     add_output(command, True, "the map")
+    command = commands.add_parser("plan", help="floor plan of a finished map: rooms with areas, walls, doors, furniture")
+    command.add_argument("map", metavar="DIR", help="folder that map, explore or merge left")
+    command.add_argument("--out", type=Path, help="folder to write the plan to (default: DIR)")
+    command.add_argument("--labels", metavar="FILE", help="CSV with columns x, y (m, map frame) and name: names the rooms")
+    command.add_argument("--force", action="store_true", help="overwrite a plan that is there")
+    command.add_argument("--quiet", action="store_true", help="print nothing but errors")
     command = commands.add_parser("render", help="a page to replay a run in, from its folder's replay.html")
     command.add_argument("run", metavar="DIR", help="folder of a run, or its page")
     command.add_argument("--html", action="store_true", help="as the program calls it; there is nothing else here")
@@ -258,7 +291,7 @@ def main(arguments: Optional[Sequence[str]] = None) -> int:
     add_commands(parser.add_subparsers(dest="command", required=True))
     options = parser.parse_args(_with_places_told(sys.argv[1:] if arguments is None else arguments))
     run = {"batch": run_batch, "map": run_map, "info": run_info, "localize": run_localize, "merge": run_merge,
-           "render": run_render}[options.command]
+           "plan": run_plan, "render": run_render}[options.command]
     return told(lambda: run(options))
 
 

@@ -4,11 +4,13 @@ from __future__ import annotations
 
 import json
 import os
+from pathlib import Path
 from typing import Any, Dict, List, NamedTuple, Optional, Tuple, Union
 
 import numpy as np
 
-from ._core import floor_plan_geojson
+from ._core import floor_plan_files, floor_plan_geojson, title_of_folder, write_plan_files
+from .grids import Grid
 from .maps import Map, load
 
 Point = Tuple[float, float]  # m, map frame
@@ -25,6 +27,7 @@ class Room(NamedTuple):
     unseen_area: float  # m^2 of the area that no beam has crossed: under furniture
     open_border: float  # m of the border that is neither wall nor opening: where the map ends
     label: Point  # well inside
+    name: str = ""  # as a label has named it
 
 
 class Opening(NamedTuple):
@@ -66,10 +69,16 @@ class FloorPlan:
 
     Attributes:
         rooms, openings, walls, furniture: lists; ids count from 1 within each.
+        labels_outside: ((x, y), name) of the labels that lie in no room.
     """
 
-    def __init__(self, geojson: str) -> None:
+    def __init__(self, source: "_Source", labels: Optional[Tuple[str, str]]) -> None:
+        self._source, self._labels = source, labels
+        lines_csv, (cells, resolution, origin), grid_name, _ = source
+        geojson, outside = floor_plan_geojson(lines_csv, cells, resolution, origin, grid_name, labels[0] if labels else None,
+                                              labels[1] if labels else "")
         self._geojson = geojson
+        self.labels_outside: List[Tuple[Point, str]] = [((x, y), name.decode(errors="replace")) for x, y, name in outside]
         self.rooms: List[Room] = []
         self.openings: List[Opening] = []
         self.walls: List[Wall] = []
@@ -80,7 +89,7 @@ class FloorPlan:
     def _add(self, of: Dict[str, Any], at: List[Any]) -> None:
         if of["kind"] == "room":
             self.rooms.append(Room(of["id"], _ring(at[0]), [_ring(hole) for hole in at[1:]], of["area_m2"], of["perimeter_m"],
-                                   of["unseen_area_m2"], of["open_border_m"], (of["label_point"][0], of["label_point"][1])))
+                                   of["unseen_area_m2"], of["open_border_m"], (of["label_point"][0], of["label_point"][1]), of["name"]))
         elif of["kind"] in ("door", "opening"):
             self.openings.append(Opening(of["id"], of.get("type", "door"), ((at[0][0], at[0][1]), (at[1][0], at[1][1])),
                                          of["width_m"], (of["rooms"][0], of["rooms"][1])))
@@ -101,6 +110,24 @@ class FloorPlan:
         """The text of plan.geojson: that which the program writes."""
         return self._geojson
 
+    def save(self, folder: "Union[str, os.PathLike[str]]", force: bool = False) -> List[str]:
+        """Write the plan's files into a folder, which is made where it is missing; each whole or not at all.
+
+        Args:
+            force: overwrite files that are there and differ.
+
+        Returns:
+            Their names: plan.geojson, plan.svg, plan.dxf, rooms.csv; plan.pdf and rooms.png where the package was built
+            beside Cairo.
+
+        Raises:
+            RuntimeError: one of them is there already, or cannot be written; names the file and the reason.
+        """
+        lines_csv, (cells, resolution, origin), _, title = self._source
+        files = floor_plan_files(lines_csv, cells, resolution, origin, self._labels[0] if self._labels else None, title)
+        write_plan_files(os.fspath(folder), files, force)
+        return list(files)
+
     @property
     def __geo_interface__(self) -> Dict[str, Any]:
         collection: Dict[str, Any] = json.loads(self._geojson)
@@ -119,18 +146,36 @@ def _is_inside(ring: List[Point], x: float, y: float) -> bool:
     return inside
 
 
-def floor_plan(source: Union[Map, str, "os.PathLike[str]"]) -> FloorPlan:
-    """Rooms, openings, walls and furniture of a finished map: of a folder of the program's, its plan.geojson.
+class _Source(NamedTuple):
+    """What a plan is made of."""
 
-    Args:
-        source: a `Map`, or the folder of one, with its grid: map.yaml and map.pgm.
+    lines_csv: str
+    grid: Grid
+    grid_name: str  # of its file, for messages
+    title: str  # for people
 
-    Raises:
-        FileNotFoundError: that folder holds no map.
-        ValueError: a file is damaged; or the map has no grid, without which there are no rooms.
-    """
+
+def _source_of(source: Union[Map, str, "os.PathLike[str]"]) -> _Source:
     made = source if isinstance(source, Map) else load(source)
     if made.grid is None:
         raise ValueError(f"{'map' if made is source else source}: has no grid (map.yaml, map.pgm), which tells where rooms are")
     cells, resolution, origin = made.grid
-    return FloorPlan(floor_plan_geojson(made.lines_csv(), np.ascontiguousarray(cells), resolution, origin))
+    grid = Grid(np.ascontiguousarray(cells), resolution, origin)
+    if isinstance(source, Map):
+        return _Source(made.lines_csv(), grid, "grid", str(made.summary.get("title", "")))
+    return _Source(made.lines_csv(), grid, str(Path(source) / "map.yaml"), title_of_folder(os.fspath(source)))
+
+
+def floor_plan(source: Union[Map, str, "os.PathLike[str]"], labels: "Optional[Union[str, os.PathLike[str]]]" = None) -> FloorPlan:
+    """Rooms, openings, walls and furniture of a finished map: what `cca-mrpt plan` makes, byte for byte.
+
+    Args:
+        source: a `Map`, or the folder of one, with its grid: map.yaml and map.pgm.
+        labels: a CSV file with columns x, y (m, map frame) and name, which names the rooms.
+
+    Raises:
+        FileNotFoundError: that folder holds no map, or there are no such labels.
+        ValueError: a file is damaged; or the map has no grid, without which there are no rooms.
+    """
+    text = None if labels is None else (Path(labels).read_text(encoding="utf-8"), os.fspath(labels))
+    return FloorPlan(_source_of(source), text)

@@ -7,7 +7,7 @@ import os
 from pathlib import Path
 from typing import TYPE_CHECKING, Iterator, Optional, Sequence, Tuple, Union
 
-from ._core import CarmenLog, LogRecord
+from ._core import TextLog, LogRecord
 
 if TYPE_CHECKING:
     from .bags import BagScans
@@ -28,7 +28,7 @@ class Log:
         self._latest = self._open()  # says now what is wrong with it
         self._is_new = True
 
-    def _open(self) -> "Union[CarmenLog, BagScans]":
+    def _open(self) -> "Union[TextLog, BagScans]":
         from .bags import BagScans, looks_like_bag
 
         path = Path(self.path)
@@ -37,7 +37,7 @@ class Log:
         told = [name for name in ("topic", "base_frame", "odom_frame", "mount") if getattr(self, name) is not None]
         if told:
             raise ValueError(f"{self.path}: {told[0]} is for ROS bags; this is none")
-        return CarmenLog(self.path)
+        return TextLog(self.path)
 
     def __iter__(self) -> Iterator[LogRecord]:
         if not self._is_new:
@@ -65,7 +65,8 @@ class Log:
 def read_log(path: "str | os.PathLike[str]", *, topic: Optional[str] = None, base_frame: Optional[str] = None,
              odom_frame: Optional[str] = None, mount: Optional[Sequence[float]] = None,
              upside_down: bool = False) -> Log:
-    """Open a log: CARMEN (FLASER, RLASER, ROBOTLASER1; also .gz), or a ROS 1 or 2 bag (.bag, .db3, .mcap, a folder).
+    """Open a log: CARMEN, CSV of ranges, CoreSLAM's .dat or csm's JSON (also .gz), or a ROS 1 or 2 bag (.bag, .db3,
+    .mcap, a folder). What each holds is told by the program's page of file formats.
 
     Args:
         path: of the file or folder; what it is is told by its content.

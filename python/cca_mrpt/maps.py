@@ -7,13 +7,14 @@ import io
 import json
 import os
 import sys
+from collections import abc
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Dict, Iterable, List, NamedTuple, Optional, Sequence, Tuple, Union
+from typing import TYPE_CHECKING, Any, Dict, Iterable, List, NamedTuple, Optional, Sequence, Tuple, Union, cast
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ._core import MAP_LINE, Estimate, LogRecord, MappingSession, PolyLine, map_records, merge_maps, read_chains, replay_with_rooms, write_files_into
+from ._core import MAP_LINE, Estimate, LogRecord, MappingSession, PolyLine, map_logs, merge_maps, pictures_of_map, read_chains, write_files_into
 from .grids import Grid, read_grid
 from .logs import Log, read_log
 from .plotting import plot
@@ -25,10 +26,11 @@ if TYPE_CHECKING:
     from .floor_plans import FloorPlan
     from .parameters import MapParameters
 
+Source = Union[str, "os.PathLike[str]", Iterable[LogRecord]]  # of scans
 POSES = ("auto", "log", "odometry", "slam")
 # What a map's folder holds that Python keeps as it is; the program writes more.
-FILES = ("lines.csv", "arcs.csv", "lines.geojson", "lines.svg", "lines.dxf", "poses.csv", "poses.tum", "graph.g2o", "map.slam",
-         "replay.html")
+FILES = ("lines.csv", "arcs.csv", "lines.geojson", "lines.svg", "lines.dxf", "map.pgm", "map.yaml", "map.png", "poses.csv",
+         "poses.tum", "graph.g2o", "map.slam", "replay.html")
 
 
 class MapArc(NamedTuple):
@@ -52,7 +54,7 @@ class Map:
         times: (N,) s; numbers where the log tells no times.
         is_placed: (N,) bool: whether the place of that scan is known; others are in no map.
         summary: numbers of the run, as in summary.json.
-        grid: which places are free (a `Grid`); None: the folder that it was loaded from has no map.yaml.
+        grid: which places are free (a `Grid`); None: nothing was seen, or the folder that it is from has no map.yaml.
         warnings: what could not be read, or was guessed; empty where all was well.
         shortcoming: why it is not the map that was asked for (the scans contradict it); empty where it is.
     """
@@ -64,7 +66,8 @@ class Map:
         self.trajectory: NDArray[np.float64] = held["trajectory"]
         self.times: NDArray[np.float64] = np.asarray(held["times"], dtype=float)
         self.is_placed: NDArray[np.bool_] = np.asarray(held["is_placed"], dtype=bool)
-        self.summary: Dict[str, Any] = dict(held["summary"])
+        told_numbers = held["summary"]
+        self.summary: Dict[str, Any] = dict(json.loads(told_numbers) if isinstance(told_numbers, str) else told_numbers)
         self.grid: Optional[Grid] = Grid(*held["grid"]) if held.get("grid") else None
         self.warnings = warnings = "; ".join(filter(None, [warnings, held.get("warnings", "")]))
         if not self.is_placed.all():
@@ -74,7 +77,8 @@ class Map:
             self.summary["warnings"] = told
         self._files = files
         self.shortcoming: str = held.get("shortcoming", "")
-        self._replay: Tuple[str, Tuple[float, float]] = held.get("replay", ("", (0.0, 0.0)))
+        # A page of the run, packed, and where its frame lies; of a map that was loaded the files hold it.
+        self._replay: Optional[Tuple[str, Tuple[float, float]]] = (held["replay"], held["frame_origin"]) if "replay" in held else None
 
     def save(self, folder: Union[str, "os.PathLike[str]"], force: bool = False) -> List[str]:
         """Write the map into a folder, which is made where it is missing; each file whole or not at all.
@@ -83,18 +87,17 @@ class Map:
             force: overwrite a map that is there.
 
         Returns:
-            The files' names: lines.csv, arcs.csv, lines.geojson, .svg, .dxf, poses.csv, poses.tum, of SLAM graph.g2o
-            and map.slam, of `map` replay.html; summary.json comes last.
+            The files' names: lines.csv, arcs.csv, lines.geojson, .svg, .dxf, map.pgm and .yaml, map.png (where the
+            package was built beside Cairo), poses.csv, poses.tum, of SLAM graph.g2o and map.slam, of `map`
+            replay.html; summary.json comes last.
 
         Raises:
             FileExistsError: one of them is there already.
             RuntimeError: it cannot be written; names the file and the reason.
         """
         where, contents = Path(folder), dict(self._files)
-        if self._replay[0] and self.grid:
-            cells, resolution, origin = self.grid
-            page = replay_with_rooms(*self._replay, self.lines_csv(), cells, resolution, origin)
-            contents["replay.html"] = page.encode()
+        if self._replay:
+            contents.update(self._pictures(self.summary.get("title") or where.resolve().name))
         names = [*contents, "summary.json"]
         taken = [name for name in names if (where / name).exists()]
         if taken and not force:
@@ -106,6 +109,13 @@ class Map:
             (where / name).unlink(missing_ok=True)
         write_files_into(os.fspath(where), {"summary.json": (json.dumps(self.summary, indent=1) + "\n").encode()})
         return names
+
+    def _pictures(self, title: str) -> Dict[str, bytes]:
+        assert self._replay is not None
+        packed, frame_origin = self._replay
+        cells, resolution, origin = self.grid or Grid(np.zeros((0, 0), np.uint8), 1.0, (0.0, 0.0))
+        return pictures_of_map(title, self.lines_csv(), np.ascontiguousarray(self.lines["ends"]), self.poly_lines, self.trajectory,
+                               np.ascontiguousarray(cells), resolution, origin, frame_origin, packed)
 
     def plot(self, ax: Optional[Axes] = None) -> Axes:
         """Draw lines and trajectory to scale by matplotlib: the axes."""
@@ -132,7 +142,7 @@ class Map:
         return f"Map({len(self.lines)} lines, {length:.1f} m, {len(self.trajectory)} scans)"
 
 
-def _log_of(source: Union[str, "os.PathLike[str]", Iterable[LogRecord]], reading: Dict[str, Any]) -> Iterable[LogRecord]:
+def _log_of(source: Source, reading: Dict[str, Any]) -> Iterable[LogRecord]:
     if isinstance(source, (str, os.PathLike)):
         return read_log(source, **{name: value for name, value in reading.items() if value is not None})
     if any(value is not None for value in reading.values()):
@@ -140,41 +150,56 @@ def _log_of(source: Union[str, "os.PathLike[str]", Iterable[LogRecord]], reading
     return source
 
 
+def _sources_of(path: "Union[Source, Sequence[Source]]") -> "Sequence[Source]":
+    """The logs: a list of records is one of them."""
+    if isinstance(path, (list, tuple)) and path and all(isinstance(part, (str, os.PathLike, abc.Iterable)) for part in path):
+        return path
+    return [cast("Source", path)]
+
+
 def _tell_address(url: str) -> None:
     print(f"cca_mrpt: the run can be seen at {url}", file=sys.stderr, flush=True)
 
 
-def map(path: Union[str, "os.PathLike[str]", Iterable[LogRecord]], pose: str = "auto", *, topic: Optional[str] = None,
+def map(path: "Union[Source, Sequence[Source]]", pose: str = "auto", *,
+        resume: "Optional[Union[str, os.PathLike[str]]]" = None, topic: Optional[str] = None,
         base_frame: Optional[str] = None, odom_frame: Optional[str] = None, mount: Optional[Sequence[float]] = None,
         upside_down: bool = False, serve: Optional[int] = None, serve_address: str = "127.0.0.1",
         **parameters: Unpack[MapParameters]) -> Map:
-    """The line map of a whole log: the same as the program `cca-mrpt map` makes, byte for byte.
+    """The line map of a whole log, or of several: the same as the program `cca-mrpt map` makes, byte for byte.
 
     Args:
-        path: a log or a bag, see `read_log`; or any iterable of `LogRecord`.
+        path: a log or a bag, see `read_log`; or any iterable of `LogRecord`. Or a list of those, of one place: the second
+            and later ones may begin anywhere in the place of the first, whose frame stays.
         pose: where the poses come from: "log": as somebody has corrected them, else the odometry's; "odometry": the
-            wheels alone; "slam": line SLAM; "auto": the log's where it has corrected ones, else SLAM.
+            wheels alone; "slam": line SLAM; "auto": the log's where it has corrected ones, else SLAM. Several logs, and
+            logs with `resume`, are joined by SLAM.
+        resume: folder of an earlier map with a map.slam: go on with it, from anywhere in it, in its frame. Where its place
+            is not found, this is the map of the log alone; `summary["found_in_memory"]` and a warning say so.
         topic, base_frame, odom_frame, mount, upside_down: of bags, see `read_log`.
         serve: a port: the map is shown in browsers as it grows, at the address that is printed on stderr. See
             `Mapper.serve`; while a viewer pauses, no scan is read.
         parameters: of `LineMap`.
 
     Raises:
-        FileNotFoundError, ImportError, ValueError: as `read_log`; also where the log lacks what `pose` needs.
+        FileNotFoundError, ImportError, ValueError: as `read_log`; also where the log lacks what `pose` needs, or the
+            map.slam of `resume` is missing or damaged.
     """
     if pose not in POSES:
         raise ValueError(f"pose: {pose!r} is none of {' '.join(POSES)}")
-    log = _log_of(path, {"topic": topic, "base_frame": base_frame, "odom_frame": odom_frame, "mount": mount,
-                         "upside_down": upside_down or None})
-    try:
-        page = None if serve is None else (serve_address, serve)
-        held, files = map_records(log, pose, Path(getattr(log, "path", "scans")).name, page, _tell_address, **parameters)
-    except ValueError as error:
-        name = getattr(log, "path", None)
-        raise ValueError(f"{name}: {error}" if name and name not in str(error) else str(error)) from None
-    result = Map(held, files, log.warnings if isinstance(log, Log) else "")
-    if isinstance(log, Log):
-        result.summary = {"log": log.path, **result.summary}
+    reading = {"topic": topic, "base_frame": base_frame, "odom_frame": odom_frame, "mount": mount,
+               "upside_down": upside_down or None}
+    logs = [_log_of(source, reading) for source in _sources_of(path)]
+    paths = [log.path if isinstance(log, Log) else "" for log in logs]
+    page = None if serve is None else (serve_address, serve)
+    earlier = None if resume is None else os.fspath(resume)
+    held, files = map_logs(list(zip(paths, logs)), pose, earlier, Path(paths[0] if paths and paths[0] else "scans").name, page,
+                           _tell_address, **parameters)
+    result = Map(held, files, "; ".join(log.warnings for log in logs if isinstance(log, Log) and log.warnings))
+    if len(paths) > 1 and all(paths):
+        result.summary = {"logs": paths, **result.summary}
+    elif paths[0]:
+        result.summary = {"log": paths[0], **result.summary}
     return result
 
 

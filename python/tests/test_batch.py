@@ -95,7 +95,7 @@ def test_a_batch_goes_on_where_it_was_and_names_what_failed(logs, tmp_path):
     shutil.rmtree(tmp_path / "out" / "room_1")
     assert batch.map_logs(some, tmp_path / "out", workers=2) == first
     assert kept.stat().st_mtime_ns == before
-    assert "holds no whole laser scan" in first[2]["error"]
+    assert "not a log of a known kind" in first[2]["error"]
     assert sorted(os.listdir(tmp_path / "out")) == ["room_0", "room_1"]
 
 

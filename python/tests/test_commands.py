@@ -16,7 +16,7 @@ from cca_mrpt.program import installed_program
 from conftest import FULL_TURN
 
 needs_program = pytest.mark.skipif(not installed_program(), reason="needs the program cca-mrpt")
-OF_A_MAP = ["lines.csv", "arcs.csv", "lines.geojson", "lines.svg", "lines.dxf", "graph.g2o", "map.slam"]
+OF_A_MAP = ["lines.csv", "arcs.csv", "lines.geojson", "lines.svg", "lines.dxf", "map.pgm", "map.yaml", "graph.g2o", "map.slam"]
 
 
 def by(what, *words):
@@ -26,21 +26,53 @@ def by(what, *words):
     return done.returncode, done.stderr
 
 
+def write_log(path, records):
+    """A CARMEN log of records by ROBOTLASER1 lines, which tell their angles."""
+    with gzip.open(path, "wt") as file:
+        for record in records:
+            head = f"ROBOTLASER1 0 {record.angle_min} {2 * np.pi} {record.angle_increment} 30 0.01 0 {len(record)}"
+            ranges = " ".join(f"{r:.4f}" for r in record.ranges)
+            wheels = " ".join(f"{number:.6f}" for number in record.odometry)
+            file.write(f"{head} {ranges} 0 {wheels} {wheels} 0 0 0 0 0 {record.time} host {record.time}\n")
+    return path
+
+
 @pytest.fixture
-def two_maps(two_rooms, scan_of, tmp_path):
-    """Folders of two drives through the same rooms, the second from elsewhere and the other way about."""
+def two_drives(two_rooms, scan_of):
+    """Records of two drives through the same rooms, the second from elsewhere and the other way about."""
     stubs = [[[-3, 0.5], [-1.5, 0.5]], [[4, -2], [4, -1]], [[6, 2], [6, 1.2]], [[0, 2], [0.7, 1.3]]]
     rooms = np.concatenate([two_rooms, np.array(stubs)])  # which look like themselves from one place only
-    folders = []
+    drives = []
     for number, (first, last) in enumerate(((0, 4), (4.5, 0.5))):
         way, turn = np.linspace(first, last, 40), np.pi * number
         way = np.concatenate([way, way[::-1]])  # there and back
         driven = np.cos(turn) * (way - way[0])
-        records = [cca_mrpt.LogRecord(scan_of(rooms, (x, 0.1, turn), beams=360, **FULL_TURN), **FULL_TURN, time=k / 5,
-                                      odometry=(1.01 * driven[k], 3e-4 * k, 0)) for k, x in enumerate(way)]
-        folders.append(tmp_path / f"map{number}")
-        cca_mrpt.map(records).save(folders[-1])
+        drives.append([cca_mrpt.LogRecord(scan_of(rooms, (x, 0.1, turn), beams=360, **FULL_TURN), **FULL_TURN, time=k / 5,
+                                          odometry=(1.01 * driven[k], 3e-4 * k, 0)) for k, x in enumerate(way)])
+    return drives
+
+
+@pytest.fixture
+def two_maps(two_drives, tmp_path):
+    """Their maps' folders."""
+    folders = [tmp_path / "map0", tmp_path / "map1"]
+    for folder, records in zip(folders, two_drives):
+        cca_mrpt.map(records).save(folder)
     return folders
+
+
+@pytest.fixture
+def two_logs(two_drives, tmp_path):
+    """Their logs."""
+    return [write_log(tmp_path / f"drive{k}.log.gz", records) for k, records in enumerate(two_drives)]
+
+
+@pytest.fixture
+def elsewhere(room, scan_of):
+    """Records of a drive that is nowhere in those rooms."""
+    small = 0.3 * np.asarray(room)
+    return [cca_mrpt.LogRecord(scan_of(small, (0.01 * k, 0, 0), beams=360, **FULL_TURN), **FULL_TURN,
+                               odometry=(0.01 * k, 0, 0)) for k in range(10)]
 
 
 def test_two_maps_become_one(two_maps, tmp_path):
@@ -64,11 +96,8 @@ def test_the_program_merges_to_the_same_bytes(two_maps, tmp_path):
 
 
 @pytest.mark.parametrize("what", ["python", pytest.param("program", marks=needs_program)])
-def test_what_cannot_be_merged_is_named(two_maps, room, scan_of, tmp_path, what):
-    small = 0.3 * np.asarray(room)  # is nowhere in those rooms
-    record = [cca_mrpt.LogRecord(scan_of(small, (0.01 * k, 0, 0), beams=360, **FULL_TURN), **FULL_TURN,
-                                 odometry=(0.01 * k, 0, 0)) for k in range(10)]
-    cca_mrpt.map(record).save(tmp_path / "other")
+def test_what_cannot_be_merged_is_named(two_maps, elsewhere, tmp_path, what):
+    cca_mrpt.map(elsewhere).save(tmp_path / "other")
     status, said = by(what, "merge", two_maps[0], tmp_path / "other", "--out", tmp_path / "out")
     assert status == 1 and "no place of it was found" in said and str(tmp_path / "other") in said
     (two_maps[1] / "map.slam").write_bytes(b"nonsense")
@@ -83,6 +112,63 @@ def test_wrong_maps_raise(two_maps, tmp_path):
         cca_mrpt.merge(two_maps[:1])
     with pytest.raises(ValueError, match="none: is not there"):
         cca_mrpt.merge([two_maps[0], tmp_path / "none"])
+
+
+def length_of(line_map):
+    return np.linalg.norm(line_map.lines["ends"][:, 1] - line_map.lines["ends"][:, 0], axis=1).sum()
+
+
+def test_a_map_is_gone_on_with(two_drives, two_maps):
+    before, alone = cca_mrpt.load(two_maps[0]), cca_mrpt.load(two_maps[1])
+    made = cca_mrpt.map(two_drives[1], resume=two_maps[0])
+    assert made.summary["found_in_memory"] and made.summary["resumed"] == str(two_maps[0]) and made.warnings == ""
+    assert len(made.trajectory) == 80 and length_of(before) - 0.1 < length_of(made) < length_of(before) + 3
+    # In the frame of the first drive, which began at x = 0, looking the other way: .5 m or so from its last place.
+    assert np.hypot(*(made.trajectory[0, :2] - (4.5, 0))) < 0.1 and abs(abs(made.trajectory[0, 2]) - np.pi) < 0.05
+    assert np.abs(alone.trajectory[0]).max() < 0.01
+
+
+def test_several_logs_make_one_map(two_drives, two_logs):
+    for drives in two_drives, tuple(two_drives), two_logs, [two_drives[0], two_logs[1]], [iter(two_drives[0]), two_logs[1]]:
+        made = cca_mrpt.map(drives)
+        assert len(made.trajectory) == 160 and made.is_placed.all() and made.summary["pose"] == "slam"
+        assert np.hypot(*(made.trajectory[80, :2] - (4.5, 0))) < 0.1
+    assert cca_mrpt.map(two_logs).summary["logs"] == [str(log) for log in two_logs]
+
+
+def test_a_drive_elsewhere_is_told(two_maps, elsewhere, tmp_path, capsys):
+    made = cca_mrpt.map(elsewhere, resume=two_maps[0])
+    assert not made.summary["found_in_memory"] and len(made) == 4
+    assert made.warnings == f"no place of {two_maps[0]} was found: this is the map of the log alone"
+    log = write_log(tmp_path / "elsewhere.log.gz", elsewhere)
+    assert main(["map", str(log), "--resume", str(two_maps[0]), "--out", str(tmp_path / "out")]) == 0
+    assert "this is the map of the log alone" in capsys.readouterr().err
+
+
+@needs_program
+@pytest.mark.parametrize("words", [["drive1.log.gz", "--resume", "map0"], ["drive0.log.gz", "drive1.log.gz"],
+                                   ["drive0.log.gz", "drive1.log.gz", "--resume", "map1"]])
+def test_the_program_joins_drives_to_the_same_bytes(two_maps, two_logs, tmp_path, words):
+    for what in "program", "python":
+        told = [word if word.startswith("--") else tmp_path / word for word in words]
+        status, said = by(what, "map", *told, "--out", tmp_path / what)
+        assert status == 0, said
+    for name in [*OF_A_MAP, "poses.csv", "poses.tum"]:
+        assert (tmp_path / "program" / name).read_bytes() == (tmp_path / "python" / name).read_bytes(), name
+    told = [json.loads((tmp_path / what / "summary.json").read_text()) for what in ("program", "python")]
+    for key in "log", "logs", "resumed", "found_in_memory", "loops", "scans", "agreement":
+        assert told[0].get(key) == told[1].get(key), key
+
+
+@pytest.mark.parametrize("words, named", [
+    (["{log}", "{log}", "--pose", "odometry"], "joined by"), (["{log}", "--resume", "{none}"], "none"),
+    (["{log}", "{none}"], "none"), (["{log}", "--pose", "log", "--resume", "{map}"], "joined by"),
+])
+@pytest.mark.parametrize("what", ["python", pytest.param("program", marks=needs_program)])
+def test_what_cannot_be_joined_is_named(log, two_maps, tmp_path, words, named, what):
+    paths = {"log": log, "map": two_maps[0], "none": tmp_path / "none"}
+    status, said = by(what, "map", *[word.format(**paths) for word in words], "--out", tmp_path / "out")
+    assert status == 1 and named in said and not (tmp_path / "out" / "summary.json").exists()
 
 
 START = (-1.0, -0.3, 0.0)  # where the log of the room begins
@@ -168,9 +254,8 @@ def test_a_saved_map_replays_as_the_programs(log, tmp_path):
     cca_mrpt.map(log, pose="slam").save(tmp_path / "python")
     assert by("program", "map", log, "--pose", "slam", "--out", tmp_path / "program")[0] == 0
     page = {what: (tmp_path / what / "replay.html").read_text() for what in ("program", "python")}
-    runs = {what: cca_mrpt._core.runs_of_page(page[what], what)[0] for what in page}
-    assert runs["program"].split(".")[0] == runs["python"].split(".")[0]  # after it come the rooms
-    assert "." in runs["python"]
+    assert page["program"] == page["python"]
+    assert "." in cca_mrpt._core.runs_of_page(page["python"], "python")[0]  # after the run come the rooms
     again = cca_mrpt.load(tmp_path / "python")
     again.save(tmp_path / "again")
     assert (tmp_path / "again" / "replay.html").read_text() == page["python"]
@@ -223,7 +308,7 @@ def test_help_of_both_names_the_same_statuses_and_commands():
                                   ("python", [sys.executable, "-m", "cca_mrpt", "--help"]))}
     for words in "0 done", "2 no such command or option", "3 done, but the result falls short":
         assert all(words in text for text in told.values()), words
-    for command in "info", "localize", "map", "merge", "render":
+    for command in "info", "localize", "map", "merge", "plan", "render":
         assert all(command in text for text in told.values()), command
 
 

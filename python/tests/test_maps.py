@@ -128,7 +128,8 @@ def both(program, log, pose, tmp_path):
         if "built without ROS" in done.stderr:
             pytest.skip("the program was built without ROS")
         assert done.returncode in (0, 3), done.stderr  # 3: the program says that these poses contradict the map
-    names = ["lines.csv", "arcs.csv", "lines.geojson", "lines.svg", "lines.dxf", "poses.csv"]
+    names = ["lines.csv", "arcs.csv", "lines.geojson", "lines.svg", "lines.dxf", "map.pgm", "map.yaml", "poses.csv", "replay.html"]
+    names += ["map.png"] if (tmp_path / "python" / "map.png").exists() else []
     names += ["graph.g2o", "map.slam"] if pose == "slam" else []
     for name in names:
         yield name, (tmp_path / "program" / name).read_bytes(), (tmp_path / "python" / name).read_bytes()

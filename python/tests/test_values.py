@@ -151,3 +151,14 @@ def test_types_are_strict(tmp_path):
     script.write_text("import cca_mrpt\ncca_mrpt.LineMap(similarity_cut='low')\ncca_mrpt.LineMap(similarity=1.0)\n")
     output, _, status = api.run(["--strict", "--cache-dir", str(tmp_path / "cache"), str(script)])
     assert status == 1 and output.count("error:") == 2, output
+
+
+@pytest.mark.parametrize("make, told", [
+    (cca_mrpt.LineMap, "a LineMap cannot be pickled.*copy it, or pickle its lines"), (cca_mrpt.Slam, "a Slam cannot.*resume"),
+    (cca_mrpt.Explorer, "an Explorer cannot"), (cca_mrpt.ExplorationGrid, "an ExplorationGrid cannot.*states"),
+    (cca_mrpt.Mapper, "a Mapper cannot.*resume"),
+])
+def test_what_cannot_be_pickled_says_why_and_what_can(make, told):
+    for protocol in range(2, pickle.HIGHEST_PROTOCOL + 1):
+        with pytest.raises(TypeError, match=told):
+            pickle.dumps(make(), protocol)

@@ -7,7 +7,7 @@
 #include <filesystem>
 
 #include "cca_mrpt/io/map_products.hpp"
-#include "cca_mrpt/io/scan_grid.hpp"
+#include "cca_mrpt/io/scan_raster.hpp"
 #include "io/files/stray_places.hpp"
 #include "io/maps/occupancy_files.hpp"
 #include "temporary_folder.hpp"
@@ -86,9 +86,9 @@ MapProducts wallSeenFrom(const Eigen::Vector2d& origin) {
   scan.angle_min = -0.3;
   scan.angle_increment = 0.01;
   for (std::size_t k = 0; k < 61; ++k) scan.ranges.push_back(3.02 / std::cos(scan.bearing(k)));
-  ScanGrid grid;
+  ScanRaster grid;
   for (int k = 0; k < 5; ++k) grid.insert(scan);
-  products.grid = grid.grid();
+  products.grid = grid.raster();
   return products;
 }
 
@@ -103,14 +103,17 @@ TEST(MapFolder, IsRightToTheDigitFarFromTheOrigin) {
   EXPECT_EQ(bytesOf(folder / "near/map.pgm"), bytesOf(folder / "far/map.pgm"));
   EXPECT_EQ(bytesOf(folder / "near/map.png"), bytesOf(folder / "far/map.png"));
   EXPECT_NE(
-      bytesOf(folder / "far/map.yaml").find("origin: [9999995.000000, -10000005.000000, 0.0]"),
+      bytesOf(folder / "far/map.yaml").find("origin: [10000000.000000, -10000000.950000, 0.0]"),
       std::string::npos)
       << bytesOf(folder / "far/map.yaml");
   EXPECT_NE(bytesOf(folder / "far/summary.json").find("frame_origin_m"), std::string::npos);
-  const auto back = readOccupancyMap(folder / "far/map.yaml", {1e7, -1e7});
-  ASSERT_TRUE(back);
-  EXPECT_LT(back->getPos(3.02F, 0.02F), 0.2F);
-  EXPECT_GT(back->getPos(1.5F, 0.02F), 0.8F);
+  const OccupancyRaster back = readOccupancyMap(folder / "far/map.yaml");
+  const auto at = [&](double x, double y) {
+    return back.at(back.cellOf({1e7 + x, -1e7 + y}), Occupancy::kUnknown);
+  };
+  EXPECT_EQ(at(3.02, 0.02), Occupancy::kOccupied);
+  EXPECT_EQ(at(1.5, 0.02), Occupancy::kFree);
+  EXPECT_EQ(at(3.5, 0.02), Occupancy::kUnknown);
 }
 
 TEST(MapFolder, OnePoseAtTheEndOfTheWorldCostsNoFile) {

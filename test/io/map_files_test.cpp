@@ -243,7 +243,7 @@ TEST(MapFolder, HoldsEveryFileAndNothingElse) {
   MapProducts products = corner();
   ScanGrid grid;
   grid.insert(wallAhead());
-  products.grid = grid.grid();
+  products.grid = grid.raster();
   products.summary["finished"] = true;
   writeMapFolder(folder / "map", products);
   std::vector<std::string> names;
@@ -389,7 +389,7 @@ TEST(OccupancyMap, MrptReadsBackTheSamePlaces) {
   MapProducts products = corner();
   ScanGrid grid;
   for (int times = 0; times < 10; ++times) grid.insert(wallAhead());
-  products.grid = grid.grid();
+  products.grid = grid.raster();
   writeMapFolder(folder.path(), products);
   mrpt::maps::COccupancyGridMap2D back;
   ASSERT_TRUE(back.loadFromROSMapServerYAML(folder / "map.yaml"));

@@ -54,10 +54,11 @@ struct LogHints {
   bool empty() const { return topic.empty() && base_frame.empty() && !mount; }
 };
 
-/// Opens a log by its content: MRPT .rawlog, .simplemap(.gz), CARMEN .log(.gz), ROS .bag (in builds
-/// with ROS), each also gzipped. A file of true poses beside it (LOG.GT.txt, STEM_GT.txt) is read
-/// with it. Scans that are no evidence (see ScanFaults) are left out, with a warning. The others
-/// are as the laser took them: see MappingSession and openUndistortedLog().
+/// Opens a log by its content: MRPT .rawlog, .simplemap, CARMEN .log, CSV of ranges, CoreSLAM .dat,
+/// csm .json, ROS .bag (in builds with ROS), each also gzipped. A file of true poses beside it
+/// (LOG.GT.txt, STEM_GT.txt) is read with it. Scans that are no evidence (see ScanFaults) are left
+/// out, with a warning. The others are as the laser took them: see MappingSession and
+/// openUndistortedLog().
 /// @param hints  all but the sweep for bags only.
 /// @throws std::runtime_error naming the file and the reason; also where it holds no scan, and for
 ///         hints that it cannot heed.

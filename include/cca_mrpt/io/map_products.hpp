@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <mrpt/maps/COccupancyGridMap2D.h>
-
-#include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "cca_mrpt/floor_plan/raster.hpp"
 #include "cca_mrpt/geometry/pose2.hpp"
 #include "cca_mrpt/io/geo_reference.hpp"
 #include "cca_mrpt/mapping/map_line.hpp"
@@ -18,15 +16,17 @@
 namespace cca {
 
 /// What a run brings home: all that the files of a map's folder are made from. It stands in a frame
-/// of its own, for the grid could not be far from (0, 0); the files are written in the map frame.
+/// of its own, for MRPT's grid could not be far from (0, 0); the files are written in the map
+/// frame.
 struct MapProducts {
   std::string title;  ///< for people: the log's or the world's name
   std::vector<MapLine> lines;
   std::vector<PolyLine> poly_lines;
   std::vector<MapArc> arcs;
   std::vector<Pose2> trajectory;  ///< T_map_robot, in order of time; may be empty
-  /// Occupancy of the same place (see ScanGrid); null: no map.pgm, no background in the picture.
-  std::shared_ptr<const mrpt::maps::COccupancyGridMap2D> grid;
+  /// Occupancy of the same place (see ScanRaster); nothing: no map.pgm, no background in the
+  /// picture.
+  std::optional<OccupancyRaster> grid;
   /// m, map frame: where the frame of all this lies, see localOrigin().
   Eigen::Vector2d origin = Eigen::Vector2d::Zero();
   /// Where the map frame lies on the Earth, for lines.geojson and lines.svg; nothing: in metres.

@@ -65,7 +65,11 @@ void addInfoCommand(CLI::App& program) {
   auto* command = program.add_subcommand("info", "what is in a log");
   auto log = std::make_shared<std::string>();
   auto json = std::make_shared<bool>(false);
-  command->add_option("LOG", *log, "MRPT .rawlog or .simplemap, CARMEN .log, ROS .bag")->required();
+  command
+      ->add_option("LOG", *log,
+                   "MRPT .rawlog or .simplemap, CARMEN .log, CSV of ranges, CoreSLAM .dat, csm "
+                   ".json, ROS .bag")
+      ->required();
   command->add_flag("--json", *json, "as JSON");
   const auto hints = addLogHintOptions(*command);
   command->callback([log, json, hints] {

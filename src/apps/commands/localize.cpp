@@ -118,7 +118,8 @@ void addLocalizeCommand(CLI::App& program) {
   auto options = std::make_shared<LocalizeOptions>();
   command
       ->add_option("LOG", options->log,
-                   "MRPT .rawlog, CARMEN .log, ROS .bag; it may begin anywhere")
+                   "MRPT .rawlog, CARMEN .log, CSV of ranges, CoreSLAM .dat, csm .json, ROS .bag; "
+                   "it may begin anywhere")
       ->required();
   command
       ->add_option("--in", options->plan,

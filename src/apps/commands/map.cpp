@@ -134,7 +134,8 @@ void addMapCommand(CLI::App& program) {
   auto options = std::make_shared<MapOptions>();
   command
       ->add_option("LOG", options->logs,
-                   "MRPT .rawlog or .simplemap, CARMEN .log, ROS .bag; of several, each may begin "
+                   "MRPT .rawlog or .simplemap, CARMEN .log, CSV of ranges, CoreSLAM .dat, csm "
+                   ".json, ROS .bag; of several, each may begin "
                    "anywhere in the same place")
       ->required();
   command->add_option("--out", options->out, "folder to write the map to")->required();

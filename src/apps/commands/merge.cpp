@@ -54,7 +54,7 @@ MapProducts productsOf(const Merged& merged, const Eigen::Vector2d& origin,
   const std::string title = std::filesystem::path(options.out).filename().string();
   MapProducts products = mapProducts(title, *merged.session);
   const SlamMemory memory = merged.slam->slam().memory();
-  products.grid = merged.grid.grid().grid();
+  products.grid = merged.grid.grid().raster();
   products.origin = origin;
   products.graph = memory.graph;
   products.memory = packedMemory({memory, origin});

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "commands.hpp"
+#include "io/files/content.hpp"
 #include "io/plans/plan_files.hpp"
 #include "io/plans/plan_formats.hpp"
 
@@ -42,7 +43,7 @@ void plan(const PlanCommandOptions& options) {
   if (!options.labels.empty()) labels = roomLabelsOfFile(options.labels);
   FloorPlan found = planOfFolder(options.map);
   const RoomLabels outside = nameRooms(found, labels);
-  writePlanFiles(out, found, titleOfFolder(options.map), options.force);
+  writePlanFiles(out, planFiles(found, titleOfFolder(options.map)), options.force);
   if (!options.quiet) tellPlan(found, out);
   for (const auto& [p, name] : outside) {
     std::fprintf(stderr, "cca-mrpt: %s: (%.2f, %.2f), %s, lies in no room\n",

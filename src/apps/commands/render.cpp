@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <cmath>
 #include <filesystem>
-#include <fstream>
 #include <memory>
-#include <sstream>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -13,10 +11,11 @@
 #include "apps/options/within.hpp"
 #include "apps/runs/interruption.hpp"
 #include "apps/runs/progress.hpp"
-#include "cca_mrpt/io/scan_grid.hpp"
+#include "cca_mrpt/io/scan_raster.hpp"
 #include "cca_mrpt/mapping/line_map.hpp"
 #include "commands.hpp"
 #include "io/files/atomic_file.hpp"
+#include "io/files/content.hpp"
 #include "io/lines/line_formats.hpp"
 #include "io/maps/map_picture.hpp"
 #include "io/maps/map_scene.hpp"
@@ -42,26 +41,16 @@ struct RenderOptions {
   double seconds = 10.0;
 };
 
-std::string readFile(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  if (!file || std::filesystem::is_directory(path)) {
-    throw std::runtime_error(path + ": cannot be read");
-  }
-  std::ostringstream text;
-  text << file.rdbuf();
-  return text.str();
-}
-
 /// Puts a log's scans and poses below the map.
 void addLog(const std::string& path, MapProducts& products) {
   const auto log = openUndistortedLog(path);
-  ScanGrid grid(wholeView(products).center());
+  ScanRaster grid(wholeView(products).center());
   while (auto record = log->next()) {
     record->scan.T_map_sensor = seenFrom(products.origin, record->scan.T_map_sensor);
     grid.insert(record->scan);
     products.trajectory.push_back(record->scan.T_map_sensor * record->T_robot_sensor.inverse());
   }
-  products.grid = grid.grid();
+  products.grid = grid.raster();
   tellWarnings(path, log->warnings());
 }
 
@@ -71,7 +60,7 @@ void addChains(const std::string& map, bool with_log, MapProducts& products) {
   const std::string chains = (folder / "lines.geojson").string();
   if (std::filesystem::path(map).filename() != "lines.csv" || !std::filesystem::exists(chains))
     return;
-  auto [poly_lines, trajectory] = readLinesGeoJson(readFile(chains), chains);
+  auto [poly_lines, trajectory] = readLinesGeoJson(contentOf(chains), chains);
   products.poly_lines = std::move(poly_lines);
   if (!with_log) products.trajectory = std::move(trajectory);
 }
@@ -80,7 +69,8 @@ void addChains(const std::string& map, bool with_log, MapProducts& products) {
 void addGrid(const std::string& map, MapProducts& products) {
   const auto yaml = std::filesystem::path(map).parent_path() / "map.yaml";
   if (std::filesystem::exists(yaml)) {
-    products.grid = readOccupancyMap(yaml.string(), products.origin);
+    products.grid = readOccupancyMap(yaml.string());
+    products.grid->origin -= products.origin;
   }
 }
 
@@ -94,15 +84,14 @@ Eigen::Vector2d frameOf(const std::vector<MapLine>& lines) {
 void renderPicture(RenderOptions options) {
   MapProducts products;
   products.title = std::filesystem::path(options.map).string();
-  products.lines = readLinesCsv(readFile(options.map), options.map);
+  products.lines = readLinesCsv(contentOf(options.map), options.map);
   addChains(options.map, !options.log.empty(), products);
   products = seenFrom(frameOf(products.lines), std::move(products));
   if (options.picture.view) options.picture.view->translate(-products.origin);
   if (options.log.empty()) addGrid(options.map, products);
   // Lines and grid are in the picture's frame by now.
   if (options.picture.background && products.grid)
-    options.picture.rooms =
-        planOfMap(products.lines, *products.grid, Eigen::Vector2d::Zero()).rooms;
+    options.picture.rooms = planOfMap(products.lines, *products.grid).rooms;
   if (!options.log.empty()) addLog(options.log, products);
   if (options.solid) {
     if (options.no_trajectory) products.trajectory.clear();
@@ -131,10 +120,9 @@ void renderVideo(const RenderOptions& options, const Parameters& parameters) {
     LocalLog log(openUndistortedLog(options.log));
     if (!drawing && picture.view) picture.view->translate(-log.origin());
     LineMap map(parameters.mapping);
-    ScanGrid grid(log.start());
+    ScanRaster grid(log.start());
     MapProducts products;
     products.title = std::filesystem::path(options.log).filename().string();
-    products.grid = grid.grid();
     std::size_t scan = 0, frame = 0;
     while (const auto record = log.next()) {
       map.insert(record->scan);
@@ -145,6 +133,7 @@ void renderVideo(const RenderOptions& options, const Parameters& parameters) {
       if (!drawing || scan * frames < (frame + 1) * scans) continue;
       products.lines = map.lines();
       products.poly_lines = map.polyLines();
+      products.grid = grid.raster();
       writePicture(video.nextFrame(), products, picture);
       frame = scan * frames / scans;
       progress.show(log.progress(), std::to_string(frame) + " frames");
@@ -159,7 +148,7 @@ void renderVideo(const RenderOptions& options, const Parameters& parameters) {
 std::string runOf(const std::string& path) {
   const std::string page =
       std::filesystem::is_directory(path) ? (std::filesystem::path(path) / kReplay).string() : path;
-  return runsOfReplayPage(readFile(page), page).front();
+  return runsOfReplayPage(contentOf(page), page).front();
 }
 
 void renderPage(const RenderOptions& options) {

@@ -12,9 +12,9 @@
 #include "apps/runs/on_all_cores.hpp"
 #include "apps/runs/progress.hpp"
 #include "cca_mrpt/session/earlier_drive.hpp"
-#include "contradiction.hpp"
 #include "io/files/stray_places.hpp"
 #include "io/poses/trajectory_error.hpp"
+#include "session_warnings.hpp"
 #include "slam/loop_review.hpp"
 
 namespace cca::apps {
@@ -73,7 +73,7 @@ void MappedLogs::take(const std::string& path, LocalLog& log,
             (slam_ ? ", " + std::to_string(slam_->slam().loopsClosed()) + " loops closed" : ""));
     interrupted_ = interruption.requested();
   }
-  warn(log.warnings());
+  appendWarning(log.warnings(), warnings_);
 } catch (const std::runtime_error& error) {
   throw std::runtime_error(path + ": " + error.what());
 }
@@ -105,18 +105,14 @@ void MappedLogs::finish() {
   }
   background_->wait();
   if (logs_.memory && slam_->slam().isInMemory()) origin_ = logs_.memory->origin;
-  warn(withoutOdometry());
-  if (slam_) warn(slamWarnings());
-  warn(strayWarning());
+  appendWarning(sessionWarnings(*session_, slam(), logs_.pose, unguided_, logs_.resumed, origin_),
+                warnings_);
 }
 
-std::string MappedLogs::shortcoming() const {
-  const std::string by_lines = contradiction(session_->agreement());
-  return by_lines.empty() && slam_ ? contradiction(slam_->slam().review().agreement) : by_lines;
-}
+std::string MappedLogs::shortcoming() const { return shortcomingOf(*session_, slam()); }
 
 void MappedLogs::restart() {
-  grid_ = ScanGrid(start_);
+  grid_ = ScanRaster(start_);
   replay_ = Replay(fileName(logs_.paths.front()));
   last_moment_.reset();
   distance_ = 0.0;
@@ -140,57 +136,9 @@ void MappedLogs::record(const MappedScan& mapped, const LineMap& map) {
   replay_.add(moment, mapped.scan, map);
 }
 
-/// Scans that were localised by the laser alone, though the wheels are expected to tell.
-std::string MappedLogs::withoutOdometry() const {
-  if (unguided_ == 0 || (logs_.pose != PoseSource::kSlam && logs_.pose != PoseSource::kIcp)) {
-    return "";
-  }
-  return std::to_string(unguided_) + " scan(s) without odometry, located by the laser alone";
-}
-
-/// What SLAM had to do without.
-std::string MappedLogs::slamWarnings() const {
-  std::string warnings;
-  if (!slam_->slam().isInMemory()) {
-    warnings = "no place of " + logs_.resumed + " was found: this is the map of the log alone";
-  }
-  const std::vector<bool>& known = session_->isLocalised();
-  const auto unknown = std::count(known.begin(), known.end(), false);
-  if (unknown > 0) {
-    const auto first = std::find(known.begin(), known.end(), false) - known.begin();
-    warnings += (warnings.empty() ? "" : "; ") + std::string("the place of ") +
-                std::to_string(unknown) +
-                " scan(s) is not known, and they are in no map; the first is number " +
-                std::to_string(first);
-  }
-  return warnings;
-}
-
-/// "1 scan(s) far from all others, the first is number 12 at 1e+07, 3.2 m"; empty where there is
-/// none.
-std::string MappedLogs::strayWarning() const {
-  const std::vector<Pose2>& trajectory = session_->trajectory();
-  const std::vector<bool> stray = findStrays(trajectory);
-  const auto count = std::count(stray.begin(), stray.end(), true);
-  if (count == 0) return "";
-  const auto first =
-      static_cast<std::size_t>(std::find(stray.begin(), stray.end(), true) - stray.begin());
-  const Eigen::Vector2d place = origin_ + trajectory[first].position();
-  char text[160];
-  std::snprintf(text, sizeof text,
-                "%td scan(s) far from all others, the first is number %zu at %.9g, %.9g m", count,
-                first, place.x(), place.y());
-  return text;
-}
-
-void MappedLogs::warn(const std::string& warning) {
-  if (!warnings_.empty() && !warning.empty()) warnings_ += "; ";
-  warnings_ += warning;
-}
-
 MapProducts MappedLogs::products() const {
   MapProducts products = mapProducts(fileName(logs_.paths.front()), *session_);
-  products.grid = grid_.grid();
+  products.grid = grid_.raster();
   products.origin = origin_;
   Replay replay = replay_;
   replay.finish(products.lines);

@@ -10,7 +10,7 @@
 #include "apps/runs/interruption.hpp"
 #include "cca_mrpt/io/map_products.hpp"
 #include "cca_mrpt/io/parameters.hpp"
-#include "cca_mrpt/io/scan_grid.hpp"
+#include "cca_mrpt/io/scan_raster.hpp"
 #include "cca_mrpt/session/mapping_session.hpp"
 #include "cca_mrpt/slam/slam_localiser.hpp"
 #include "io/files/memory_file.hpp"
@@ -62,10 +62,7 @@ class MappedLogs : public MapRecorder {
   void record(const MappedScan& mapped, const LineMap& map) override;
   void show(const ReplayMoment& moment, const Scan& scan, const LineMap& map);
   void heedCommands(const Interruption& interruption);
-  std::string withoutOdometry() const;
-  std::string slamWarnings() const;
-  std::string strayWarning() const;
-  void warn(const std::string& warning);
+  const Slam* slam() const { return slam_ ? &slam_->slam() : nullptr; }
   static void addVisits(nlohmann::ordered_json& summary, const LoopReview& review);
   void addPoseError(nlohmann::ordered_json& summary) const;
 
@@ -81,7 +78,7 @@ class MappedLogs : public MapRecorder {
   LivePage* page_ = nullptr;
   // What background_ alone changes until finish().
   std::vector<Telling> told_;  ///< of each scan
-  ScanGrid grid_;
+  ScanRaster grid_;
   Replay replay_;
   std::optional<Pose2> last_moment_;
   double distance_ = 0.0;  ///< m, up to the last moment

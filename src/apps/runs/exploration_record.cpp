@@ -65,7 +65,7 @@ void ExplorationRecord::add(const Cycle& cycle) {
   work_us_.push_back(cycle.work_us + std::exchange(mapping_us_, 0.0));
 }
 
-void ExplorationRecord::restart() { grid_ = ScanGrid(start_); }
+void ExplorationRecord::restart() { grid_ = ScanRaster(start_); }
 
 void ExplorationRecord::record(const MappedScan& mapped, const LineMap& /*map*/) {
   grid_.insert(mapped.scan);
@@ -168,7 +168,7 @@ nlohmann::ordered_json ExplorationRecord::summary(const Simulation& simulation,
 MapProducts ExplorationRecord::products(const Simulation& simulation,
                                         const MappingSession& mapping) const {
   MapProducts products = mapProducts(simulation.world().name, mapping);
-  products.grid = grid_.grid();
+  products.grid = grid_.raster();
   products.origin = origin_;
   return products;
 }

@@ -7,7 +7,7 @@
 
 #include "cca_mrpt/io/map_products.hpp"
 #include "cca_mrpt/io/parameters.hpp"
-#include "cca_mrpt/io/scan_grid.hpp"
+#include "cca_mrpt/io/scan_raster.hpp"
 #include "cca_mrpt/session/exploration_session.hpp"
 #include "cca_mrpt/simulation/coverage.hpp"
 #include "cca_mrpt/simulation/simulation.hpp"
@@ -88,7 +88,7 @@ class ExplorationRecord : public MapRecorder {
   Eigen::Vector2d origin_;
   RawlogWriter rawlog_;
   Eigen::Vector2d start_;  ///< m
-  ScanGrid grid_;
+  ScanRaster grid_;
   Coverage coverage_;
   Replay replay_;
   std::vector<Look> looks_;

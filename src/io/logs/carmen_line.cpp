@@ -83,10 +83,11 @@ void readRanges(Words& words, CarmenScan& scan) {
   while (scan.ranges.size() < beams && words.ok()) scan.ranges.push_back(words.number());
 }
 
-/// `time host logger_time` at a line's end; 0 where it is missing: a scan without time is a scan.
-double readTime(Words words) {
+/// `time host logger_time` at a line's end; nothing where it is missing: a scan without time is a
+/// scan.
+std::optional<double> readTime(Words words) {
   const double time = words.number();
-  return words.ok() && std::isfinite(time) ? time : 0.0;
+  return words.ok() && std::isfinite(time) ? std::optional(time) : std::nullopt;
 }
 
 std::optional<CarmenScan> parseSickLaser(Words words, CarmenMessage message) {
@@ -100,10 +101,8 @@ std::optional<CarmenScan> parseSickLaser(Words words, CarmenMessage message) {
   if (!words.ok()) return std::nullopt;
   Words after_laser = words;
   const Pose2 robot = after_laser.pose();
-  if (after_laser.ok()) {
-    scan.robot = robot;
-    scan.time = readTime(after_laser);
-  }
+  if (after_laser.ok()) scan.robot = robot;
+  scan.time = readTime(after_laser.ok() ? after_laser : words);
   if (message == CarmenMessage::kRearLaser &&
       std::abs(wrapAngle(scan.laser.theta - scan.robot.theta)) < 0.5 * M_PI) {
     scan.laser.theta = wrapAngle(scan.laser.theta + M_PI);
@@ -111,9 +110,9 @@ std::optional<CarmenScan> parseSickLaser(Words words, CarmenMessage message) {
   return scan;
 }
 
-std::optional<CarmenScan> parseRobotLaser(Words words) {
+/// What ROBOTLASER and RAWLASER lines begin with: a laser's angles, ranges and remissions.
+std::optional<CarmenScan> parseTellingLaser(Words& words) {
   CarmenScan scan;
-  scan.message = CarmenMessage::kRobotLaser;
   words.number();  // laser type
   scan.angle_min = words.number();
   const double field_of_view = words.number();
@@ -124,8 +123,6 @@ std::optional<CarmenScan> parseRobotLaser(Words words) {
   readRanges(words, scan);
   for (std::size_t left = words.count(0); left > 0 && words.ok(); --left) words.number();
   if (!words.ok()) return std::nullopt;
-  scan.robot = scan.laser = words.pose();
-  if (!words.ok()) return std::nullopt;
   if (!(scan.angle_increment > 0.0)) {
     scan.angle_increment = field_of_view / static_cast<double>(scan.ranges.size() - 1);
   }
@@ -134,14 +131,32 @@ std::optional<CarmenScan> parseRobotLaser(Words words) {
     return std::nullopt;
   }
   if (!(scan.max_range > 0.0) || !std::isfinite(scan.max_range)) scan.max_range = 0.0;
+  return scan;
+}
+
+std::optional<CarmenScan> parseRawLaser(Words words) {
+  auto scan = parseTellingLaser(words);
+  if (!scan) return std::nullopt;
+  scan->message = CarmenMessage::kRawLaser;
+  scan->time = readTime(words);
+  return scan;
+}
+
+std::optional<CarmenScan> parseRobotLaser(Words words) {
+  auto told = parseTellingLaser(words);
+  if (!told) return std::nullopt;
+  CarmenScan& scan = *told;
+  scan.message = CarmenMessage::kRobotLaser;
+  scan.robot = scan.laser = words.pose();
+  if (!words.ok()) return std::nullopt;
   Words after_laser = words;
   const Pose2 robot = after_laser.pose();
   if (after_laser.ok()) {
     scan.robot = robot;
     for (int skipped = 0; skipped < 5; ++skipped) after_laser.number();  // speeds, safety, axis
-    scan.time = after_laser.ok() ? readTime(after_laser) : 0.0;
+    scan.time = readTime(after_laser);
   }
-  return scan;
+  return told;
 }
 
 }  // namespace
@@ -152,20 +167,25 @@ std::optional<CarmenScan> parseCarmenScan(std::string_view line) {
   if (name == "FLASER") return parseSickLaser(words, CarmenMessage::kFrontLaser);
   if (name == "RLASER") return parseSickLaser(words, CarmenMessage::kRearLaser);
   if (name == "ROBOTLASER1" || name == "ROBOTLASER2") return parseRobotLaser(words);
+  if (name == "RAWLASER1") return parseRawLaser(words);
   return std::nullopt;
 }
 
-std::optional<Pose2> parseCarmenOdometry(std::string_view line) {
+std::optional<CarmenOdometry> parseCarmenOdometry(std::string_view line) {
   Words words(line);
   if (words.word() != "ODOM") return std::nullopt;
-  const Pose2 pose = words.pose();
+  CarmenOdometry odometry;
+  odometry.T_odom_robot = words.pose();
   if (!words.ok()) return std::nullopt;
-  return pose;
+  for (int skipped = 0; skipped < 3; ++skipped) words.number();  // speeds, acceleration
+  odometry.time = readTime(words);
+  return odometry;
 }
 
 bool isCarmenScan(std::string_view line) {
   const std::string_view name = Words(line).word();
-  return name == "FLASER" || name == "RLASER" || name == "ROBOTLASER1" || name == "ROBOTLASER2";
+  return name == "FLASER" || name == "RLASER" || name == "ROBOTLASER1" || name == "ROBOTLASER2" ||
+         name == "RAWLASER1";
 }
 
 bool isCarmenLine(std::string_view line) {

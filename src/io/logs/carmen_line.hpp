@@ -9,10 +9,10 @@
 
 namespace cca {
 
-enum class CarmenMessage { kFrontLaser, kRearLaser, kRobotLaser };
+enum class CarmenMessage { kFrontLaser, kRearLaser, kRobotLaser, kRawLaser };
 
-/// One laser line of a CARMEN log (FLASER, RLASER, ROBOTLASER1, ROBOTLASER2) as it is written;
-/// readings are not judged here.
+/// One laser line of a CARMEN log (FLASER, RLASER, ROBOTLASER1, ROBOTLASER2, RAWLASER1) as it is
+/// written; readings are not judged here.
 struct CarmenScan {
   CarmenMessage message = CarmenMessage::kFrontLaser;
   std::vector<double> ranges;    ///< m
@@ -21,7 +21,13 @@ struct CarmenScan {
   double max_range = 0.0;        ///< m; 0 where the line does not tell
   Pose2 laser;                   ///< as written
   Pose2 robot;                   ///< as written: odometry, unless a SLAM program rewrote the log
-  double time = 0.0;             ///< s
+  std::optional<double> time;    ///< s
+};
+
+/// An ODOM line.
+struct CarmenOdometry {
+  Pose2 T_odom_robot;
+  std::optional<double> time;  ///< s
 };
 
 /// Reads a laser line.
@@ -29,13 +35,14 @@ struct CarmenScan {
 /// FLASER and RLASER tell no angles: the SICK's conventions hold, first beam at -90 degrees, 180 or
 /// 181 beams 1 degree apart, 360 or 361 beams 0.5 degrees (90/91: 2, 720/721: 0.25, any other
 /// number n: 180 / (n - 1)). So 180 beams end at +89 degrees. ROBOTLASER lines tell theirs.
-/// An RLASER whose pose looks ahead carries the robot's pose; it is turned to look back.
+/// An RLASER whose pose looks ahead carries the robot's pose; it is turned to look back. RAWLASER1
+/// lines carry no pose.
 ///
 /// @return nothing where the line is none, is incomplete, or a pose is not finite.
 std::optional<CarmenScan> parseCarmenScan(std::string_view line);
 
-/// The pose of an ODOM line; nothing where the line is none or is incomplete.
-std::optional<Pose2> parseCarmenOdometry(std::string_view line);
+/// An ODOM line; nothing where the line is none or is incomplete.
+std::optional<CarmenOdometry> parseCarmenOdometry(std::string_view line);
 
 /// Whether the line starts as a laser line does, complete or not.
 bool isCarmenScan(std::string_view line);

@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "carmen_reader.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <deque>
+#include <map>
 #include <stdexcept>
+#include <utility>
 
 #include "carmen_line.hpp"
 #include "cca_mrpt/sensing/missing_returns.hpp"
@@ -19,9 +23,21 @@ bool samePose(const Pose2& a, const Pose2& b, double tolerance) {
          std::abs(wrapAngle(a.theta - b.theta)) <= tolerance;
 }
 
+/// Lines of the same lasers: a log may carry a scan as more than one of them.
+enum class CarmenFamily {
+  kSick,   ///< FLASER and RLASER
+  kRobot,  ///< ROBOTLASER1, ROBOTLASER2
+  kRaw     ///< RAWLASER1, whose poses are those of the ODOM lines about it
+};
+
+CarmenFamily familyOf(CarmenMessage message) {
+  if (message == CarmenMessage::kRawLaser) return CarmenFamily::kRaw;
+  return message == CarmenMessage::kRobotLaser ? CarmenFamily::kRobot : CarmenFamily::kSick;
+}
+
 /// What a first pass over the log tells about all of it.
 struct Survey {
-  bool robot_laser = false;  ///< ROBOTLASER lines are read, else FLASER and RLASER
+  CarmenFamily family = CarmenFamily::kSick;  ///< that is read
   std::size_t scans = 0, damaged_lines = 0;
   bool damaged_file = false;
   double no_return_from = 0.0;  ///< m
@@ -30,11 +46,7 @@ struct Survey {
   bool mounting_holds = false;  ///< laser and robot pose differ by the same in every scan
 };
 
-bool isRead(const CarmenScan& scan, bool robot_laser) {
-  return (scan.message == CarmenMessage::kRobotLaser) == robot_laser;
-}
-
-/// Surveys one of the two families of laser lines.
+/// Surveys one of the families of laser lines.
 class Surveyor {
  public:
   void add(const CarmenScan& scan) {
@@ -84,24 +96,32 @@ class Surveyor {
 
 Survey surveyLog(const std::string& path) {
   GzipLines lines(path);
-  Surveyor sick, robot;
+  std::map<CarmenFamily, Surveyor> families{
+      {CarmenFamily::kSick, {}}, {CarmenFamily::kRobot, {}}, {CarmenFamily::kRaw, {}}};
   std::size_t damaged = 0;
+  bool has_odometry_lines = false;
   while (const auto line = lines.next()) {
     if (const auto odometry = parseCarmenOdometry(*line)) {
-      sick.add(*odometry);
-      robot.add(*odometry);
+      for (auto& [family, surveyor] : families) surveyor.add(odometry->T_odom_robot);
+      has_odometry_lines = true;
     } else if (const auto scan = parseCarmenScan(*line)) {
-      (isRead(*scan, true) ? robot : sick).add(*scan);
+      families[familyOf(scan->message)].add(*scan);
     } else if (line->substr(0, 5) == "NEFF ") {  // a line that only GMapping writes, one a scan
-      sick.addEffectiveParticles();
-      robot.addEffectiveParticles();
+      for (auto& [family, surveyor] : families) surveyor.addEffectiveParticles();
     } else {
       damaged += isCarmenScan(*line);
     }
   }
-  const bool robot_laser = robot.survey().scans > sick.survey().scans;
-  Survey survey = (robot_laser ? robot : sick).survey();
-  survey.robot_laser = robot_laser;
+  const auto scansOf = [&](CarmenFamily family) { return families[family].survey().scans; };
+  CarmenFamily family = CarmenFamily::kSick;
+  if (scansOf(CarmenFamily::kRobot) > scansOf(family)) family = CarmenFamily::kRobot;
+  if (scansOf(family) == 0) family = CarmenFamily::kRaw;  // others carry the same with their poses
+  Survey survey = families[family].survey();
+  survey.family = family;
+  if (family == CarmenFamily::kRaw) {
+    survey.has_odometry = has_odometry_lines;
+    survey.rewritten = survey.mounting_holds = false;
+  }
   survey.damaged_lines = damaged;
   survey.damaged_file = lines.damaged();
   return survey;
@@ -128,18 +148,21 @@ class CarmenReader : public LogReader {
   explicit CarmenReader(const std::string& path)
       : path_(path), survey_(surveyLog(path)), lines_(path) {
     if (survey_.scans == 0) {
-      throw std::runtime_error(path + ": holds no whole laser scan (FLASER, RLASER, ROBOTLASER1)" +
-                               (warnings().empty() ? "" : "; " + warnings()));
+      throw std::runtime_error(
+          path + ": holds no whole laser scan (FLASER, RLASER, ROBOTLASER1, RAWLASER1)" +
+          (warnings().empty() ? "" : "; " + warnings()));
     }
   }
 
   std::optional<LogRecord> next() override {
+    if (survey_.family == CarmenFamily::kRaw) return nextRaw();
     while (const auto line = lines_.next()) {
       if (const auto odometry = parseCarmenOdometry(*line)) {
-        chain_.add(*odometry, last_laser_ && samePose(*last_laser_, *odometry, 1e-9));
+        const Pose2& logged = odometry->T_odom_robot;
+        chain_.add(logged, last_laser_ && samePose(*last_laser_, logged, 1e-9));
         last_laser_.reset();
       } else if (const auto scan = parseCarmenScan(*line)) {
-        if (isRead(*scan, survey_.robot_laser)) return record(*scan);
+        if (familyOf(scan->message) == survey_.family) return record(*scan);
       }
     }
     return std::nullopt;
@@ -158,14 +181,58 @@ class CarmenReader : public LogReader {
   double progress() const override { return lines_.progress(); }
 
  private:
-  LogRecord record(const CarmenScan& logged) {
+  /// The next RAWLASER1 line, which waits for the ODOM line after it.
+  std::optional<LogRecord> nextRaw() {
+    while (waiting_.empty() || !(may_leave_ || !survey_.has_odometry)) {
+      const auto line = lines_.next();
+      if (!line) {
+        if (waiting_.empty()) return std::nullopt;
+        earlier_ = later_;
+        may_leave_ = true;
+      } else if (const auto odometry = parseCarmenOdometry(*line)) {
+        earlier_ = later_ ? later_ : odometry;
+        later_ = odometry;
+        may_leave_ = !waiting_.empty();
+      } else if (auto scan = parseCarmenScan(*line)) {
+        if (familyOf(scan->message) == CarmenFamily::kRaw) waiting_.push_back(unplaced(*scan));
+      }
+    }
+    LogRecord record = std::move(waiting_.front());
+    waiting_.pop_front();
+    if (waiting_.empty()) may_leave_ = false;
+    if (survey_.has_odometry) {
+      record.odometry = odometryAt(record);
+      record.scan.T_map_sensor = *record.odometry;
+    }
+    return record;
+  }
+
+  /// Between the ODOM lines before and after a scan; that before, where times do not tell.
+  Pose2 odometryAt(const LogRecord& record) const {
+    if (!later_) return {};
+    const Pose2 &from = earlier_->T_odom_robot, to = later_->T_odom_robot;
+    if (!record.has_time || !earlier_->time || !later_->time || *later_->time <= *earlier_->time)
+      return from;
+    const double t =
+        std::clamp((record.time - *earlier_->time) / (*later_->time - *earlier_->time), 0.0, 1.0);
+    return {from.x + t * (to.x - from.x), from.y + t * (to.y - from.y),
+            wrapAngle(from.theta + t * wrapAngle(to.theta - from.theta))};
+  }
+
+  LogRecord unplaced(const CarmenScan& logged) const {
     LogRecord record;
-    record.time = logged.time;
+    record.has_time = logged.time.has_value();
+    record.time = logged.time.value_or(0.0);
     record.scan.angle_min = logged.angle_min;
     record.scan.angle_increment = logged.angle_increment;
-    record.scan.T_map_sensor = logged.laser;
     record.scan.ranges = logged.ranges;
     for (double& range : record.scan.ranges) range = judged(range, logged.max_range);
+    return record;
+  }
+
+  LogRecord record(const CarmenScan& logged) {
+    LogRecord record = unplaced(logged);
+    record.scan.T_map_sensor = logged.laser;
     if (survey_.mounting_holds) record.T_robot_sensor = logged.robot.inverse() * logged.laser;
     // Where the robot's pose is the laser's, the wheels have written both: nothing is corrected.
     if (!survey_.mounting_holds) record.corrected = logged.laser * record.T_robot_sensor.inverse();
@@ -190,6 +257,10 @@ class CarmenReader : public LogReader {
   GzipLines lines_;
   OdometryChain chain_;
   std::optional<Pose2> last_laser_;  ///< of the scan just given, until the next ODOM line
+  // Of RAWLASER1 lines alone.
+  std::deque<LogRecord> waiting_;                  ///< for the next ODOM line
+  std::optional<CarmenOdometry> earlier_, later_;  ///< the last two ODOM lines
+  bool may_leave_ = false;                         ///< whether those that wait have met it
 };
 
 }  // namespace

@@ -9,7 +9,8 @@
 namespace cca {
 
 /// Reads a CARMEN log, plain or gzipped: FLASER and RLASER, or ROBOTLASER1/2 where those are the
-/// more frequent (a log may carry the same laser twice).
+/// more frequent (a log may carry the same laser twice). RAWLASER1 where there are none of these:
+/// its scans are at the odometry of the ODOM lines about them, interpolated by time.
 ///
 /// No return: see Saturation; for ROBOTLASER also 0.999 of the line's own maximum range. Such beams
 /// say nothing about free space (glass and black cloth give them too). PARAM lines are not trusted.

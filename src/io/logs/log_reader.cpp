@@ -2,13 +2,10 @@
 #include "cca_mrpt/io/log_reader.hpp"
 
 #include <filesystem>
-#include <sstream>
 #include <stdexcept>
 #include <utility>
 #include <vector>
 
-#include "carmen_line.hpp"
-#include "carmen_reader.hpp"
 #include "io/files/child_log.hpp"
 #include "io/files/gzip_lines.hpp"
 #include "io/files/unzipped_file.hpp"
@@ -16,21 +13,13 @@
 #include "io/poses/truth_file.hpp"
 #include "rawlog_reader.hpp"
 #include "sound_log.hpp"
+#include "text_formats.hpp"
 #include "undistorted_log.hpp"
 
 namespace cca {
 namespace {
 
-constexpr std::size_t kHead = 1 << 16;
 constexpr const char* kSqlite = "SQLite format 3";
-
-bool looksLikeCarmen(const std::string& head) {
-  std::istringstream lines(head);
-  for (std::string line; std::getline(lines, line);) {
-    if (isCarmenLine(line)) return true;
-  }
-  return false;
-}
 
 /// Both names are in use; the last is that of files from before 2006.
 bool isSimpleMap(const std::string& class_name) {
@@ -53,7 +42,7 @@ std::unique_ptr<LogReader> openAdded(const LogKind& kind, const std::string& pat
 /// Of a folder: of what ROS 2 records in it.
 std::string headOf(const std::string& path) {
   const bool is_recording = std::filesystem::exists(std::filesystem::path(path) / "metadata.yaml");
-  return is_recording ? kSqlite : fileHead(path, kHead);
+  return is_recording ? kSqlite : fileHead(path, kLogHead);
 }
 
 /// Logs that are known, and not read. @return  what this is one of; empty for any other.
@@ -82,8 +71,8 @@ std::unique_ptr<LogReader> openAsWhatItIs(const std::string& path, const LogHint
   const std::string mrpt_class = mrptClassName(head);
   if (isSimpleMap(mrpt_class)) return readInChild(path, [&] { return openSimpleMap(path); });
   if (!mrpt_class.empty()) return readInChild(path, [&] { return openRawlog(path); });
-  if (looksLikeCarmen(head)) return openCarmenLog(path);
-  std::string known = "MRPT .rawlog and .simplemap, CARMEN .log";
+  if (auto log = openTextLog(path, head)) return log;
+  std::string known = std::string("MRPT .rawlog and .simplemap, ") + kTextLogKinds;
   for (const LogKind& kind : addedKinds()) known += ", " + kind.name;
   throw std::runtime_error(path + ": not a log of a known kind (" + known + ")");
 }

@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "canvas.hpp"
 
-#include <mrpt/img/CImage.h>
-
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
-#include "io/files/png_file.hpp"
+#include "io/files/surface_png.hpp"
 #include "io/logs/unhinted_text.hpp"
 
 namespace cca {
@@ -124,23 +122,12 @@ void Canvas::bar(double x, double y, double width, double height, const Colour& 
   cairo_fill(cairo_.get());
 }
 
-void Canvas::writePng(const std::string& path) const {
+std::string Canvas::png() const {
   const cairo_status_t status = cairo_status(cairo_.get());
   if (status != CAIRO_STATUS_SUCCESS) {
-    throw std::runtime_error(path + ": cannot be drawn: " + cairo_status_to_string(status));
+    throw std::runtime_error(std::string("cannot be drawn: ") + cairo_status_to_string(status));
   }
-  // Cairo's own PNG writer squeezes three times as long as all the drawing takes; MRPT's is quick.
-  cairo_surface_flush(surface_.get());
-  const unsigned char* const data = cairo_image_surface_get_data(surface_.get());
-  const int stride = cairo_image_surface_get_stride(surface_.get());
-  mrpt::img::CImage image(static_cast<unsigned>(width_), static_cast<unsigned>(height_),
-                          mrpt::img::CH_RGB);
-  for (int row = 0; row < height_; ++row) {
-    const unsigned char* from = data + static_cast<std::ptrdiff_t>(row) * stride;
-    auto* to = image.ptrLine<std::uint8_t>(static_cast<unsigned>(row));
-    for (int column = 0; column < width_; ++column, from += 4) to = std::copy_n(from, 3, to);
-  }
-  cca::writePng(image, path);
+  return pngOf(surface_.get());
 }
 
 }  // namespace cca

@@ -8,11 +8,9 @@
 #include <string>
 #include <vector>
 
-namespace cca {
+#include "io/maps/colour.hpp"
 
-struct Colour {
-  double red, green, blue, alpha = 1.0;
-};
+namespace cca {
 
 /// A sheet of pixels that shows a part of the map, y up. Widths and radii are in pixels.
 class Canvas {
@@ -40,8 +38,8 @@ class Canvas {
             const std::string& utf8);
   void bar(double x, double y, double width, double height, const Colour& colour);
 
-  /// Whole or not at all. @throws std::runtime_error naming the file, and Cairo's reason if any.
-  void writePng(const std::string& path) const;
+  /// What a PNG file of the sheet holds. @throws std::runtime_error with Cairo's reason.
+  std::string png() const;
 
  private:
   Eigen::Vector2d pixel(const Eigen::Vector2d& p_map) const;

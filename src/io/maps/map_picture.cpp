@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "canvas.hpp"
+#include "io/files/atomic_file.hpp"
 #include "io/files/stray_places.hpp"
 #include "io/lines/line_formats.hpp"
 
@@ -41,36 +42,26 @@ std::uint32_t rgb(const Colour& c) {
   return byte(c.red) << 16 | byte(c.green) << 8 | byte(c.blue);
 }
 
-Colour blend(const Colour& a, const Colour& b, double t) {
-  return {a.red + t * (b.red - a.red), a.green + t * (b.green - a.green),
-          a.blue + t * (b.blue - a.blue)};
+std::uint32_t cellColour(Occupancy state) {
+  if (state == Occupancy::kUnknown) return rgb(kUnknown);
+  return rgb(state == Occupancy::kFree ? kFree : kHit);
 }
 
-/// Of a cell's probability of being free.
-std::uint32_t cellColour(double free) {
-  return rgb(free < 0.5 ? blend(kHit, kUnknown, 2.0 * free)
-                        : blend(kUnknown, kFree, 2.0 * free - 1.0));
-}
-
-void drawBackground(Canvas& canvas, const mrpt::maps::COccupancyGridMap2D& grid, const Box& view) {
-  const int columns_all = static_cast<int>(grid.getSizeX()),
-            rows_all = static_cast<int>(grid.getSizeY());
-  const int left = std::clamp(grid.x2idx(static_cast<float>(view.min().x())), 0, columns_all);
-  const int right = std::clamp(grid.x2idx(static_cast<float>(view.max().x())) + 1, 0, columns_all);
-  const int low = std::clamp(grid.y2idx(static_cast<float>(view.min().y())), 0, rows_all);
-  const int high = std::clamp(grid.y2idx(static_cast<float>(view.max().y())) + 1, 0, rows_all);
+void drawBackground(Canvas& canvas, const OccupancyRaster& grid, const Box& view) {
+  const Cell first = grid.cellOf(view.min()), last = grid.cellOf(view.max());
+  const int left = std::clamp(first.x, 0, grid.columns);
+  const int right = std::clamp(last.x + 1, 0, grid.columns);
+  const int low = std::clamp(first.y, 0, grid.rows);
+  const int high = std::clamp(last.y + 1, 0, grid.rows);
   const int columns = right - left, rows = high - low;
   if (columns <= 0 || rows <= 0) return;
   std::vector<std::uint32_t> argb(static_cast<std::size_t>(columns) *
                                   static_cast<std::size_t>(rows));
   std::size_t at = 0;
   for (int row = high - 1; row >= low; --row) {
-    for (int column = left; column < right; ++column)
-      argb[at++] = cellColour(grid.getCell(column, row));
+    for (int column = left; column < right; ++column) argb[at++] = cellColour(grid[{column, row}]);
   }
-  const double size = grid.getResolution();
-  canvas.image(argb, columns, rows, {grid.getXMin() + left * size, grid.getYMin() + low * size},
-               size);
+  canvas.image(argb, columns, rows, grid.inMetres({left, low}), grid.resolution);
 }
 
 /// So lightly that cells and lines are seen as before.
@@ -180,12 +171,9 @@ void drawLegend(Canvas& canvas, double unit) {
   }
 }
 
-void extendByKnownCells(Box& box, const mrpt::maps::COccupancyGridMap2D& grid) {
-  for (int row = 0; row < static_cast<int>(grid.getSizeY()); ++row) {
-    for (int column = 0; column < static_cast<int>(grid.getSizeX()); ++column) {
-      if (std::abs(grid.getCell(column, row) - 0.5F) < 0.1F) continue;
-      box.extend(Eigen::Vector2d(grid.idx2x(column), grid.idx2y(row)));
-    }
+void extendByKnownCells(Box& box, const OccupancyRaster& grid) {
+  for (std::size_t k = 0; k < grid.values.size(); ++k) {
+    if (grid.values[k] != Occupancy::kUnknown) box.extend(grid.centreOf(grid.cell(k)));
   }
 }
 
@@ -211,8 +199,7 @@ Box wholeView(const MapProducts& products) {
   return Box(box.center() - half, box.center() + half);
 }
 
-void writePicture(const std::string& png_path, const MapProducts& products,
-                  const PictureOptions& options) {
+std::string picturePng(const MapProducts& products, const PictureOptions& options) {
   const Box view = options.view && !options.view->isEmpty() ? *options.view : wholeView(products);
   const int side = std::clamp(options.longest_side, kSmallestPicture, kLargestPicture);
   // Strokes and letters grow with the sheet, so that pictures look alike at any size.
@@ -227,7 +214,12 @@ void writePicture(const std::string& png_path, const MapProducts& products,
   if (options.caption) drawCaption(canvas, products, unit);
   if (options.caption) drawLegend(canvas, unit);
   drawScaleBar(canvas, options.caption, unit);
-  canvas.writePng(png_path);
+  return canvas.png();
+}
+
+void writePicture(const std::string& png_path, const MapProducts& products,
+                  const PictureOptions& options) {
+  writeFile(png_path, picturePng(products, options));
 }
 
 }  // namespace cca

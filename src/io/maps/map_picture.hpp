@@ -29,11 +29,14 @@ constexpr int kSmallestPicture = 64, kLargestPicture = 16384;
 /// space white, the scans' end points as a soft background, rooms tinted; each poly-line in a
 /// colour of its own with its vertices, single lines dark; the trajectory with start and end; a
 /// scale bar. An empty map gives an empty sheet with its scale bar.
-/// @throws std::runtime_error naming the file where it cannot be written.
+/// @return  what its PNG file holds. @throws std::runtime_error with the reason.
+std::string picturePng(const MapProducts& products, const PictureOptions& options = {});
+
+/// Writes it. @throws std::runtime_error naming the file where it cannot be written.
 void writePicture(const std::string& png_path, const MapProducts& products,
                   const PictureOptions& options = {});
 
-/// What writePicture() shows where no view is given: all lines and the trajectory, where there are
+/// What picturePng() shows where no view is given: all lines and the trajectory, where there are
 /// no lines the known part of the grid, and a margin. What has gone astray (findStrays(), by the
 /// poses, or by the lines' length where there is no trajectory) is left out, for one wild pose
 /// would shrink the rest to a dot.

@@ -11,10 +11,12 @@
 #include "io/files/memory_file.hpp"
 #include "io/lines/line_formats.hpp"
 #include "io/maps/map_folder.hpp"
+#include "io/maps/map_frame.hpp"
 #include "io/maps/map_picture.hpp"
 #include "io/maps/map_scene.hpp"
 #include "io/maps/metric_map.hpp"
 #include "io/maps/occupancy_files.hpp"
+#include "io/mrpt/grid_files.hpp"
 #include "io/plans/plan_files.hpp"
 #include "io/poses/local_frame.hpp"
 #include "io/poses/pose_files.hpp"
@@ -61,8 +63,8 @@ std::optional<FloorPlan> addPlan(const std::string& folder, const MapProducts& m
                                  const Eigen::Vector2d& p_grid, nlohmann::ordered_json& summary) {
   if (!map.grid) return std::nullopt;
   try {
-    const FloorPlan plan = planOfMap(map.lines, *map.grid, p_grid);
-    writePlanFiles(folder, plan, map.title, true);
+    const FloorPlan plan = planOfMap(map.lines, asWritten(*map.grid, p_grid));
+    writePlanFiles(folder, planFiles(plan, map.title), true);
     double area = 0.0;
     for (const PlanRoom& room : plan.rooms) area += room.area;
     summary["plan"] = {
@@ -74,43 +76,7 @@ std::optional<FloorPlan> addPlan(const std::string& folder, const MapProducts& m
   }
 }
 
-/// Rooms in the frame that lies at p_frame in theirs, to the micrometre: what is drawn does not
-/// depend on where that is.
-std::vector<PlanRoom> seenFrom(const Eigen::Vector2d& p_frame, std::vector<PlanRoom> rooms) {
-  const auto move = [&p_frame](Eigen::Vector2d& p) {
-    p = (1e6 * (p - p_frame)).array().round().matrix() / 1e6;
-  };
-  for (PlanRoom& room : rooms) {
-    for (Eigen::Vector2d& p : room.outline) move(p);
-    for (Polygon& hole : room.holes) {
-      for (Eigen::Vector2d& p : hole) move(p);
-    }
-    move(room.label);
-  }
-  return rooms;
-}
-
-std::vector<StampedPose> stamped(const std::vector<double>& times,
-                                 const std::vector<Pose2>& trajectory) {
-  std::vector<StampedPose> poses;
-  for (std::size_t k = 0; k < std::min(times.size(), trajectory.size()); ++k) {
-    poses.push_back({times[k], trajectory[k]});
-  }
-  return poses;
-}
-
 }  // namespace
-
-MapProducts mapProducts(const std::string& title, const MappingSession& session) {
-  MapProducts products;
-  products.title = title;
-  products.lines = session.lineMap().lines();
-  products.poly_lines = session.lineMap().polyLines();
-  products.arcs = session.lineMap().arcs();
-  products.trajectory = session.trajectory();
-  products.times = session.times();
-  return products;
-}
 
 FolderLock prepareMapFolder(const std::string& folder, bool overwrite,
                             const std::vector<const char*>& beside) {
@@ -146,24 +112,6 @@ std::string keepMemory(const std::string& folder) {
   return kept;
 }
 
-MapProducts seenFrom(const Eigen::Vector2d& p_frame, MapProducts products) {
-  products.origin += p_frame;
-  for (MapLine& line : products.lines) {
-    line.segment.start -= p_frame;
-    line.segment.end -= p_frame;
-    line.segment.moments.mean -= p_frame;
-  }
-  for (PolyLine& chain : products.poly_lines) {
-    for (auto& vertex : chain.vertices) vertex -= p_frame;
-  }
-  for (MapArc& arc : products.arcs) arc.arc.centre -= p_frame;
-  for (Pose2& pose : products.trajectory) pose = seenFrom(p_frame, pose);
-  for (int k = 0; k < products.graph.size(); ++k) {
-    products.graph.place(k, seenFrom(p_frame, products.graph.pose(k)));
-  }
-  return products;
-}
-
 void writeMapFolder(const std::string& folder, const MapProducts& products) {
   makeFolder(folder);
   withdrawSummary(folder);
@@ -181,9 +129,10 @@ void writeMapFolder(const std::string& folder, const MapProducts& products) {
   put("lines.dxf", linesDxf(lines, poly_lines, trajectory, map.arcs));
   writeLineMap(inFolder(folder, "map.linemap.gz"), lines);
   if (products.grid) {
-    writeOccupancyMap(inFolder(folder, "map"), *products.grid, products.origin);
+    put("map.pgm", occupancyPgm(*products.grid));
+    put("map.yaml", occupancyYaml(asWritten(*products.grid, products.origin), "map.pgm"));
     writeGridMap(inFolder(folder, "map.gridmap.gz"), *products.grid);
-    written.insert(written.end(), {"map.pgm", "map.yaml", "map.gridmap.gz"});
+    written.push_back("map.gridmap.gz");
   }
   auto summary = summarize(products);
   const std::optional<FloorPlan> plan = addPlan(folder, map, products.origin, summary);
@@ -193,7 +142,7 @@ void writeMapFolder(const std::string& folder, const MapProducts& products) {
   writePicture(inFolder(folder, "map.png"), products, picture);
   writeScene(inFolder(folder, "scene.3Dscene"), products);
   if (!map.times.empty()) {
-    const std::vector<StampedPose> poses = stamped(map.times, trajectory);
+    const std::vector<StampedPose> poses = stampedPoses(map);
     put("poses.csv", posesCsv(poses));
     put("poses.tum", posesTum(poses));
   }

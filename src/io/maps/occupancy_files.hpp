@@ -1,34 +1,28 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <mrpt/maps/COccupancyGridMap2D.h>
-
 #include <Eigen/Core>
-#include <memory>
 #include <string>
+
+#include "cca_mrpt/floor_plan/raster.hpp"
 
 namespace cca {
 
-/// Probabilities of being occupied, map_server's customary thresholds.
-inline constexpr float kOccupiedFrom = 0.65F, kFreeBelow = 0.196F;
+/// A grid as a picture of map_server's, NAME.pgm: occupied 0, free 254, unknown 205; rows from the
+/// top.
+std::string occupancyPgm(const OccupancyRaster& grid);
 
-/// Writes NAME.pgm and NAME.yaml in map_server's trinary format: occupied 0, free 254, unknown 205;
-/// rows from the top, origin at the lower left corner. NAME is a path without extension.
-/// MRPT's loadFromROSMapServerYAML() and ROS's map_server read them.
-/// @param p_frame  m, map frame: where the grid's frame lies.
-/// @throws std::runtime_error naming the file and the reason.
-void writeOccupancyMap(const std::string& path_without_extension,
-                       const mrpt::maps::COccupancyGridMap2D& grid,
-                       const Eigen::Vector2d& p_frame = Eigen::Vector2d::Zero());
+/// What NAME.yaml says of it: its origin is the lower left corner, thresholds are map_server's
+/// customary ones. MRPT's loadFromROSMapServerYAML() and ROS's map_server read the two.
+/// @param image  the picture's file name.
+std::string occupancyYaml(const OccupancyRaster& grid, const std::string& image);
 
-/// Reads a map of map_server, as it looks from a frame that lies at p_frame: occupied 0, free 1,
-/// unknown one half.
+/// The grid in the frame in which one that lies at p_frame is its own, as its files tell it: to the
+/// micrometre.
+OccupancyRaster asWritten(OccupancyRaster grid, const Eigen::Vector2d& p_frame);
+
+/// Reads a map of map_server, by its own thresholds.
 /// @throws std::runtime_error as readOccupancyImage() does.
-std::shared_ptr<mrpt::maps::COccupancyGridMap2D> readOccupancyMap(const std::string& yaml_path,
-                                                                  const Eigen::Vector2d& p_frame);
-
-/// Writes MRPT's own file of the grid (.gridmap.gz).
-/// @throws std::runtime_error naming the file and the reason.
-void writeGridMap(const std::string& path, const mrpt::maps::COccupancyGridMap2D& grid);
+OccupancyRaster readOccupancyMap(const std::string& yaml_path);
 
 }  // namespace cca

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <cairo-pdf.h>
-#include <mrpt/img/CImage.h>
 
 #include <algorithm>
 #include <cmath>
 #include <memory>
 #include <stdexcept>
 
-#include "io/files/png_file.hpp"
+#include "io/files/surface_png.hpp"
 #include "io/logs/unhinted_text.hpp"
+#include "io/plans/plan_files.hpp"
 #include "io/plans/plan_formats.hpp"
 #include "plan_sheet.hpp"
 
@@ -95,25 +95,22 @@ std::string planPdf(const FloorPlan& plan, const std::string& title) {
   return pdf;
 }
 
-void writePlanPng(const std::string& path, const FloorPlan& plan, const std::string& title,
-                  int longest_side) {
+std::string planPng(const FloorPlan& plan, const std::string& title, int longest_side) {
   const PlanSheet sheet = layOutPlan(plan, title);
   const double scale = longest_side / std::max(sheet.width, sheet.height);
   const int width = std::max(1, static_cast<int>(std::lround(scale * sheet.width)));
   const int height = std::max(1, static_cast<int>(std::lround(scale * sheet.height)));
   const Surface surface(cairo_image_surface_create(CAIRO_FORMAT_RGB24, width, height),
                         cairo_surface_destroy);
-  draw(path, surface.get(), sheet, scale);
-  const unsigned char* const pixels = cairo_image_surface_get_data(surface.get());
-  const int stride = cairo_image_surface_get_stride(surface.get());
-  mrpt::img::CImage image(static_cast<unsigned>(width), static_cast<unsigned>(height),
-                          mrpt::img::CH_RGB);
-  for (int row = 0; row < height; ++row) {
-    const unsigned char* from = pixels + static_cast<std::ptrdiff_t>(row) * stride;
-    auto* to = image.ptrLine<std::uint8_t>(static_cast<unsigned>(row));
-    for (int column = 0; column < width; ++column, from += 4) to = std::copy_n(from, 3, to);
-  }
-  writePng(image, path);
+  draw("rooms.png", surface.get(), sheet, scale);
+  return pngOf(surface.get());
+}
+
+NamedFiles planFiles(const FloorPlan& plan, const std::string& title) {
+  NamedFiles files = planTexts(plan, title);
+  files.emplace_back("plan.pdf", planPdf(plan, title));
+  files.emplace_back("rooms.png", planPng(plan, title));
+  return files;
 }
 
 }  // namespace cca

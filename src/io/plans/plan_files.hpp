@@ -1,24 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <mrpt/maps/COccupancyGridMap2D.h>
-
 #include <array>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "cca_mrpt/floor_plan/floor_plan.hpp"
 
 namespace cca {
 
-/// What writePlanFiles() writes.
+/// What planFiles() holds.
 inline constexpr std::array<const char*, 6> kPlanFiles{
     {"plan.geojson", "plan.svg", "plan.dxf", "plan.pdf", "rooms.csv", "rooms.png"}};
-
-/// A grid as the floor plan takes it, by the thresholds of writeOccupancyMap().
-/// @param p_frame  m, map frame: where the grid's frame lies.
-OccupancyRaster occupancyOf(const mrpt::maps::COccupancyGridMap2D& grid,
-                            const Eigen::Vector2d& p_frame);
 
 /// The plan of what lies in a map's folder: its lines.csv, and its map.yaml with the image.
 /// @throws std::runtime_error naming the file that is missing or cannot be read.
@@ -28,14 +22,29 @@ FloorPlan planOfFolder(const std::string& folder);
 std::string titleOfFolder(const std::string& folder);
 
 /// The plan of the same lines and grid before they are written: planOfFolder() gives the same.
-FloorPlan planOfMap(const std::vector<MapLine>& lines, const mrpt::maps::COccupancyGridMap2D& grid,
-                    const Eigen::Vector2d& p_frame);
+/// @param grid  as it will be written, see asWritten().
+FloorPlan planOfMap(const std::vector<MapLine>& lines, const OccupancyRaster& grid);
 
-/// Writes kPlanFiles. All are drawn before the first one is written; each appears whole or not at
-/// all. The folder is made where it is missing.
+/// @throws std::runtime_error naming the grid's file where no line ends on it.
+void requireCommonPlace(const std::vector<MapLine>& lines, const OccupancyRaster& grid,
+                        const std::string& yaml);
+
+/// Rooms in the frame that lies at p_frame in theirs, to the micrometre: what is drawn does not
+/// depend on where that is.
+std::vector<PlanRoom> seenFrom(const Eigen::Vector2d& p_frame, std::vector<PlanRoom> rooms);
+
+/// Names, and what the files of that name hold.
+using NamedFiles = std::vector<std::pair<std::string, std::string>>;
+
+/// plan.geojson, plan.svg, plan.dxf and rooms.csv. @param title  for people.
+NamedFiles planTexts(const FloorPlan& plan, const std::string& title);
+
+/// These, plan.pdf and rooms.png. @throws std::runtime_error with Cairo's reason.
+NamedFiles planFiles(const FloorPlan& plan, const std::string& title);
+
+/// Writes them; each appears whole or not at all. The folder is made where it is missing.
 /// @param overwrite  else files that are there already and differ stop it before it writes any.
 /// @throws std::runtime_error naming the file and the reason.
-void writePlanFiles(const std::string& folder, const FloorPlan& plan, const std::string& title,
-                    bool overwrite);
+void writePlanFiles(const std::string& folder, const NamedFiles& files, bool overwrite);
 
 }  // namespace cca

@@ -37,10 +37,8 @@ std::string planSvg(const FloorPlan& plan, const std::string& title);
 /// The same sheet as PDF. @throws std::runtime_error with Cairo's reason.
 std::string planPdf(const FloorPlan& plan, const std::string& title);
 
-/// The same sheet as PNG of `longest_side` pixels.
-/// @throws std::runtime_error naming the file and the reason.
-void writePlanPng(const std::string& path, const FloorPlan& plan, const std::string& title,
-                  int longest_side = 1600);
+/// The same sheet as PNG of `longest_side` pixels. @throws std::runtime_error with the reason.
+std::string planPng(const FloorPlan& plan, const std::string& title, int longest_side = 1600);
 
 /// Names for rooms: a point in the room [m, map frame], and its name.
 using RoomLabels = std::vector<std::pair<Eigen::Vector2d, std::string>>;

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "cca_mrpt/floor_plan/floor_plan.hpp"
-#include "io/maps/canvas.hpp"
+#include "io/maps/colour.hpp"
 
 namespace cca {
 

@@ -250,7 +250,7 @@ void Exploration::finish(const ros::Time& stamp) {
 MapProducts Exploration::products() const {
   if (!hasBegun()) throw std::runtime_error("there is no map yet");
   MapProducts products = mapProducts(settings_.title, session_->mapping());
-  products.grid = recorder_.grid().copy();
+  products.grid = recorder_.grid().raster();
   products.summary["finished"] = finished_ && !failed_;
   products.summary["agreement"] = agreement().overall();
   products.summary["reason"] = state_;

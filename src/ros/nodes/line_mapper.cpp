@@ -221,7 +221,7 @@ class LineMapper {
   MapProducts products() const {
     if (session_->times().empty()) throw std::runtime_error("there is no map yet");
     MapProducts products = mapProducts("line_mapper", *session_);
-    products.grid = grid_.grid().copy();
+    products.grid = grid_.grid().raster();
     products.summary["scans"] = session_->times().size();
     products.summary["agreement"] = session_->agreement().overall();
     if (slam_) products.summary["loops"] = slam_->slam().loopsClosed();

@@ -9,6 +9,7 @@
 #include <exception>
 #include <utility>
 
+#include "io/maps/occupancy_files.hpp"
 #include "io/plans/plan_files.hpp"
 #include "ros/messages/plan_markers.hpp"
 
@@ -75,7 +76,7 @@ void PlanServer::makePlan() {
   if (!map.grid || std::equal(map.trajectory.begin(), map.trajectory.end(), planned_.begin(),
                               planned_.end(), is_same))
     return;
-  plan_ = planOfMap(seenFrom(-map.origin, map).lines, *map.grid, map.origin);
+  plan_ = planOfMap(seenFrom(-map.origin, map).lines, asWritten(*map.grid, map.origin));
   nameRooms(plan_, labels_);
   planned_ = map.trajectory;
   is_shown_ = false;
