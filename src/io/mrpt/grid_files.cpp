@@ -3,9 +3,9 @@
 
 #include <mrpt/maps/COccupancyGridMap2D.h>
 
-#include "simulation/occupancy_image.hpp"
 #include "io/files/gzip_archive.hpp"
 #include "io/maps/occupancy_files.hpp"
+#include "simulation/occupancy_image.hpp"
 
 namespace cca {
 
