@@ -21,8 +21,8 @@ namespace {
 constexpr int kMargin = 2;                     // cells around what is known
 constexpr double kDoor = 1.4, kOpening = 2.5;  // m, the widest of each kind
 constexpr double kStraightBy = 0.06;           // m, where lines do not make a valid polygon
-constexpr double kOnSide = 0.06;               // m
-constexpr double kSmallestHole = 0.05;         // m^2
+constexpr double kOnSide = 0.06;               // m: sides stand on cells of 5 cm
+constexpr double kSmallestHole = 0.05;         // m^2: a pillar of 22 cm is one
 constexpr double kBeyondGrid = 1.0;            // m, ends of lines overshoot what is known by less
 
 std::vector<Passage> candidatePassages(const Structure& structure, const Raster<float>& clearance,

@@ -13,7 +13,7 @@ namespace cca {
 namespace {
 
 constexpr double kParallelFront = 0.97, kSquareSide = 0.26;  // cosines: 14 and 75 degrees
-constexpr double kStraight = 0.06;                           // m
+constexpr double kStraight = 0.06;  // m: more than the stairs of 5 cm that cells make of a side
 
 /// Whether corners k .. k + 5 go along a wall, around something that leans on it, and on.
 bool isStep(const Polygon& outline, std::size_t k, const FurnitureTuning& tuning) {

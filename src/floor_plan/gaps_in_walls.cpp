@@ -9,8 +9,8 @@
 namespace cca {
 namespace {
 
-constexpr double kStep = 0.25;         // cells
-constexpr double kCosParallel = 0.97;  // 14 degrees
+constexpr double kStep = 0.25;         // cells: a ray misses no more than the corner of one
+constexpr double kCosParallel = 0.97;  // the wall goes on as it was, to 14 degrees
 constexpr double kViewed = 0.12;  // m before a wall's face, past the cells that its noise fills
 constexpr double kWall = 0.6;
 constexpr double kSideways = 0.3;  // m; the other wall may be thicker, or stand off by that much

@@ -11,7 +11,7 @@
 namespace cca {
 namespace {
 
-constexpr int kNone = -1;
+constexpr int kNone = -1;  // no edge: these are counted from 0
 constexpr double kSeenFrom =
     0.3;  // cosine; a side of a cell on a slanted line looks aside by 45 degrees
 constexpr double kParallel = 0.2;  // sine of the angle below which two lines do not meet

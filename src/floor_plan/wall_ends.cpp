@@ -9,10 +9,10 @@
 namespace cca {
 namespace {
 
-constexpr double kCosAntiparallel = -0.97;  // 14 degrees
-constexpr double kCosAcross = 0.5;
-constexpr double kAhead = 0.25;  // m; what lies that far before the end is open
-constexpr double kCap = 0.3;     // m, from the end to a line that begins there
+constexpr double kCosAntiparallel = -0.97;  // the faces of one wall look apart, to 14 degrees
+constexpr double kCosAcross = 0.5;          // 60 degrees off the wall at least: it turns there
+constexpr double kAhead = 0.25;             // m; what lies that far before the end is open
+constexpr double kCap = 0.3;                // m, from the end to a line that begins there
 
 /// Whether the wall turns: a long line begins at its end, and leads off across.
 bool turns(const WallEnd& end, const std::vector<MapLine>& lines, const WallEndTuning& tuning) {

@@ -27,6 +27,10 @@ Pose2 operator*(const Pose2& T_a_b, const Pose2& T_b_c) {
   return {p.x(), p.y(), wrapAngle(T_a_b.theta + T_b_c.theta)};
 }
 
+Eigen::Vector3d difference(const Pose2& b, const Pose2& a) {
+  return {b.x - a.x, b.y - a.y, wrapAngle(b.theta - a.theta)};
+}
+
 Eigen::Vector2d operator*(const Pose2& T_a_b, const Eigen::Vector2d& p_b) {
   const double c = std::cos(T_a_b.theta), s = std::sin(T_a_b.theta);
   return {T_a_b.x + c * p_b.x() - s * p_b.y(), T_a_b.y + s * p_b.x() + c * p_b.y()};

@@ -10,34 +10,42 @@
 namespace cca {
 namespace {
 
-constexpr double kViewDistance = 0.5;  // m
-constexpr double kViewTurn = 0.6;      // rad
-constexpr std::size_t kMostViews = 12;
+/// m: more than a cell of what views have seen (kSeenCell), for a nearer view adds few rays that
+/// count; and rad, a sector that a laser of a narrow field had not in view.
+constexpr double kViewDistance = 0.5, kViewTurn = 0.6;
+constexpr std::size_t kMostViews = 12;  // kViewDistance apart, over the six metres of kSeenCell
 /// Cells of what views have seen: wheels err by less over six metres.
 constexpr double kSeenCell = 0.4;  // m
 
 // Of the search.
 constexpr double kPlanCell = 0.2, kPlanStep = 0.1;  // m, of the pyramid; of the points along lines
-constexpr int kPlanLevels = 6;
-constexpr double kQueryReach = 12.0, kQuerySpacing = 0.3;  // m
+constexpr int kPlanLevels = 6;  // coarsest cells of 12.8 m: the query's own reach
+/// m: at the farthest returns a step of the search's turns, one degree, is a cell; and returns a
+/// cell and a half apart, so that hardly two of them look up one cell.
+constexpr double kQueryReach = 12.0, kQuerySpacing = 0.3;
 constexpr double kLeastFit = 0.2;  // mean likelihood: four fifths of the returns are furniture
+/// Matched to one view, five scans' work at the default effort; to kMostViews, sixty scans'.
 constexpr std::size_t kMostCandidates = 300;
-constexpr double kCandidateDistance = 0.5, kCandidateTurn = 0.26;  // m, rad
+/// m, rad: of places so near to each other one is kept, since a match from it reaches the others
+/// (kCoarse), and walls are paired up to 26 degrees aslant; 15 here.
+constexpr double kCandidateDistance = 0.5, kCandidateTurn = 0.26;
 
 /// Beams that are kRaySpacing apart err together where they meet one thing: a wardrobe, a wall
 /// that is not where the plan has it. So much of one of its own is each worth.
 constexpr double kOwnWord = 0.35;
 constexpr double kCoarse = 0.6;  // m, reach of the match of a candidate
-constexpr double kCandidateSigma = 0.3, kCandidateTurnSigma = 0.1;  // m, rad
+/// m, rad: places for which a candidate was kept lie within three of these.
+constexpr double kCandidateSigma = 0.3, kCandidateTurnSigma = 0.1;
 /// Rays that a room is worth, with what is seen through its door: 40 m of walls, it and the
 /// corridor before it.
 constexpr double kRoomRays = 160.0;
-constexpr double kHopeless = -3.0;    // nats, of one view
-constexpr double kBehindBest = 25.0;  // nats
+constexpr double kHopeless = -3.0;    // nats, of one view: a twentieth of a place taken at random
+constexpr double kBehindBest = 25.0;  // nats: some four times kClear, by which one is believed
+/// Each is matched once to a new view: the work of at most two and a half scans of a search.
 constexpr std::size_t kMostHypotheses = 150;
 /// m; places beside the best one, out to twice what the search keeps one place of.
 constexpr double kNeighbourStep = 0.2;
-constexpr int kNeighbourSteps = 5;
+constexpr int kNeighbourSteps = 5;  // to each side: twice kCandidateDistance
 /// Nearer ones are the same place.
 constexpr double kSamePlace = 0.3, kSameTurn = 0.15;  // m, rad
 /// Of a pose that is believed.

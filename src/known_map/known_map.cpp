@@ -17,22 +17,26 @@ namespace {
 /// A scan from the same place tells of the same walls with the same errors of the plan: its news
 /// grow with the way, up to so much (m), a turn of so much (rad).
 constexpr double kNewsDistance = 0.25, kNewsTurn = 0.35;
-constexpr double kLeastNews = 0.02;  // its noise is new
+/// Where the robot stands: the noise of its returns is new, the plan's errors there are not.
+constexpr double kLeastNews = 0.02;
 
 /// A scan errs as a whole by a part of what the wheels err by while it is swept: its ends are bent
 /// apart, of which the mean is nought; and by this at least (m, rad).
 constexpr double kOfSweepError = 0.15, kScanSigma = 0.003, kScanTurnSigma = 0.001;
 
-constexpr double kReachSigmas = 3.0, kArmOfReach = 3.0;  // m
-constexpr double kLeastMatchReach = 0.15;                // m
+/// 99.7 % of the prior lies within; and m, a usual distance of walls, which turns move.
+constexpr double kReachSigmas = 3.0, kArmOfReach = 3.0;
+constexpr double kLeastMatchReach = 0.15;  // m: coarser than the finest reach of a match by a round
 
 /// nats a beam, below which a scan is in doubt; and of what is usual here: where the plan explains
 /// nearly all, a scan of which it explains half is from elsewhere.
 constexpr double kDoubt = 0.1, kDoubtOfUsual = 0.5;
 constexpr double kFewestRays = 8;     // that may put it there
 constexpr double kBetterThere = 0.3;  // nats a beam, for a place found by a search
+/// Scans: one or two are of people, or a door, that pass by; one and a half seconds at 10 Hz of a
+/// robot that stands, before which somebody may stop for a moment.
 constexpr int kLostScansInDoubt = 3, kLostStandingInDoubt = 15;
-constexpr double kLostWayInDoubt = 0.5;                      // m
+constexpr double kLostWayInDoubt = 2.0 * kNewsDistance;      // m: two scans that are all news
 constexpr double kVagueSigma = 1.0, kVagueTurnSigma = 0.35;  // m, rad: who knows no more is lost
 
 /// m, of way that a place has been followed for, to be trusted: out of the room that it was found
@@ -42,16 +46,18 @@ constexpr double kTrustedAfter = 3.0;
 /// of turns [rad/rad].
 constexpr double kWheelReach = 0.5, kWheelTurn = 0.25, kWheelPerWay = 0.15, kWheelTurnPerWay = 0.05,
                  kWheelTurnPerTurn = 0.05;
-/// m, rad: of what errs by more, the place is sought anywhere.
+/// m, rad: of what errs by more, the place is sought anywhere. Nor is a place that somebody tells
+/// sought farther around.
 constexpr double kWidestReach = 3.0, kWidestTurn = 0.8;
 
 /// Of a scan in doubt: the robot may have slipped by a part of what is searched.
 constexpr double kSlipSigma = 0.3, kSlipTurnSigma = 0.2;  // m, rad
 
 constexpr double kSearchHalfWidth = 1.0, kSearchHalfTurn = 0.8;  // m, rad: of a robot that slips
-constexpr double kMostToldWidth = 3.0;                           // m
 
-constexpr double kFirstPlanSigma = 0.02, kLeastPlanSigma = 0.007, kMostPlanSigma = 0.1;  // m
+/// m: at first as of a plan that is drawn with care; at least what a pose errs by among true lines
+/// (docs/localisation.md, .007 m); at most what a match's finest reach still pairs.
+constexpr double kFirstPlanSigma = 0.02, kLeastPlanSigma = 0.007, kMostPlanSigma = 0.1;
 constexpr double kLearnPlan = 0.03, kLearnSights = 0.05;  // of a scan that is all news
 /// Rays through a piece, for it to be a door that stands open, and over those that it explains.
 constexpr double kRaysThroughDoor = 6.0, kThroughOverExplained = 3.0, kRecordLimit = 50.0;
@@ -365,7 +371,7 @@ void KnownMap::State::takePlace(const ScanSurface& surface, const Pose2& T_robot
   const Spread spread = spreadOf(covariance);
   SearchWindow window;
   window.centre = prior.mean;
-  window.half_width = std::min(kReachSigmas * spread.position, kMostToldWidth);
+  window.half_width = std::min(kReachSigmas * spread.position, kWidestReach);
   window.half_turn = std::min(kReachSigmas * spread.turn, M_PI);
   Fit fit = fitAt(surface, prior.mean, prior, PlanLines::kMostReach, 1.0);
   if (const auto elsewhere = global_.bestIn(window, surface)) {

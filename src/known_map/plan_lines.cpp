@@ -10,8 +10,8 @@
 namespace cca {
 namespace {
 
-constexpr double kShortest = 1e-3;   // m
-constexpr double kFacesAlike = 0.9;  // cosine: within 26 degrees
+constexpr double kShortest = 1e-3;   // m: no wall is so short, and its direction would be rounding
+constexpr double kFacesAlike = 0.9;  // cosine, 26 degrees: far from the wall around a corner
 constexpr double kBlind = 0.1;       // m, before the sensor: its place errs by so much
 constexpr double kRim = 0.15;        // m, of a line's end, which a ray may well miss
 

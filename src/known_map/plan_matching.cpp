@@ -11,12 +11,13 @@
 namespace cca {
 namespace {
 
-constexpr double kShrinkReach = 0.7;
+constexpr double kShrinkReach = 0.7;     // a round: the widest, 0.6 m, is the finest after six
 constexpr double kFinestReach = 0.1;     // m: what leans on a wall is no wall
-constexpr double kReachOverSigma = 4.0;  // of the robust kernel
-constexpr int kRoundsAtMost = 12;
+constexpr double kReachOverSigma = 4.0;  // of the robust kernel: what is beyond is another wall's
+constexpr int kRoundsAtMost = 12;        // six shrink the widest reach; the rest settle
 constexpr double kStill = 2e-4, kStillTurn = 5e-5;  // m, rad: a tenth of what a match is worth
 constexpr double kFewOnPiece = 5.0;                 // returns, for its mean distance to tell
+/// A pose has three numbers, which leave the mean distances of three pieces nought.
 constexpr int kFewPieces = 4;
 
 /// Of the returns that lie on one piece.

@@ -10,7 +10,7 @@ namespace cca {
 namespace {
 
 constexpr double kFarthestRay = 15.0;  // m; further out a degree of heading is a quarter of a metre
-constexpr double kSilentSpacing = 0.07;  // rad, four degrees
+constexpr double kSilentSpacing = 0.07;  // rad: kRaySpacing, at a usual distance of walls, 3.6 m
 constexpr double kShortOfFree = 0.3;     // m, that a silent beam is taken to have seen less
 
 /// What the beams of a scan are at a pose that somebody guesses, in a building.

@@ -37,7 +37,7 @@ struct SightRay {
 /// Of a scan: returns kRaySpacing apart, so that near surfaces do not drown the others, and every
 /// few degrees a beam without return, as far as it saw.
 std::vector<SightRay> sightRays(const ScanSurface& surface);
-inline constexpr double kRaySpacing = 0.25;  // m
+inline constexpr double kRaySpacing = 0.25;  // m: so much of a wall is one word, near or far
 
 /// What a plan says of such beams at a pose.
 /// @param tolerance  m, of what is explained; see sightTolerance().

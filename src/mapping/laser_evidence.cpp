@@ -141,7 +141,7 @@ std::array<BeamRange, 2> beamsTowards(const Scan& scan, const Eigen::Vector2d& s
   const Pose2& T = scan.T_map_sensor;
   const Eigen::Vector2d a = start - T.position(), b = end - T.position();
   const double spacing = std::abs(scan.angle_increment), nearest = std::min(a.norm(), b.norm());
-  const double all = static_cast<double>(scan.size());
+  const auto all = static_cast<double>(scan.size());
   if (!std::isfinite(scan.angle_min) || !std::isfinite(spacing)) return {};
   if (spacing <= 0.0 || !(nearest > off)) return {BeamRange{0, scan.size()}, {}};
   const double side = cross(a, b);

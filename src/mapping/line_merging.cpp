@@ -31,7 +31,7 @@ double gapToNext(const ScanPoints& points, const FittedRun& a, const FittedRun& 
 double similarityOf(const RunFitter& fitter, const AlphaCut& cut, const FittedRun& run,
                     const FittedRun& next, double gap) {
   if (gap > 0.0 && !cut.without(Part::kGap)) return 0.0;
-  const FittedSegment joint = fitter.fit(run.first, next.last);
+  const FittedRun joint = fitter.fit(run.first, next.last);
   return cut.similarity(memberships(run, next, joint, gap, fitter.linePrice()));
 }
 

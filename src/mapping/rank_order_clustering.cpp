@@ -70,7 +70,7 @@ bool sortOnce(const Ones& ones, std::vector<int>* order, std::vector<int>* place
 }  // namespace
 
 std::vector<int> rankOrderGroups(const SimilarityMatrix& similarity, const AlphaCut& cut) {
-  if (allAlike(similarity, cut.value)) return std::vector<int>(similarity.size(), 0);
+  if (allAlike(similarity, cut.value)) return std::vector<int>(similarity.size());
   const Ones ones = cutMatrix(similarity, cut.value);
   std::vector<int> order(static_cast<std::size_t>(similarity.size()));
   std::iota(order.begin(), order.end(), 0);

@@ -18,7 +18,7 @@ void WallIndex::insert(Slot slot, const Eigen::Vector2d& from, const Eigen::Vect
         std::vector<Slot>& slots = cells_[keyOf({x, y})];
         if (std::find(slots.begin(), slots.end(), slot) != slots.end()) continue;
         slots.push_back(slot);
-        cells.push_back({x, y});
+        cells.emplace_back(x, y);
       }
     }
   }

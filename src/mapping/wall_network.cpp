@@ -51,7 +51,8 @@ struct Equation {
 
 /// The elements of the inverse where the factor L is not zero, in its order of elimination
 /// [Takahashi et al. 1973].
-Eigen::SparseMatrix<double> selectedInverse(Eigen::SparseMatrix<double> L) {
+Eigen::SparseMatrix<double> selectedInverse(const Eigen::SparseMatrix<double>& L) {
+  // NOLINTNEXTLINE(performance-unnecessary-copy-initialization): written through its iterators
   Eigen::SparseMatrix<double> inverse = L;
   std::vector<double> column(static_cast<std::size_t>(L.rows()), 0.0);
   using Iterator = Eigen::SparseMatrix<double>::InnerIterator;

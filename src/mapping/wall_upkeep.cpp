@@ -160,12 +160,12 @@ bool changedMuch(const Wall& wall) {
 void seeToTouched(Walls& walls, const MapNoise& noise, const CcaParameters& parameters,
                   std::uint64_t& next_id) {
   const AlphaCut cut(parameters);
-  std::vector<Slot>& touched = walls.touched();
   // What is cut off from a wall may be shared out so that the wall is bent again, and so on for
   // ever: there are no more cuts than walls that the scan has touched.
-  std::size_t cuts_left = cut.without(Part::kBends) ? 0 : touched.size();
-  for (std::size_t i = 0; i < touched.size(); ++i) {
-    const Slot slot = touched[i];
+  std::size_t cuts_left = cut.without(Part::kBends) ? 0 : walls.touched().size();
+  // More are touched meanwhile.
+  for (std::size_t i = 0; i < walls.touched().size(); ++i) {
+    const Slot slot = walls.touched()[i];
     walls[slot].touched = false;
     if (!walls[slot].alive) continue;
     if (!walls.prune(slot)) {
@@ -189,7 +189,7 @@ void seeToTouched(Walls& walls, const MapNoise& noise, const CcaParameters& para
     recut(walls[slot], noise, linePrice(parameters.vertex_price), next_id);
     walls.place(slot);
   }
-  touched.clear();
+  walls.touched().clear();
   walls.recycle();
 }
 

@@ -16,12 +16,13 @@ namespace {
 
 constexpr double kHome = 0.3;       // m
 constexpr double kPathLost = 10.0;  // s; who stands in the only path for a moment may leave
-constexpr int kMostHeld = 2;
+constexpr int kMostHeld = 2;  // times on one errand: the first may have been somebody who passed
 // Number of the goal, see Plan::goal; those of errands lie below.
 constexpr int kHomeGoal = Plan::kLookAround - 1;
 
-constexpr double kMuchUnreached = 1.0;  // m^2
-constexpr double kMuchOfAll = 0.05;
+// m^2, as small as the floor plan's smallest room; of a large place less than a twentieth is no
+// more than a corner.
+constexpr double kMuchUnreached = 1.0, kMuchOfAll = 0.05;
 
 using Path = std::vector<Eigen::Vector2d>;
 

@@ -9,6 +9,8 @@
 #include <tuple>
 #include <utility>
 
+#include "slam/surface_matching.hpp"
+
 namespace cca {
 namespace {
 

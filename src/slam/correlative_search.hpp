@@ -5,8 +5,8 @@
 #include <optional>
 #include <vector>
 
+#include "cca_mrpt/geometry/pose2.hpp"
 #include "slam/likelihood_pyramid.hpp"
-#include "slam/surface_matching.hpp"
 
 namespace cca {
 

@@ -22,10 +22,6 @@ constexpr double kSettled = 5e-4, kSettledTurn = 1e-4;
 
 }  // namespace
 
-Eigen::Vector3d difference(const Pose2& b, const Pose2& a) {
-  return {b.x - a.x, b.y - a.y, wrapAngle(b.theta - a.theta)};
-}
-
 int coarseStride(const ScanSurface& query) {
   constexpr int kCoarseReturns = 90;  // evenly over the scan: two degrees apart
   return std::max(1, static_cast<int>(query.points.size()) / kCoarseReturns);

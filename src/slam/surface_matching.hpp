@@ -23,9 +23,6 @@ struct PoseBelief {
 /// Degrees of freedom of a prior about a pose: Student's t, for wheels slip now and then.
 inline constexpr double kPriorFreedom = 4.0;
 
-/// b as seen from a, in the axes of the map: the step (dx, dy, dtheta) that takes a to b.
-Eigen::Vector3d difference(const Pose2& b, const Pose2& a);
-
 /// The quadratic form of the point-to-line distances of one surface on others, about a pose:
 /// cost(step) = step' H step / 2 + g' step, step = (dx, dy, dtheta) in the map's axes, turning
 /// about the sensor.

@@ -22,9 +22,9 @@ constexpr double kSearchCell = 0.05, kSearchSpacing = 0.1, kSearchReach = 12.0;
 constexpr int kSearchLevels = 3, kLevelsAllRound = 5;
 /// 99.7 % of the prior lies within the window.
 constexpr double kSearchSigmas = 3.0;
-/// m, rad; a wider window finds the next door as well, which is for loop closing to tell apart. A
-/// narrower one than the least is what a match reaches by itself.
+/// m, rad; a wider window finds the next door as well, which is for loop closing to tell apart.
 constexpr double kWidestWindowHere = 1.0, kWidestTurn = 1.0;
+/// m, rad; a narrower window is what a match reaches by itself.
 constexpr double kLeastSearch = 0.2, kLeastTurn = 0.2;
 constexpr double kSearchArm = 3.0;  // m, a usual distance of walls
 /// Share of the prior's information that is left where it is not to decide: a scan that sees

@@ -8,7 +8,7 @@ set -u
 cd "$(dirname "$0")/../.." || exit
 command -v clang-tidy >/dev/null || { echo "tidy: SKIPPED (no clang-tidy here: Debian's clang-tidy)"; exit 0; }
 layers=("$@")
-[ $# -gt 0 ] || layers=(geometry motion sensing localisation)
+[ $# -gt 0 ] || layers=(geometry motion sensing localisation mapping)
 units=$(mktemp -d)
 trap 'rm -rf "$units"' EXIT
 for layer in "${layers[@]}"; do

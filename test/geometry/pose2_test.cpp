@@ -21,6 +21,15 @@ TEST(Pose2, CompositionEqualsOneAfterTheOther) {
   EXPECT_NEAR(((a * b) * p - a * (b * p)).norm(), 0.0, 1e-12);
 }
 
+TEST(Pose2, DifferenceIsAStepInTheCommonFrameAndTurnsTheShortWay) {
+  const Pose2 a{1.0, 2.0, 3.0}, b{0.5, 4.0, -3.0};
+  const Eigen::Vector3d step = difference(b, a);
+  EXPECT_DOUBLE_EQ(step.x(), -0.5);
+  EXPECT_DOUBLE_EQ(step.y(), 2.0);
+  EXPECT_NEAR(step.z(), 2.0 * M_PI - 6.0, 1e-12);
+  EXPECT_EQ(difference(a, a), Eigen::Vector3d::Zero());
+}
+
 TEST(WrapAngle, StaysWithinHalfATurnAndKeepsTheDirection) {
   for (double angle = -20.0; angle < 20.0; angle += 0.1) {
     EXPECT_LE(std::abs(wrapAngle(angle)), M_PI);

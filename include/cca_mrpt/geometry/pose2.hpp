@@ -24,6 +24,10 @@ bool isFinite(const Pose2& pose);
 /// Composition, T_a_c = T_a_b * T_b_c; theta wrapped to (-pi, pi].
 Pose2 operator*(const Pose2& T_a_b, const Pose2& T_b_c);
 
+/// b - a, number by number: the step (dx, dy, dtheta) [m, m, rad] in the axes of their common frame
+/// that takes a to b; dtheta in (-pi, pi].
+Eigen::Vector3d difference(const Pose2& b, const Pose2& a);
+
 /// A point of frame b in frame a.
 Eigen::Vector2d operator*(const Pose2& T_a_b, const Eigen::Vector2d& p_b);
 

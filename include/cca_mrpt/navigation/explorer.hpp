@@ -100,7 +100,7 @@ class Explorer {
   void recall();
   /// Whether it is on the way to where it was sent.
   bool isSent() const;
-  static constexpr double kBesideGoal = 0.25;  ///< m
+  static constexpr double kBesideGoal = 0.25;  ///< m: a robot of usual radius covers the place then
 
   /// Exploration stays inside a polygon (m, map frame). To be called before the first step.
   void limitTo(std::vector<Eigen::Vector2d> polygon);

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "slam/surface_matching.hpp"
+#include "cca_mrpt/geometry/pose2.hpp"
 
 namespace cca::apps {
 namespace {

@@ -10,14 +10,14 @@
 namespace cca {
 namespace {
 
-constexpr double kShorter = 0.02;    // m: less is noise
+constexpr double kShorter = 0.02;    // m: less is noise of the pose, not way
 constexpr double kAnotherWay = 0.5;  // m longer, from one step to the next
 constexpr double kPatience = 10.0;   // s, and a whole turn
 constexpr double kSlowest = 0.2;     // of full speed: who is slower on the whole way is stuck
 constexpr double kGrace = 30.0;      // s, for turns, people and narrow places on any way
 
-constexpr double kMoved = 0.5;   // m, in any direction
-constexpr double kWalked = 0.2;  // m, along a boundary
+constexpr double kMoved = 0.5;   // m, any way, within kPatience: slower is standing
+constexpr double kWalked = 0.2;  // m, along a boundary, which may wind back
 
 }  // namespace
 

@@ -11,7 +11,7 @@
 namespace cca {
 namespace {
 
-constexpr double kSameWayPoint = 0.1;      // m
+constexpr double kSameWayPoint = 0.1;      // m: below what counts as reached, see driveTo()
 constexpr double kReachedWayPoint = 0.15;  // m, a little more than Tangent Bug stops at
 constexpr double kAtHeading = 0.05;        // rad, of a goal's heading
 constexpr double kAround = 2.0;            // m, of the robot: what a narrow laser saw before

@@ -8,10 +8,11 @@
 namespace cca {
 namespace {
 
-constexpr double kReconsiderAfter = 0.5;         // m driven
-constexpr std::size_t kWorthReconsidering = 20;  // cells newly seen
+/// m driven: a place 0.4 m away is another one (the spacing of view points).
+constexpr double kReconsiderAfter = 0.5;
+constexpr std::size_t kWorthReconsidering = 20;  // cells newly seen: a third of kPromising
 constexpr double kPromising = 0.15;              // m^2 that are expected for their way
-constexpr double kPassed = 0.1;                  // m, of a corner
+constexpr double kPassed = 0.1;                  // m, two cells: a corner is no truer than these
 constexpr double kLongestInVain = 100.0;         // m, and once around what is known
 constexpr std::size_t kMostExplained = 12;       // candidates, as many as a tour has stops
 
@@ -353,7 +354,7 @@ std::vector<Eigen::Vector2d> GlobalPlanner::pathTo(const WorldModel& world,
   PlanningScene scene = sceneOf(world);
   scene.blockPath(lost_path);
   if (!scene.grid().covers(robot_map) || !scene.grid().covers(goal_map)) return {};
-  constexpr int kNearEnough = 10;  // cells
+  constexpr int kNearEnough = 10;  // cells, 0.5 m: past the clearance of a place beside a wall
   std::vector<Eigen::Vector2d> path;
   do {
     Cell goal;

@@ -36,7 +36,7 @@ struct Plan {
   PlanPhase phase = PlanPhase::kUndecided;
   /// Number of the goal, from 1 on; kLookAround where looking around; else 0.
   int goal = 0;
-  static constexpr int kLookAround = -1;
+  static constexpr int kLookAround = -1;  ///< goals begin at 1, home and errands are below
   /// m, map frame, from the robot to the goal: corner points, two at least. Empty but where
   /// driving.
   std::vector<Eigen::Vector2d> path;

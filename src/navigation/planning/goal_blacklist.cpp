@@ -8,7 +8,7 @@ namespace cca {
 namespace {
 
 constexpr std::size_t kRetryAfter = 4000;  // cells newly seen: 10 m^2
-constexpr int kSameTarget = 3;             // cells
+constexpr int kSameTarget = 3;             // cells: the edge of the unknown moves as it is seen
 constexpr double kSamePlace = 6.0;         // cells, that a robot is held at
 constexpr double kAhead = 0.6;             // m, of a path that is blocked
 constexpr int kAside = 2;                  // cells, to both sides of it

@@ -24,7 +24,7 @@ constexpr double kCut = ExplorationGrid::kBehindSurface;
 // apartments, halls and galleries; at 0.05 to 0.08 it leaves faces and crowded corners unseen.
 constexpr double kFace = 0.2, kExpectedOfFace = 0.1;
 
-constexpr int kCount = 360;
+constexpr int kCount = 360;  // rays, one a degree: as fine as the beams of a usual laser
 /// Never along an axis: no ties at corners.
 const std::vector<Eigen::Vector2d> kRays = directionsAround(kCount, M_PI / kCount);
 

@@ -30,6 +30,7 @@ struct Side {
   unsigned cells;
   int shift;
 };
+/// In the order of kNeighbours, of blocks of 4 x 4 bits.
 constexpr Side kSides[8] = {{kRight, 3},  {kTop, 12},  {kLeft, -3},   {kBottom, -12},
                             {0x8000, 15}, {0x1000, 9}, {0x0001, -15}, {0x0008, -9}};
 

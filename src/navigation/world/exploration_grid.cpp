@@ -22,8 +22,9 @@ constexpr double kWithin = 2.0;  // deviations: where a beam may be
 // Cells. What lies before a return is known to be free only up to this distance: noise and rounding
 // must not open the wall.
 constexpr double kBeforeSurface = 0.3;
-constexpr double kWidestGuess = 1.5;         // m, of a wall between two returns
-constexpr std::size_t kMostBetween = 8;      // rays between two beams
+constexpr double kWidestGuess = 1.5;  // m, of a wall between two returns
+// Rays between two beams: enough to 23 m where these are a degree apart. It bounds the cost.
+constexpr std::size_t kMostBetween = 8;
 constexpr double kLongestRangeCells = 4000;  // 200 m at 5 cm
 // What was seen of a cell: its sides that returns came from, a bit each, and whether there were any
 // so near to it along one surface that they tell of what is between.

@@ -79,6 +79,7 @@ class FreeSpace {
   double clearance_;
   std::vector<Grown> disc_;  ///< the cells that an obstacle comes near to
   TiledGrid<Place> cells_;
+  /// How many cells a block has, and a bit for each.
   static constexpr unsigned kCellsOfBlock = kBlock * kBlock, kAllCells = 0xFFFF;
   TiledGrid<std::uint32_t> blocks_;  ///< traversable cells, then passed ones, a bit each
 };

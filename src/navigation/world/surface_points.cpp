@@ -15,7 +15,7 @@ constexpr double kSteepest = 4.0;  // widest gap in one surface, in spacings of 
 // Of a gap, from it to a third return in line. A return from around a corner, close by, is in line
 // with anything: it would wall up doorways.
 constexpr double kLeastReach = 0.2, kMostReach = 4.0;
-constexpr double kInLine = 0.03;   // m, grows with that
+constexpr double kInLine = 0.03;   // m, three deviations of 1 cm; it grows with that
 constexpr double kBaseline = 2.0;  // cells: ten deviations of 1 cm, and a corner is rounded by them
 
 using Points = std::vector<SurfacePoint>;

@@ -28,8 +28,8 @@ class ScannedPlaces {
   bool contains(Cell c) const { return looked_.at(FreeSpace::blockOf(c)) == kAllAround; }
 
  private:
-  static constexpr std::uint32_t kAllAround = 0xFFFFFFFF;
-  TiledGrid<std::uint32_t> looked_{0};  ///< the directions, a bit each
+  static constexpr std::uint32_t kAllAround = 0xFFFFFFFF;  ///< a bit for each of 32 sectors
+  TiledGrid<std::uint32_t> looked_{0};                     ///< the directions, a bit each
 };
 
 /// What is known of the world: what the laser has seen, where the robot can be, the frontiers, and

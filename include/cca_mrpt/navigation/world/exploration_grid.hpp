@@ -86,6 +86,7 @@ class ExplorationGrid {
 
  private:
   using Evidence = std::int8_t;
+  /// Below all that evidence comes to.
   static constexpr Evidence kNever = -128, kFreePresumed = -127, kWallPresumed = -126;
   static CellState stateOf(Evidence e) {
     if (e > 0) return CellState::kOccupied;

@@ -52,7 +52,7 @@ Contact nextContact(const ConfigurationSpace& space, int contact, double angle, 
   return next;
 }
 
-constexpr double kPlaceSpacing = 0.1;  // m, between remembered places
+constexpr double kPlaceSpacing = 0.1;  // m, half of kTolerance: between two places none is missed
 constexpr double kTolerance = 0.2;     // m, below the robot's width: not the wall's other side
 constexpr double kLeastLength = 1.0;   // m, less than once around a single point
 constexpr double kOverlap = 0.8;       // m, walked twice: seen from all of the loop
@@ -65,7 +65,7 @@ constexpr double kLookedAt = 0.15;      // m, by which the nearest place may be 
 constexpr double kSensed = 8.0;         // m, traced each way for the first d_followed
 constexpr double kBeside = 1.0;         // m; a boundary farther off is another one
 constexpr double kBoundaryMoves = 0.3;  // m, at most, between two steps
-constexpr double kNarrow = 0.3;         // m, ahead
+constexpr double kNarrow = 0.3;         // m ahead, past the hull of a robot of usual radius
 constexpr double kHidden = 0.1;         // m, beyond what a beam sees
 
 bool isInSight(const LocalView& view, const Eigen::Vector2d& p_map) {
