@@ -7,6 +7,7 @@
 
 #include "contradiction.hpp"
 #include "io/files/stray_places.hpp"
+#include "slam/loop_review.hpp"
 
 namespace cca::apps {
 namespace {
