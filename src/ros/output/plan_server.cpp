@@ -98,15 +98,20 @@ void PlanServer::show() {
   is_shown_ = true;
 }
 
+bool PlanServer::tryPlan(std::string& why_not) {
+  try {
+    makePlan();
+    return true;
+  } catch (const std::exception& error) {
+    why_not = error.what();
+    return false;
+  }
+}
+
 bool PlanServer::onRoomAt(cca_mrpt::RoomAt::Request& request,
                           cca_mrpt::RoomAt::Response& response) {
   response.success = false;
-  try {
-    makePlan();
-  } catch (const std::exception& error) {
-    response.message = error.what();
-    return true;
-  }
+  if (!tryPlan(response.message)) return true;
   const int id = roomAt(plan_, {request.point.x, request.point.y});
   const auto room = std::find_if(plan_.rooms.begin(), plan_.rooms.end(),
                                  [id](const PlanRoom& one) { return one.id == id; });
@@ -128,12 +133,7 @@ bool PlanServer::onRoomAt(cca_mrpt::RoomAt::Request& request,
 bool PlanServer::onDriveToRoom(cca_mrpt::DriveToRoom::Request& request,
                                cca_mrpt::DriveToRoom::Response& response) {
   response.success = false;
-  try {
-    makePlan();
-  } catch (const std::exception& error) {
-    response.message = error.what();
-    return true;
-  }
+  if (!tryPlan(response.message)) return true;
   const PlanRoom* room = roomCalled(request.room, plan_.rooms);
   if (!room) {
     response.message = "no room is called '" + request.room + "'; " + callNames(plan_.rooms);

@@ -32,6 +32,8 @@ class PlanServer {
  private:
   void show();
   void makePlan();
+  /// @return  false: there is none, and why.
+  bool tryPlan(std::string& why_not);
   bool onRoomAt(cca_mrpt::RoomAt::Request& request, cca_mrpt::RoomAt::Response& response);
   bool onDriveToRoom(cca_mrpt::DriveToRoom::Request& request,
                      cca_mrpt::DriveToRoom::Response& response);
