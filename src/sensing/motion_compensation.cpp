@@ -48,6 +48,7 @@ Scan MotionCompensation::undistort(const Scan& scan, const SweepMotion& motion) 
   if (!now || (!taken_.empty() && !follows(taken_.back().middle, *now))) taken_.clear();
   Scan swept = scan;
   swept.sweep_duration = duration_ = 0.0;
+  undone_.reset();
   if (!now || scan.size() < 2) return swept;
   if (!taken_.empty()) periods_.push_back(now->time - taken_.back().middle.time);
   if (periods_.size() > kPeriods) periods_.pop_front();
@@ -62,8 +63,24 @@ Scan MotionCompensation::undistort(const Scan& scan, const SweepMotion& motion) 
   if (motion.before && follows(*motion.before, *now)) readings = {*motion.before, *now};
   if (motion.after && follows(*now, *motion.after)) readings.push_back(*motion.after);
   const double half = 0.5 * std::abs(duration_);
-  return cca::undistort(swept, meanTwist(readings, now->time - half, now->time),
-                        meanTwist(readings, now->time, now->time + half));
+  before_ = meanTwist(readings, now->time - half, now->time);
+  after_ = meanTwist(readings, now->time, now->time + half);
+  if (isBent(swept, before_, after_)) {
+    const Eigen::Vector2d way = half * (before_.linear + after_.linear);
+    const bool is_clockwise = (duration_ < 0.0) != (scan.angle_increment < 0.0);
+    undone_ = {{way.x(), way.y(), half * (before_.angular + after_.angular)},
+               is_clockwise ? -1.0 : 1.0};
+    swept_ = swept;
+  }
+  return cca::undistort(swept, before_, after_);
+}
+
+Scan MotionCompensation::undistortBy(const Pose2& motion) const {
+  const double duration = std::abs(swept_.sweep_duration);
+  const Eigen::Vector2d linear = (motion.position() - undone_->motion.position()) / duration;
+  const double angular = (motion.theta - undone_->motion.theta) / duration;
+  return cca::undistort(swept_, {before_.linear + linear, before_.angular + angular},
+                        {after_.linear + linear, after_.angular + angular});
 }
 
 void MotionCompensation::amend(const Pose2& T_odom_sensor) {

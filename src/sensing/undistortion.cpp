@@ -117,12 +117,16 @@ Twist sensorTwist(const Twist& robot, const Pose2& T_robot_sensor) {
   return {{c * v.x() + s * v.y(), c * v.y() - s * v.x()}, robot.angular};
 }
 
+bool isBent(const Scan& scan, const Twist& before, const Twist& after) {
+  return scan.size() > 1 && scan.angle_increment != 0.0 &&
+         !(isNoMatter(scan, before) && isNoMatter(scan, after));
+}
+
 Scan undistort(const Scan& scan, const Twist& before, const Twist& after) {
   Scan still = scan;
   still.sweep_duration = 0.0;
+  if (!isBent(scan, before, after)) return still;
   const std::size_t n = scan.size();
-  if (n < 2 || scan.angle_increment == 0.0) return still;
-  if (isNoMatter(scan, before) && isNoMatter(scan, after)) return still;
   const std::vector<Moved> moved = movedBeams(scan, before, after);
   const bool closed = seesAllAround(scan);
   // Of each bearing, the beam that lies nearest.

@@ -35,6 +35,8 @@ Pose2 moveBy(const Twist& twist, double dt);
 ///                and a millimetre at either end.
 /// Cost: O(beams).
 Scan undistort(const Scan& scan, const Twist& before, const Twist& after);
+/// Whether there is something to undo.
+bool isBent(const Scan& scan, const Twist& before, const Twist& after);
 inline Scan undistort(const Scan& scan, const Twist& sensor) {
   return undistort(scan, sensor, sensor);
 }

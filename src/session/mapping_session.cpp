@@ -81,7 +81,7 @@ SweepMotion MappingSession::motionOf(const Measurement& measurement, std::size_t
 bool MappingSession::undistort(const Measurement& measurement, std::size_t sensor) {
   MotionCompensation& compensation = compensationOf(sensor);
   const int version = compensation.version(), lasers = compensation.lasers();
-  analyseScan(compensation.undistort(measurement.scan, motionOf(measurement, sensor)));
+  analyseUndistorted(measurement, sensor);
   if (lesson_is_due_ || compensation.lasers() != lasers) beginLesson();
   if (!lesson_) return false;
   lesson_->taken.push_back({measurement, sensor});
@@ -115,8 +115,7 @@ Estimate MappingSession::repeat() {
   if (!corrects || !settings_.maps_at_the_end) rebuild();
   Estimate estimate;
   for (const Taken& taken : lesson_->taken) {
-    const SweepMotion motion = motionOf(taken.measurement, taken.sensor);
-    analyseScan(compensationOf(taken.sensor).undistort(taken.measurement.scan, motion));
+    analyseUndistorted(taken.measurement, taken.sensor);
     estimate = localise(taken.measurement, taken.sensor);
   }
   for (auto& [sensor, compensation] : *compensations_) compensation.learnOn();
@@ -132,6 +131,15 @@ Estimate MappingSession::repeat() {
   state_.past.correct(was, was_localised);
   state_.past.correct(poses, localised);
   return estimate;
+}
+
+/// By the odometry, and then by what the scan itself shows of the motion within.
+void MappingSession::analyseUndistorted(const Measurement& measurement, std::size_t sensor) {
+  MotionCompensation& compensation = compensationOf(sensor);
+  analyseScan(compensation.undistort(measurement.scan, motionOf(measurement, sensor)));
+  if (sensor != 0 || !compensation.undone()) return;
+  const auto motion = localiser_->sweepMotion(measurement, analysed_, *compensation.undone());
+  if (motion) analyseScan(compensation.undistortBy(*motion));
 }
 
 void MappingSession::analyseScan(Scan scan) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -177,6 +178,50 @@ PackedPoints everyOf(const PackedPoints& points, int stride) {
   return some;
 }
 
+/// The pairs of all references, and of each return how many there are.
+struct PairsOfAll {
+  PairsOfAll(const PackedPoints& points, const Pose2& T_map_query,
+             const std::vector<PlacedSurface>& references, double reach)
+      : partners(points.x.size(), 0) {
+    for (const PlacedSurface& placed : references) {
+      of_reference.push_back(
+          pairsWith(*placed.surface, points, placed.T_map_sensor.inverse() * T_map_query, reach));
+      for (const std::int32_t k : of_reference.back().of) ++partners[static_cast<std::size_t>(k)];
+    }
+  }
+  int paired() const {
+    return static_cast<int>(partners.size() - std::count(partners.begin(), partners.end(), 0));
+  }
+  std::vector<Pairs> of_reference;
+  std::vector<int> partners;
+};
+
+/// @param weight_of  of return k.
+template <class WeightOf>
+MatchQuadric sumPairs(PairsOfAll& pairs, const std::vector<PlacedSurface>& references,
+                      const MatchScale& scale, const WeightOf& weight_of) {
+  MatchQuadric quadric;
+  const double weight_of_sigma = 1.0 / (scale.sigma * scale.sigma);
+  std::vector<float> shares;
+  for (std::size_t r = 0; r < references.size(); ++r) {
+    // Each return counts once, however many references saw its place.
+    shares.clear();
+    for (const std::int32_t of : pairs.of_reference[r].of) {
+      const auto k = static_cast<std::size_t>(of);
+      shares.push_back(weight_of(k) / static_cast<float>(pairs.partners[k]));
+    }
+    addPairs(pairs.of_reference[r], shares, weight_of_sigma, references[r].T_map_sensor.theta,
+             quadric);
+  }
+  const double information = kIndependent * weight_of_sigma * scale.stride;
+  quadric.paired = pairs.paired() * scale.stride;
+  quadric.H *= information;
+  quadric.g *= information;
+  quadric.sum_weights *= scale.stride;
+  quadric.sum_sq *= scale.stride;
+  return quadric;
+}
+
 }  // namespace
 
 MatchQuadric matchQuadric(const ScanSurface& query, const Pose2& T_map_query,
@@ -184,29 +229,23 @@ MatchQuadric matchQuadric(const ScanSurface& query, const Pose2& T_map_query,
   PackedPoints some;
   if (scale.stride > 1) some = everyOf(query.packed, scale.stride);
   const PackedPoints& points = scale.stride > 1 ? some : query.packed;
-  std::vector<Pairs> pairs;
-  std::vector<int> partners(points.x.size(), 0);  // of each return
-  for (const PlacedSurface& placed : references) {
-    pairs.push_back(pairsWith(*placed.surface, points, placed.T_map_sensor.inverse() * T_map_query,
-                              scale.reach));
-    for (const std::int32_t k : pairs.back().of) ++partners[static_cast<std::size_t>(k)];
-  }
-  MatchQuadric quadric;
-  const double weight_of_sigma = 1.0 / (scale.sigma * scale.sigma);
-  std::vector<float> shares;
-  for (std::size_t r = 0; r < references.size(); ++r) {
-    // Each return counts once, however many references saw its place.
-    shares.clear();
-    for (const std::int32_t k : pairs[r].of)
-      shares.push_back(1.0F / static_cast<float>(partners[static_cast<std::size_t>(k)]));
-    addPairs(pairs[r], shares, weight_of_sigma, references[r].T_map_sensor.theta, quadric);
-  }
-  for (const int count : partners) quadric.paired += count > 0 ? scale.stride : 0;
-  const double information = kIndependent * weight_of_sigma * scale.stride;
-  quadric.H *= information;
-  quadric.g *= information;
-  quadric.sum_weights *= scale.stride;
-  quadric.sum_sq *= scale.stride;
+  PairsOfAll pairs(points, T_map_query, references, scale.reach);
+  return sumPairs(pairs, references, scale, [](std::size_t) { return 1.0F; });
+}
+
+SweepQuadric sweepQuadric(const PackedPoints& query, const std::vector<float>& times,
+                          const Pose2& T_map_query, const std::vector<PlacedSurface>& references,
+                          const MatchScale& scale) {
+  PairsOfAll pairs(query, T_map_query, references, scale.reach);
+  const MatchQuadric of_pose = sumPairs(pairs, references, scale, [](std::size_t) { return 1.0F; });
+  const MatchQuadric mixed =
+      sumPairs(pairs, references, scale, [&](std::size_t k) { return times[k]; });
+  const MatchQuadric of_motion =
+      sumPairs(pairs, references, scale, [&](std::size_t k) { return times[k] * times[k]; });
+  SweepQuadric quadric;
+  quadric.H << of_pose.H, mixed.H, mixed.H, of_motion.H;
+  quadric.g << of_pose.g, mixed.g;
+  quadric.paired = of_pose.paired;
   return quadric;
 }
 

@@ -13,11 +13,9 @@ constexpr double kJumpVariance = 1.0;
 
 }  // namespace
 
-std::optional<Pose2> OdometryChain::stepTo(const std::optional<Pose2>& T_odom_sensor) {
-  std::optional<Pose2> step;
-  if (T_odom_sensor && last_odom_sensor_) step = last_odom_sensor_->inverse() * *T_odom_sensor;
-  last_odom_sensor_ = T_odom_sensor;
-  return step;
+std::optional<Pose2> OdometryChain::stepTo(const std::optional<Pose2>& T_odom_sensor) const {
+  if (!T_odom_sensor || !last_odom_sensor_) return std::nullopt;
+  return last_odom_sensor_->inverse() * *T_odom_sensor;
 }
 
 void OdometryChain::restart() {

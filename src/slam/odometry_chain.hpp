@@ -13,7 +13,9 @@ class OdometryChain {
  public:
   /// @param T_odom_sensor  now; nothing: the odometry is silent.
   /// @return  the step since the last scan; nothing where the odometry was silent at either.
-  std::optional<Pose2> stepTo(const std::optional<Pose2>& T_odom_sensor);
+  std::optional<Pose2> stepTo(const std::optional<Pose2>& T_odom_sensor) const;
+  /// The last scan is there.
+  void moveTo(const std::optional<Pose2>& T_odom_sensor) { last_odom_sensor_ = T_odom_sensor; }
 
   /// A key frame is taken here.
   void restart();

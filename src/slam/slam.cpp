@@ -17,8 +17,12 @@ namespace {
 constexpr MatchScale kStepMatch{0.15, 0.04};
 /// A match to one of these latest frames is of the same visit, and closes no loop.
 constexpr int kSameVisit = 20;
-/// Of its sigma, at least: the walls themselves are no better.
-constexpr double kLeastNoise = 0.1;
+
+std::optional<Pose2> sensorOf(const std::optional<Pose2>& T_odom_robot,
+                              const Pose2& T_robot_sensor) {
+  if (!T_odom_robot || !isFinite(*T_odom_robot)) return std::nullopt;
+  return *T_odom_robot * T_robot_sensor;
+}
 
 }  // namespace
 
@@ -27,9 +31,9 @@ SlamPose Slam::State::step(const AnalysedScan& analysed, const Pose2& T_robot_se
   back_end_.restartCount();
   const Scan& scan = analysed.scan;
   ScanSurface surface = scanSurface(analysed);
-  std::optional<Pose2> T_odom_sensor;
-  if (T_odom_robot && isFinite(*T_odom_robot)) T_odom_sensor = *T_odom_robot * T_robot_sensor;
+  const std::optional<Pose2> T_odom_sensor = sensorOf(T_odom_robot, T_robot_sensor);
   const std::optional<Pose2> odometry_step = odometry_.stepTo(T_odom_sensor);
+  odometry_.moveTo(T_odom_sensor);
   if (!map_.hasDriven(frames_.graph) || starts_anywhere_) {
     return beginPart(scan, T_robot_sensor, std::move(surface));
   }
@@ -63,6 +67,19 @@ SlamPose Slam::State::step(const AnalysedScan& analysed, const Pose2& T_robot_se
   scans_.push_back({frame, T_frame_sensor, T_robot_sensor, is_doubtful});
   advanceBackEnd();
   return poseNow(T_robot_sensor, tracked.found.agreement);
+}
+
+std::optional<Pose2> Slam::State::sweepMotion(const AnalysedScan& analysed, const SweptScan& sweep,
+                                              const Pose2& T_robot_sensor,
+                                              const std::optional<Pose2>& T_odom_robot) const {
+  if (!map_.hasDriven(frames_.graph) || starts_anywhere_) return std::nullopt;
+  const auto odometry_step = odometry_.stepTo(sensorOf(T_odom_robot, T_robot_sensor));
+  const PoseBelief prior = predict(motion_.predict(odometry_step));
+  const MotionBelief within =
+      motion_.predict(odometry_step ? std::optional(sweep.motion) : std::nullopt);
+  const SweepBelief belief{odometry_step ? within.T_before_after : sweep.motion,
+                           within.covariance.inverse()};
+  return tracker_.sweepMotion(frames_, scanSurface(analysed), sweep, prior, belief);
 }
 
 SlamPose Slam::State::beginPart(const Scan& scan, const Pose2& T_robot_sensor,
@@ -173,8 +190,7 @@ void Slam::State::learnScale(const GraphEdge& odometry, const GraphEdge& match) 
   const Eigen::Vector2d ahead = by_odometry / way;
   // Its returns count as if they erred by the reach of the match; they err less. What it says
   // nothing of may be off by a metre.
-  const double noise = frames_.surfaces[static_cast<std::size_t>(match.to)].range_sigma;
-  const double share = std::clamp(noise / kStepMatch.sigma, kLeastNoise, 1.0);
+  const double share = noiseShare(frames_.surfaces[static_cast<std::size_t>(match.to)], kStepMatch);
   const Eigen::Matrix3d covariance =
       (match.information / (share * share) + Eigen::Matrix3d::Identity()).inverse();
   motion_.learnWay(way / (1.0 + motion_.longer()), ahead.dot(match.T_from_to.position()),
@@ -241,6 +257,11 @@ Slam& Slam::operator=(Slam&&) noexcept = default;
 SlamPose Slam::step(const AnalysedScan& analysed, const Pose2& T_robot_sensor,
                     const std::optional<Pose2>& T_odom_robot) {
   return state_->step(analysed, T_robot_sensor, T_odom_robot);
+}
+std::optional<Pose2> Slam::sweepMotion(const AnalysedScan& analysed, const SweptScan& sweep,
+                                       const Pose2& T_robot_sensor,
+                                       const std::optional<Pose2>& T_odom_robot) const {
+  return state_->sweepMotion(analysed, sweep, T_robot_sensor, T_odom_robot);
 }
 SlamPose Slam::step(const Scan& scan, const Pose2& T_robot_sensor,
                     const std::optional<Pose2>& T_odom_robot) {

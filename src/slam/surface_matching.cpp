@@ -19,8 +19,20 @@ constexpr double kNear = 0.1;
 constexpr double kTurnArm = 3.0;
 /// A tenth of what a match is worth.
 constexpr double kSettled = 5e-4, kSettledTurn = 1e-4;
+/// Of the kernel's sigma, at least: the walls themselves are no better.
+constexpr double kLeastNoise = 0.1;
+
+MatchScale scaleOf(double reach) { return {reach, reach / kReachPerSigma}; }
 
 }  // namespace
+
+MatchScale finestScale(const ScanSurface& query) {
+  return scaleOf(std::max(kLeastReach, kReachPerSigma * query.range_sigma));
+}
+
+double noiseShare(const ScanSurface& surface, const MatchScale& scale) {
+  return std::clamp(surface.range_sigma / scale.sigma, kLeastNoise, 1.0);
+}
 
 int coarseStride(const ScanSurface& query) {
   constexpr int kCoarseReturns = 90;  // evenly over the scan: two degrees apart
@@ -31,8 +43,8 @@ MatchResult matchSurface(const ScanSurface& query, const Pose2& start, const Pos
                          const std::vector<PlacedSurface>& references, double first_reach) {
   MatchResult result;
   result.T_map_query = start;
-  MatchScale scale{first_reach, first_reach / kReachPerSigma};
-  const double least = std::max(kLeastReach, kReachPerSigma * query.range_sigma);
+  MatchScale scale = scaleOf(first_reach);
+  const double least = finestScale(query).reach;
   for (int round = 0; round < kMostRounds; ++round) {
     scale.stride = scale.reach > least ? coarseStride(query) : 1;
     const MatchQuadric quadric = matchQuadric(query, result.T_map_query, references, scale);
@@ -59,8 +71,7 @@ MatchResult matchSurface(const ScanSurface& query, const Pose2& start, const Pos
     if (is_finest && step.head<2>().norm() < kSettled && std::abs(step.z()) < kSettledTurn) break;
     const bool is_near =
         step.head<2>().norm() + kTurnArm * std::abs(step.z()) < kNear * scale.reach;
-    scale.reach = is_near ? least : std::max(least, kShrink * scale.reach);
-    scale.sigma = scale.reach / kReachPerSigma;
+    scale = scaleOf(is_near ? least : std::max(least, kShrink * scale.reach));
   }
   return result;
 }

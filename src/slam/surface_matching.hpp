@@ -41,6 +41,12 @@ struct MatchScale {
   int stride = 1;       ///< one in so many returns of the query is asked, and counts as so many
 };
 
+/// Of the last steps of a match.
+MatchScale finestScale(const ScanSurface& query);
+
+/// By how much less the returns of a surface err than the kernel of a match lets pass, [0.1, 1].
+double noiseShare(const ScanSurface& surface, const MatchScale& scale);
+
 /// The stride of a match that will be followed by a finer one: some ninety returns are asked.
 int coarseStride(const ScanSurface& query);
 
@@ -51,6 +57,20 @@ int coarseStride(const ScanSurface& query);
 MatchQuadric matchQuadric(const ScanSurface& query, const Pose2& T_map_query,
                           const std::vector<PlacedSurface>& references, const MatchScale& scale);
 inline constexpr double kIndependent = 0.1;
+
+/// The same of a scan that was swept: of its pose in the middle of the sweep, and of the sensor's
+/// motion from the first beam to the last, beyond the one that was undone: (dx, dy, dtheta) each.
+struct SweepQuadric {
+  Eigen::Matrix<double, 6, 6> H = Eigen::Matrix<double, 6, 6>::Zero();
+  Eigen::Matrix<double, 6, 1> g = Eigen::Matrix<double, 6, 1>::Zero();
+  int paired = 0;
+};
+
+/// @param times  of each return, as a share of the sweep: -1/2 for the first one in time, 1/2 for
+///               the last.
+SweepQuadric sweepQuadric(const PackedPoints& query, const std::vector<float>& times,
+                          const Pose2& T_map_query, const std::vector<PlacedSurface>& references,
+                          const MatchScale& scale);
 
 struct MatchResult {
   Pose2 T_map_query;

@@ -109,11 +109,16 @@ Pose2 ScanTracker::correlativeSearch(const KeyFrames& frames, const ScanSurface&
   return found ? found->T_map_query : window.centre;
 }
 
+std::vector<PlacedSurface> ScanTracker::nearest(const KeyFrames& frames) const {
+  std::vector<PlacedSurface> references = frames.placed(view_);
+  if (references.size() > kMatched) references.resize(kMatched);
+  return references;
+}
+
 LocalMatch ScanTracker::matchLocally(const KeyFrames& frames, const ScanSurface& surface,
                                      const PoseBelief& prior, const Pose2& start,
                                      double reach) const {
-  std::vector<PlacedSurface> references = frames.placed(view_);
-  if (references.size() > kMatched) references.resize(kMatched);
+  const std::vector<PlacedSurface> references = nearest(frames);
   LocalMatch found;
   found.match = matcher_(surface, start, prior, references, reach);
   SightCount sights;
@@ -137,6 +142,16 @@ LocalMatch ScanTracker::localise(const KeyFrames& frames, const ScanSurface& sur
   if (found.agreement >= kGoodAgreement) return found;
   const Pose2 start = correlativeSearch(frames, surface, window);
   return matchLocally(frames, surface, prior, start, kFirstMatchReach);
+}
+
+std::optional<Pose2> ScanTracker::sweepMotion(const KeyFrames& frames, const ScanSurface& surface,
+                                              const SweptScan& sweep, const PoseBelief& prior,
+                                              const SweepBelief& belief) const {
+  const LocalMatch found =
+      matchLocally(frames, surface, prior, prior.mean, std::min(kFirstMatchReach, spanOf(prior)));
+  if (found.agreement < kGoodAgreement) return std::nullopt;
+  return matchSweep(surface, sweep.sense, sweep.motion, found.match.T_map_query, prior, belief,
+                    nearest(frames));
 }
 
 LocalMatch ScanTracker::searchAllDirections(const KeyFrames& frames, const ScanSurface& surface,

@@ -2,12 +2,15 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <vector>
 
+#include "cca_mrpt/sensing/sweep_motion.hpp"
 #include "cca_mrpt/slam/scan_matcher.hpp"
 #include "slam/correlative_search.hpp"
 #include "slam/key_frames.hpp"
 #include "slam/surface_matching.hpp"
+#include "slam/sweep_matching.hpp"
 
 namespace cca {
 
@@ -52,11 +55,18 @@ class ScanTracker {
   LocalMatch localise(const KeyFrames& frames, const ScanSurface& surface,
                       const PoseBelief& prior) const;
 
+  /// The motion within the sweep of a scan by what is around it; see matchSweep(). Nothing where
+  /// the scan does not agree with its surroundings.
+  std::optional<Pose2> sweepMotion(const KeyFrames& frames, const ScanSurface& surface,
+                                   const SweptScan& sweep, const PoseBelief& prior,
+                                   const SweepBelief& belief) const;
+
   /// Matches a scan after a search in all directions, a metre around the prior's mean.
   LocalMatch searchAllDirections(const KeyFrames& frames, const ScanSurface& surface,
                                  const PoseBelief& prior) const;
 
  private:
+  std::vector<PlacedSurface> nearest(const KeyFrames& frames) const;
   Pose2 correlativeSearch(const KeyFrames& frames, const ScanSurface& surface,
                           SearchWindow window) const;
 

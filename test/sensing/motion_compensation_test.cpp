@@ -179,5 +179,42 @@ TEST(MotionCompensation, FollowsARobotThatSpeedsUp) {
   EXPECT_LT(errorWhileSpeedingUp(0.0), 0.1);
 }
 
+TEST(MotionCompensation, UndoesTheLastScanByAnotherMotion) {
+  const SweptRoom room;
+  const Twist twist{{0.2, 0.0}, 1.0};
+  for (const double sweep : {0.1, -0.1}) {
+    MotionCompensation compensation(sweep);
+    const auto scanAt = [&](double time) {
+      return room.sweep(kFullTurn, moveBy(twist, time), twist, sweep);
+    };
+    // The odometry counts half of the way.
+    const auto half = [&](double time) { return SensorReading{moveBy(twist, 0.5 * time), time}; };
+    EXPECT_FALSE(compensation.undone().has_value());
+    compensation.undistort(scanAt(0.0), {half(0.0)});
+    const Scan wrong = compensation.undistort(scanAt(0.1), {half(0.1)});
+    ASSERT_TRUE(compensation.undone().has_value());
+    EXPECT_EQ(compensation.undone()->sense, sweep > 0.0 ? 1.0 : -1.0);
+    EXPECT_NEAR(compensation.undone()->motion.x, 0.01, 1e-3);
+    EXPECT_NEAR(compensation.undone()->motion.theta, 0.05, 1e-9);
+    const Scan right = compensation.undistortBy({0.02, 0.0, 0.1});
+    const Scan truth = room.sweep(kFullTurn, moveBy(twist, 0.1), twist, 0.0);
+    double off_wrong = 0.0, off_right = 0.0;
+    for (std::size_t k = 0; k < truth.size(); ++k) {
+      if (!isReturn(wrong.ranges[k]) || !isReturn(right.ranges[k])) continue;
+      off_wrong += std::min(0.1, std::abs(wrong.ranges[k] - truth.ranges[k]));
+      off_right += std::min(0.1, std::abs(right.ranges[k] - truth.ranges[k]));
+    }
+    EXPECT_LT(off_right, 0.2 * off_wrong);
+  }
+}
+
+TEST(MotionCompensation, ARobotThatStandsLeavesNothingToUndo) {
+  const SweptRoom room;
+  MotionCompensation compensation(0.1);
+  for (int k = 0; k < 3; ++k)
+    compensation.undistort(room.sweep(kFullTurn, {}, {}, 0.1), {SensorReading{{}, 0.1 * k}});
+  EXPECT_FALSE(compensation.undone().has_value());
+}
+
 }  // namespace
 }  // namespace cca::motion_compensation_test

@@ -55,6 +55,15 @@ class Localiser {
   virtual Estimate update(const Measurement& measurement, const AnalysedScan& analysed,
                           const PastScans& past) = 0;
 
+  /// The sensor's motion within the sweep of the next scan, as the scan itself shows it, bent by
+  /// what was undone wrongly; nothing where it shows nothing. To be asked before update(), to which
+  /// the scan goes undone by that.
+  virtual std::optional<Pose2> sweepMotion(const Measurement& /*measurement*/,
+                                           const AnalysedScan& /*analysed*/,
+                                           const SweptScan& /*sweep*/) const {
+    return std::nullopt;
+  }
+
   /// Whether the poses of the past may be corrected: then trajectory() and isLocalised() tell how.
   virtual bool correctsPast() const { return false; }
   /// A last pass over the whole drive, for those who correct the past.

@@ -22,4 +22,11 @@ struct SweepMotion {
   std::optional<SensorReading> before = {}, after = {};
 };
 
+/// A sweep as it was undone.
+struct SweptScan {
+  /// Of the sensor from the first beam to the last in time, in its frame in the middle.
+  Pose2 motion;
+  double sense = 1.0;  ///< 1: beams followed one another counter-clockwise; -1: clockwise
+};
+
 }  // namespace cca

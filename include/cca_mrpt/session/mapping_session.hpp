@@ -153,6 +153,7 @@ class MappingSession {
   LineMap emptyMap() const;
   void takeCorrection();
   void rebuild();
+  void analyseUndistorted(const Measurement& measurement, std::size_t sensor);
   void analyseScan(Scan scan);
   void insert(AnalysedScan analysed, const Pose2& T_map_robot, std::size_t sensor);
   void insertNow(const MappedScan& mapped, const std::vector<LineSegment>& lines);

@@ -9,6 +9,7 @@
 #include "cca_mrpt/localisation/localiser.hpp"
 #include "cca_mrpt/sensing/analysed_scan.hpp"
 #include "cca_mrpt/sensing/scan.hpp"
+#include "cca_mrpt/sensing/sweep_motion.hpp"
 #include "cca_mrpt/slam/pose_graph.hpp"
 #include "cca_mrpt/slam/scan_matcher.hpp"
 
@@ -72,6 +73,14 @@ class Slam {
   /// The same with a scan that nobody has analysed yet.
   SlamPose step(const Scan& scan, const Pose2& T_robot_sensor,
                 const std::optional<Pose2>& T_odom_robot);
+
+  /// The motion of the sensor within the sweep of the next scan: that which was undone, corrected
+  /// by what the scan, bent by the error of it, shows of what was seen before. To be asked before
+  /// step(), to which the scan goes undone anew. Nothing where the scan says nothing of it. Cost:
+  /// some four matches.
+  std::optional<Pose2> sweepMotion(const AnalysedScan& analysed, const SweptScan& sweep,
+                                   const Pose2& T_robot_sensor,
+                                   const std::optional<Pose2>& T_odom_robot) const;
 
   /// Takes what was left by earlier drives, each a part of its own, before the first scan. The
   /// robot may be anywhere in it or elsewhere: its own drive is the map, until it has found itself

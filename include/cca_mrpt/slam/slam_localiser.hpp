@@ -11,6 +11,10 @@ class SlamLocaliser : public Localiser {
  public:
   Estimate update(const Measurement& measurement, const AnalysedScan& analysed,
                   const PastScans& past) override;
+  std::optional<Pose2> sweepMotion(const Measurement& measurement, const AnalysedScan& analysed,
+                                   const SweptScan& sweep) const override {
+    return slam_.sweepMotion(analysed, sweep, measurement.T_robot_sensor, measurement.T_odom_robot);
+  }
   bool correctsPast() const override { return true; }
   void finish(const DoAll& do_all) override { slam_.finish(do_all); }
   std::vector<Pose2> trajectory() const override { return slam_.trajectory(); }
