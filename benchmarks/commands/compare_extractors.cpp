@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "apps/options/parameter_options.hpp"
+#include "cca_mrpt/simulation/laser_models.hpp"
 #include "commands/commands.hpp"
 #include "evidence/comparison.hpp"
 #include "io/files/atomic_file.hpp"
@@ -209,8 +210,10 @@ void addCompareExtractorsCommand(CLI::App& program) {
       "--pieces", options->pieces,
       "a wall that something partly hides counts as several, one for each visible piece");
   command->add_option("--out", options->out, "folder for comparison.csv");
-  auto parameters =
-      std::make_shared<ParameterOptions>(*command, std::vector<std::string>{"mapping", "laser"});
+  Parameters defaults;
+  defaults.laser = laserModel("ideal").laser;  // single scans have no motion to undo
+  auto parameters = std::make_shared<ParameterOptions>(
+      *command, std::vector<std::string>{"mapping", "laser"}, defaults);
   command->callback([options, parameters] {
     const Parameters resolved = parameters->resolve();
     options->fit > 0 ? fit(*options, resolved) : compare(*options, resolved);

@@ -17,6 +17,7 @@
 #include "apps/options/parameter_options.hpp"
 #include "cca_mrpt/navigation/explorer.hpp"
 #include "cca_mrpt/simulation/coverage.hpp"
+#include "cca_mrpt/simulation/laser_models.hpp"
 #include "cca_mrpt/simulation/simulation.hpp"
 #include "commands/commands.hpp"
 #include "io/files/atomic_file.hpp"
@@ -262,11 +263,15 @@ void addCompareStrategiesCommand(CLI::App& program) {
       ->check(CLI::Range(1, 1000))
       ->capture_default_str();
   command->add_option("--out", options->out, "folder for the results")->capture_default_str();
+  // Strategies are compared by what they decide: with true poses and scans of one instant.
+  Parameters defaults;
+  defaults.laser = laserModel("ideal").laser;
   auto parameters = std::make_shared<ParameterOptions>(
       *command,
       std::vector<std::string>{"run.control_period", "run.longest_time", "mapping",
                                "exploration.path", "exploration.worth", "exploration.smallest_gain",
-                               "exploration.return_to_start", "robot", "laser"});
+                               "exploration.return_to_start", "robot", "laser"},
+      defaults);
   command->callback([options, parameters] { compare(*options, parameters->resolve()); });
 }
 

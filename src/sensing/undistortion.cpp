@@ -19,6 +19,11 @@ constexpr double kWidestGap = 0.75;  // of a beam's spacing, from a bearing to t
 constexpr double kSmallAngle = 1e-6;  // rad, below which an arc is a straight line
 constexpr double kStep = 0.1;         // of the range, between the neighbours of a return
 constexpr double kBend = 0.25;        // of a step in inverse range from neighbour to neighbour
+/// Of what lies anywhere within a spacing, the deviation: 1 / sqrt(12).
+constexpr double kUniform = 0.288675;
+/// m, the thickness of a partition; a surface that ends at a return is not known to go on by more.
+/// Moved along a wall that the beam grazes, it would lie behind the corner, and behind its wall.
+constexpr double kBeyond = 0.1;
 constexpr double kInvalid = std::numeric_limits<double>::quiet_NaN();
 
 bool isNoMatter(const Scan& scan, const Twist& sensor) {
@@ -87,7 +92,10 @@ double rangeBeside(const std::vector<Moved>& moved, std::size_t i, double bearin
                                                                      : nullptr;
   const double angle = other ? wrapAngle(other->bearing - here.bearing) : 0.0;
   if (angle == 0.0) return here.range;
-  return 1.0 / (1.0 / here.range + (1.0 / other->range - 1.0 / here.range) / angle * off);
+  const double range =
+      1.0 / (1.0 / here.range + (1.0 / other->range - 1.0 / here.range) / angle * off);
+  if (other == away && std::abs(range - here.range) > kBeyond) return kInvalid;
+  return range;
 }
 
 }  // namespace
@@ -127,6 +135,7 @@ Scan undistort(const Scan& scan, const Twist& before, const Twist& after) {
   still.sweep_duration = 0.0;
   if (!isBent(scan, before, after)) return still;
   const std::size_t n = scan.size();
+  still.bearing_sigma = kUniform * std::abs(scan.angle_increment);
   const std::vector<Moved> moved = movedBeams(scan, before, after);
   const bool closed = seesAllAround(scan);
   // Of each bearing, the beam that lies nearest.

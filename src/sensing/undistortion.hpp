@@ -30,6 +30,8 @@ Pose2 moveBy(const Twist& twist, double dt);
 /// @param before, after  of the sensor, in its own frame as in the middle of the sweep: before
 /// that,
 ///                and after it.
+/// A beam looks up to half a spacing beside the bearing that it is taken for: bearing_sigma.
+///
 /// @return        the scan with sweep_duration 0. Equal to `scan` in all else where there is no
 ///                sweep, or where the motion is no matter: below a twentieth of a beam's spacing
 ///                and a millimetre at either end.

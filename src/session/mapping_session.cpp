@@ -7,6 +7,7 @@
 
 #include "cca_mrpt/mapping/line_extraction.hpp"
 #include "sensing/motion_compensation.hpp"
+#include "slam/sweep_matching.hpp"
 
 namespace cca {
 
@@ -138,7 +139,12 @@ void MappingSession::analyseUndistorted(const Measurement& measurement, std::siz
   MotionCompensation& compensation = compensationOf(sensor);
   analyseScan(compensation.undistort(measurement.scan, motionOf(measurement, sensor)));
   if (sensor != 0 || !compensation.undone()) return;
-  const auto motion = localiser_->sweepMotion(measurement, analysed_, *compensation.undone());
+  const SweptScan& undone = *compensation.undone();
+  const auto motion =
+      measurement.T_map_robot && !localiser_->correctsPast()
+          ? matchSweep(analysed_, undone, *measurement.T_map_robot * measurement.T_robot_sensor,
+                       state_.past)
+          : localiser_->sweepMotion(measurement, analysed_, undone);
   if (motion) analyseScan(compensation.undistortBy(*motion));
 }
 

@@ -33,6 +33,7 @@ LaserModel clockwise(LaserModel model) {
 
 std::vector<LaserModel> allModels() {
   return {
+      clockwise(withNoise(spinning("ld19", 10.0, 359.2, 450, 12.0), 0.01, 0.0, 0.02)),
       {"ideal", {}, 10.0},
       // Triangulation: the error grows with the range.
       clockwise(withNoise(spinning("rplidar_a1", 5.5, 359.0, 360, 12.0), 0.005, 0.01, 0.03)),

@@ -3,7 +3,10 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/Geometry>
+#include <Eigen/LU>
 #include <algorithm>
+
+#include "slam/motion_prior.hpp"
 
 namespace cca {
 namespace {
@@ -11,6 +14,11 @@ namespace {
 /// Each round the scan is bent by what the one before has found. Of wheels that err by .23 degrees
 /// within a sweep one leaves .11, two .09, five as much.
 constexpr int kRounds = 2;
+
+/// Of given poses: as many scans as line SLAM matches with; half a metre of way.
+constexpr std::size_t kLastScans = 5;
+/// 1/m^2, 1/rad^2: from scan to scan given poses err by some two centimetres and a degree.
+constexpr double kGivenPose = 2500.0, kGivenTurn = 3300.0;
 
 /// Of each point of the surface, as a share of the sweep from its middle on.
 std::vector<float> timesOf(const ScanSurface& query, double sense) {
@@ -57,7 +65,8 @@ std::optional<Pose2> matchSweep(const ScanSurface& query, double sense, const Po
   for (int round = 0; round < kRounds; ++round) {
     const SweepQuadric quadric =
         sweepQuadric(bent(query.packed, times, motion), times, T_map_query, references, scale);
-    if (quadric.paired == 0) return std::nullopt;
+    if (2 * quadric.paired < static_cast<int>(query.points.size()) || quadric.paired == 0)
+      return std::nullopt;
     Matrix6d H = quadric.H / (noise * noise);
     Vector6d g = quadric.g / (noise * noise);
     Eigen::Matrix3d R = Eigen::Matrix3d::Identity();  // sensor to map
@@ -76,6 +85,27 @@ std::optional<Pose2> matchSweep(const ScanSurface& query, double sense, const Po
     motion += R.transpose() * step.tail<3>();
   }
   return Pose2{undone_by.x + motion.x(), undone_by.y + motion.y(), undone_by.theta + motion.z()};
+}
+
+std::optional<Pose2> matchSweep(const AnalysedScan& analysed, const SweptScan& sweep,
+                                const Pose2& T_map_sensor, const PastScans& past) {
+  std::vector<const PastScans::Kept*> last;
+  for (auto kept = past.kept().rbegin(); kept != past.kept().rend() && last.size() < kLastScans;
+       ++kept) {
+    if (kept->sensor == 0) last.push_back(&*kept);
+  }
+  std::vector<ScanSurface> surfaces;
+  for (const PastScans::Kept* kept : last) surfaces.push_back(scanSurface(kept->seen));
+  std::vector<PlacedSurface> references;
+  for (std::size_t k = 0; k < last.size(); ++k)
+    references.push_back({&surfaces[k], last[k]->seen.scan.T_map_sensor});
+  if (references.empty()) return std::nullopt;
+  PoseBelief prior;
+  prior.mean = T_map_sensor;
+  prior.information.diagonal() << kGivenPose, kGivenPose, kGivenTurn;
+  const MotionBelief within = MotionPrior().predict(sweep.motion);
+  return matchSweep(scanSurface(analysed), sweep.sense, sweep.motion, T_map_sensor, prior,
+                    {within.T_before_after, within.covariance.inverse()}, references);
 }
 
 }  // namespace cca

@@ -4,6 +4,8 @@
 #include <optional>
 #include <vector>
 
+#include "cca_mrpt/sensing/past_scans.hpp"
+#include "cca_mrpt/sensing/sweep_motion.hpp"
 #include "slam/surface_matching.hpp"
 
 namespace cca {
@@ -27,11 +29,17 @@ struct SweepBelief {
 /// @param start   of the sensor in the middle of the sweep: where the match begins.
 /// @param prior   of that pose, without this scan.
 /// @param belief  of the motion within, without this scan.
-/// @return        the motion; nothing where nothing was paired.
+/// @return        the motion; nothing where less than half of the returns were paired.
 /// Cost: three matches.
 std::optional<Pose2> matchSweep(const ScanSurface& query, double sense, const Pose2& undone_by,
                                 const Pose2& start, const PoseBelief& prior,
                                 const SweepBelief& belief,
                                 const std::vector<PlacedSurface>& references);
+
+/// The same where somebody else knows the poses: among the last scans kept.
+/// @param analysed      of the next scan, undone by `sweep`.
+/// @param T_map_sensor  where it was taken, about as well as the others.
+std::optional<Pose2> matchSweep(const AnalysedScan& analysed, const SweptScan& sweep,
+                                const Pose2& T_map_sensor, const PastScans& past);
 
 }  // namespace cca

@@ -252,7 +252,7 @@ import json
 s = json.load(open("named/summary.json"))
 p = s["parameters"]
 assert s["program"].startswith("cca-mrpt ") and p["run"]["seed"] == 7 and p["run"]["pose"] == "slam"
-assert p["exploration"]["strategy"] == "view_tour" and p["laser"]["beams"] == 361 and p["robot"]["radius"] > 0
+assert p["exploration"]["strategy"] == "view_tour" and p["laser"]["beams"] == 450 and p["robot"]["radius"] > 0
 END
 
 # generate-world gives the shipped bytes, and overwrites nothing unasked.

@@ -10,6 +10,7 @@
 #include "cca_mrpt/mapping/parameters.hpp"
 #include "cca_mrpt/motion/robot.hpp"
 #include "cca_mrpt/navigation/explorer_parameters.hpp"
+#include "cca_mrpt/simulation/laser_models.hpp"
 #include "cca_mrpt/simulation/parameters.hpp"
 
 namespace cca {
@@ -19,7 +20,7 @@ struct Parameters {
   CcaParameters mapping;
   ExplorerParameters exploration;
   RobotParameters robot;
-  LaserParameters laser;
+  LaserParameters laser = laserModels().front().laser;
   IcpParameters icp;
   OdometryParameters odometry;
   RunParameters run;

@@ -16,10 +16,11 @@ struct LaserModel {
   double rate;  ///< Hz
 };
 
-/// "ideal" first: the default, which sees all in one instant, loses no beam and comes at 10 Hz.
+/// The default first: a laser all round at 10 Hz, as many small robots have it. "ideal" sees all in
+/// one instant and loses no beam; it is LaserParameters{}.
 const std::vector<LaserModel>& laserModels();
 
-/// "ideal, rplidar_a1, ..."
+/// "ld19, ideal, rplidar_a1, ..."
 std::string laserModelNames();
 
 /// @throws std::runtime_error that lists the names.

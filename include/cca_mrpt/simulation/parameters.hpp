@@ -34,7 +34,7 @@ inline constexpr std::pair<const char*, MissingReading> kMissingReadingNames[] =
     {"zero", MissingReading::kZero},
     {"range_max", MissingReading::kRangeMax}};
 
-/// The simulated laser: by default one that sees all in one instant and loses no beam.
+/// The simulated laser: one that sees all in one instant and loses no beam, unless told otherwise.
 struct LaserParameters {
   double range = 8.0;
   double field_of_view_deg = 360.0;

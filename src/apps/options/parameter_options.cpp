@@ -24,8 +24,9 @@ CLI::Validator valueOf(const std::string& key) {
   return CLI::Validator(complaint, "");
 }
 
-ParameterOptions::ParameterOptions(CLI::App& command, const std::vector<std::string>& sections)
-    : command_(command) {
+ParameterOptions::ParameterOptions(CLI::App& command, const std::vector<std::string>& sections,
+                                   const Parameters& defaults)
+    : command_(command), defaults_(defaults) {
   config_ = command.add_option("--config", "parameters from an MRPT .ini file")
                 ->type_name("FILE.ini")
                 ->expected(1);
@@ -36,8 +37,7 @@ ParameterOptions::ParameterOptions(CLI::App& command, const std::vector<std::str
         throw CLI::Success();
       },
       "print every parameter with its value, range, unit and meaning, and stop");
-  Parameters defaults;
-  for (const auto& field : listParameters(defaults)) {
+  for (const auto& field : listParameters(defaults_)) {
     const auto names = [&](const std::string& s) { return s == field.section || s == field.key(); };
     if (std::none_of(sections.begin(), sections.end(), names)) continue;
     addOption("--" + field.key(), field)->group("Parameters");
@@ -51,8 +51,7 @@ CLI::Option* ParameterOptions::addOption(const std::string& option, const Parame
 }
 
 void ParameterOptions::addAlias(const std::string& option, const std::string& key) {
-  Parameters defaults;
-  for (const auto& field : listParameters(defaults)) {
+  for (const auto& field : listParameters(defaults_)) {
     if (field.key() != key) continue;
     addOption(option, field)->excludes(command_.get_option_no_throw("--" + key));
     return;
@@ -66,7 +65,7 @@ void ParameterOptions::addPreset(const std::string& option, const std::string& h
 }
 
 Parameters ParameterOptions::resolve() const {
-  Parameters p;
+  Parameters p = defaults_;
   for (const auto& [option, apply] : presets_) {
     if (!option->count()) continue;
     try {

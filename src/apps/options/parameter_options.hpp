@@ -21,7 +21,9 @@ class ParameterOptions {
   /// @param sections  those that the command uses, or SECTION.KEY for one parameter of a section;
   ///                  others are neither shown nor accepted on the command line, but may stand in
   ///                  the .ini.
-  ParameterOptions(CLI::App& command, const std::vector<std::string>& sections);
+  /// @param defaults  what nobody sets.
+  ParameterOptions(CLI::App& command, const std::vector<std::string>& sections,
+                   const Parameters& defaults = {});
 
   /// A parameter under another name, e.g. addAlias("--laser-range", "laser.range"); not both.
   void addAlias(const std::string& option, const std::string& key);
@@ -44,6 +46,7 @@ class ParameterOptions {
   };
 
   CLI::App& command_;
+  Parameters defaults_;
   std::vector<Preset> presets_;
   CLI::Option* config_ = nullptr;
   std::vector<std::pair<std::string, CLI::Option*>> options_;  // key, option

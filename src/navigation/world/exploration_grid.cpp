@@ -105,9 +105,10 @@ void ExplorationGrid::findCertainRanges(const Scan& scan) {
   const std::size_t n = scan.size();
   certain_ranges_.resize(n);
   for (std::size_t i = 0; i < n; ++i) certain_ranges_[i] = scan.freeRange(i);
-  const double within = kWithin * noise_.bearingSigma() / std::abs(scan.angle_increment);
+  const double sigma = std::hypot(noise_.bearingSigma(), scan.bearing_sigma);
+  const double within = kWithin * sigma / std::abs(scan.angle_increment);
   if (!(within > 0.0)) return;
-  const double small = kSmallNoise * resolution_ / noise_.bearingSigma();
+  const double small = kSmallNoise * resolution_ / sigma;
   const auto whole = static_cast<std::size_t>(std::min(within, static_cast<double>(n)));
   for (std::size_t i = 0; i < n; ++i) {
     const double range = scan.freeRange(i);

@@ -85,12 +85,14 @@ const NodeDescription kNode{
     "  config [] .ini file, read first\n"
     "  start_pose [the world's] X,Y,DEG\n"
     "  speed [1] simulated seconds a second; other than 1 needs /use_sim_time\n"
-    "  laser_model [ideal] a laser by name: rplidar_a1, urg_04lx, utm_30lx, lds_01, tim_571\n"
-    "  scan_rate [10, or the laser's own] Hz\n"
-    "  seed [1] of all that is random\n"
-    "  record [] bag to write\n"
-    "  localisation [true] tells map -> odom, which is the truth; false: nobody here does\n"
-    "  map_frame [map], odom_frame [odom], base_frame [base_link], laser_frame [laser]",
+    "  laser_model [ld19] a laser by name: " +
+        laserModelNames() +
+        "\n"
+        "  scan_rate [10, or the laser's own] Hz\n"
+        "  seed [1] of all that is random\n"
+        "  record [] bag to write\n"
+        "  localisation [true] tells map -> odom, which is the truth; false: nobody here does\n"
+        "  map_frame [map], odom_frame [odom], base_frame [base_link], laser_frame [laser]",
     {"robot", "laser", "odometry"}};
 
 }  // namespace
