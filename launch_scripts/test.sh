@@ -17,9 +17,16 @@ all=OFF
 [ "${1:-}" != --all ] || { all=ON; shift; }
 only=${1:-}
 jobs=$(nproc)
-results=() passed=0 failed=0
 werror=OFF
 [ -z "${CI:-}" ] || werror=ON
+told=$(mktemp -d)  # how each part ended, and what the one beside the others said
+: >"$told/ends"
+stop() {
+  [ -z "${beside:-}" ] || kill -- -"$beside" 2>/dev/null
+  rm -rf "$told"
+}
+trap stop EXIT
+trap 'exit 130' INT TERM
 
 part() {  # part NAME COMMAND...: runs it, and keeps how it ended
   local name=$1 begin=$SECONDS status=passed
@@ -27,8 +34,20 @@ part() {  # part NAME COMMAND...: runs it, and keeps how it ended
   case "$name" in *"$only"*) ;; *) return 0 ;; esac
   printf '\n=== %s\n' "$name"
   "$@" || status=FAILED
-  [ $status = passed ] && passed=$((passed + 1)) || failed=$((failed + 1))
-  results+=("$(printf '%-28s %-6s %5d s' "$name" $status $((SECONDS - begin)))")
+  printf '%-28s %-6s %5d s\n' "$name" $status $((SECONDS - begin)) >>"$told/ends"
+}
+
+beside() {  # beside NAME COMMAND...: a part that computes, in what those after it leave idle of the processors
+  set -m  # a process group of its own, so that stop() ends all of it
+  { renice -n 19 "$BASHPID" >/dev/null; part "$@"; } >"$told/said" 2>&1 </dev/null &
+  beside=$!
+  set +m
+}
+
+await() {  # await NAME: the part beside
+  wait "$beside" || printf '%-28s %-6s\n' "$1" FAILED >>"$told/ends"
+  beside=
+  cat "$told/said"
 }
 
 configure_and_build() {  # DIR "TARGETS" OPTIONS...
@@ -74,6 +93,7 @@ fuzzers() {
 }
 
 part dependencies ./launch_scripts/install_dependencies.sh --tests
+[ $all = OFF ] || beside sanitizers-without-ros sanitizers
 part layers test/checks/layers.sh
 part format test/checks/format.sh
 part pages test/checks/pages.sh
@@ -84,13 +104,14 @@ part build release
 if [ $all = ON ]; then
   part tests tests
   part python python/test.sh
-  part sanitizers-without-ros sanitizers
+  await sanitizers-without-ros
   case "$only" in fuzz*) part fuzzers fuzzers ;; esac
 else
   part tests tests -LE long
 fi
 
+passed=$(grep -c ' passed ' "$told/ends") failed=$(grep -c ' FAILED' "$told/ends")
 printf '\n'
-printf '%s\n' "${results[@]}"
+cat "$told/ends"
 printf '\n%d passed, %d failed\n' "$passed" "$failed"
 [ "$failed" -eq 0 ] && [ "$passed" -gt 0 ]
