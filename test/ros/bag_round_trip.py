@@ -138,8 +138,7 @@ class BagRoundTrip(OwnMaster):
         play = self.start("rosbag", "play", "--clock", "--quiet", "--wait-for-subscribers", "--keep-alive",
                           "--queue", "5000", "-r", str(speed), bag,
                           "--topics", "/scan", "/tf", "/tf_static")
-        until(lambda: 'key: "scans used"\n        value: "%d"' % scans in
-              (self.ask("rostopic", "echo", "-n1", "/diagnostics") or ""), 60.0 + 100.0 / speed)
+        self.says("/diagnostics", 'key: "scans used"\n        value: "%d"' % scans, 60.0 + 100.0 / speed)
         mapper.send_signal(signal.SIGINT)
         output, _ = mapper.communicate(timeout=40)
         self.assertEqual(mapper.returncode, 0, output)
