@@ -17,37 +17,38 @@ all=OFF
 [ "${1:-}" != --all ] || { all=ON; shift; }
 only=${1:-}
 jobs=$(nproc)
+results=() passed=0 failed=0
 werror=OFF
 [ -z "${CI:-}" ] || werror=ON
-told=$(mktemp -d)  # how each part ended, and what the one beside the others said
-: >"$told/ends"
-stop() {
-  [ -z "${beside:-}" ] || kill -- -"$beside" 2>/dev/null
-  rm -rf "$told"
-}
-trap stop EXIT
+beside='' told=$(mktemp)
+trap '[ -z "$beside" ] || kill -- -"$beside" 2>/dev/null; rm -f "$told"' EXIT
 trap 'exit 130' INT TERM
+
+is_asked_for() { case "$1" in *"$only"*) ;; *) return 1 ;; esac }
 
 part() {  # part NAME COMMAND...: runs it, and keeps how it ended
   local name=$1 begin=$SECONDS status=passed
   shift
-  case "$name" in *"$only"*) ;; *) return 0 ;; esac
+  is_asked_for "$name" || return 0
   printf '\n=== %s\n' "$name"
   "$@" || status=FAILED
-  printf '%-28s %-6s %5d s\n' "$name" $status $((SECONDS - begin)) >>"$told/ends"
+  [ $status = passed ] && passed=$((passed + 1)) || failed=$((failed + 1))
+  results+=("$(printf '%-28s %-6s %5d s' "$name" $status $((SECONDS - begin)))")
 }
 
-beside() {  # beside NAME COMMAND...: a part that computes, in what those after it leave idle of the processors
-  set -m  # a process group of its own, so that stop() ends all of it
-  { renice -n 19 "$BASHPID" >/dev/null; part "$@"; } >"$told/said" 2>&1 </dev/null &
+beside() {  # beside COMMAND...: begins what computes only, in what parts leave idle of the processors, until await()
+  set -m  # a process group of its own, so that all of it can be ended
+  { renice -n 19 "$BASHPID" >/dev/null; "$@"; } >"$told" 2>&1 </dev/null &
   beside=$!
   set +m
 }
 
-await() {  # await NAME: the part beside
-  wait "$beside" || printf '%-28s %-6s\n' "$1" FAILED >>"$told/ends"
+await() {  # also says what it said
+  local status=0
+  wait "$beside" || status=$?
   beside=
-  cat "$told/said"
+  cat "$told"
+  return $status
 }
 
 configure_and_build() {  # DIR "TARGETS" OPTIONS...
@@ -82,7 +83,7 @@ sanitized() {  # DIR TARGET OPTIONS...
 }
 
 sanitizers() {
-  sanitized build-sanitize unit_tests -DCCA_BUILD_BENCHMARKS=ON || return 1
+  await || return 1
   (cd build-sanitize && LSAN_OPTIONS="suppressions=$PWD/../test/checks/leaks.supp:print_suppressions=0" \
     ctest -j"$jobs" --output-on-failure --no-tests=error -L unit)
 }
@@ -93,7 +94,10 @@ fuzzers() {
 }
 
 part dependencies ./launch_scripts/install_dependencies.sh --tests
-[ $all = OFF ] || beside sanitizers-without-ros sanitizers
+# It waits neither for a robot nor for the network, as tests and Python's part do.
+if [ $all = ON ] && is_asked_for sanitizers-without-ros; then
+  beside sanitized build-sanitize unit_tests -DCCA_BUILD_BENCHMARKS=ON
+fi
 part layers test/checks/layers.sh
 part format test/checks/format.sh
 part pages test/checks/pages.sh
@@ -104,14 +108,13 @@ part build release
 if [ $all = ON ]; then
   part tests tests
   part python python/test.sh
-  await sanitizers-without-ros
+  part sanitizers-without-ros sanitizers
   case "$only" in fuzz*) part fuzzers fuzzers ;; esac
 else
   part tests tests -LE long
 fi
 
-passed=$(grep -c ' passed ' "$told/ends") failed=$(grep -c ' FAILED' "$told/ends")
 printf '\n'
-cat "$told/ends"
+printf '%s\n' "${results[@]}"
 printf '\n%d passed, %d failed\n' "$passed" "$failed"
 [ "$failed" -eq 0 ] && [ "$passed" -gt 0 ]
