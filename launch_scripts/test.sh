@@ -20,15 +20,35 @@ jobs=$(nproc)
 results=() passed=0 failed=0
 werror=OFF
 [ -z "${CI:-}" ] || werror=ON
+beside='' told=$(mktemp)
+trap '[ -z "$beside" ] || kill -- -"$beside" 2>/dev/null; rm -f "$told"' EXIT
+trap 'exit 130' INT TERM
+
+is_asked_for() { case "$1" in *"$only"*) ;; *) return 1 ;; esac }
 
 part() {  # part NAME COMMAND...: runs it, and keeps how it ended
   local name=$1 begin=$SECONDS status=passed
   shift
-  case "$name" in *"$only"*) ;; *) return 0 ;; esac
+  is_asked_for "$name" || return 0
   printf '\n=== %s\n' "$name"
   "$@" || status=FAILED
   [ $status = passed ] && passed=$((passed + 1)) || failed=$((failed + 1))
   results+=("$(printf '%-28s %-6s %5d s' "$name" $status $((SECONDS - begin)))")
+}
+
+beside() {  # beside COMMAND...: begins what computes only, in what parts leave idle of the processors, until await()
+  set -m  # a process group of its own, so that all of it can be ended
+  { renice -n 19 "$BASHPID" >/dev/null; "$@"; } >"$told" 2>&1 </dev/null &
+  beside=$!
+  set +m
+}
+
+await() {  # also says what it said
+  local status=0
+  wait "$beside" || status=$?
+  beside=
+  cat "$told"
+  return $status
 }
 
 configure_and_build() {  # DIR "TARGETS" OPTIONS...
@@ -63,7 +83,7 @@ sanitized() {  # DIR TARGET OPTIONS...
 }
 
 sanitizers() {
-  sanitized build-sanitize unit_tests -DCCA_BUILD_BENCHMARKS=ON || return 1
+  await || return 1
   (cd build-sanitize && LSAN_OPTIONS="suppressions=$PWD/../test/checks/leaks.supp:print_suppressions=0" \
     ctest -j"$jobs" --output-on-failure --no-tests=error -L unit)
 }
@@ -74,6 +94,10 @@ fuzzers() {
 }
 
 part dependencies ./launch_scripts/install_dependencies.sh --tests
+# It waits neither for a robot nor for the network, as tests and Python's part do.
+if [ $all = ON ] && is_asked_for sanitizers-without-ros; then
+  beside sanitized build-sanitize unit_tests -DCCA_BUILD_BENCHMARKS=ON
+fi
 part layers test/checks/layers.sh
 part format test/checks/format.sh
 part pages test/checks/pages.sh

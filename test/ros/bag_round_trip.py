@@ -100,11 +100,11 @@ class SweepingBag(WheelsOnlyBag):
         scan = super().scan(t, blind, off)
         ranges = numpy.array(scan.ranges)
         begin = t if self.says_so else t - self.SWEEP / 2
-        for i in range(361):
-            x, y, theta = compose(self.pose(begin + self.SWEEP * i / 360 if off >= 1.0 else t), LASER)
-            beam = theta + scan.angle_min + scan.angle_increment * i
-            if numpy.isfinite(ranges[i]):
-                ranges[i] = cast(self.walls, x, y, numpy.array([beam]))[0] + self.random.normal(0.0, 0.01)
+        late = self.SWEEP * numpy.arange(361) / 360
+        x, y, theta = numpy.transpose([compose(self.pose(begin + s if off >= 1.0 else t), LASER) for s in late])
+        beams = theta + scan.angle_min + scan.angle_increment * numpy.arange(361)
+        swept = cast(self.walls, x, y, beams) + self.random.normal(0.0, 0.01, 361)
+        ranges[numpy.isfinite(ranges)] = swept[numpy.isfinite(ranges)]
         scan.ranges = ranges.tolist()
         scan.time_increment = self.SWEEP / 360 if self.says_so else 0.0
         return scan
@@ -138,8 +138,7 @@ class BagRoundTrip(OwnMaster):
         play = self.start("rosbag", "play", "--clock", "--quiet", "--wait-for-subscribers", "--keep-alive",
                           "--queue", "5000", "-r", str(speed), bag,
                           "--topics", "/scan", "/tf", "/tf_static")
-        until(lambda: 'key: "scans used"\n        value: "%d"' % scans in
-              (self.ask("rostopic", "echo", "-n1", "/diagnostics") or ""), 60.0 + 100.0 / speed)
+        self.says("/diagnostics", 'key: "scans used"\n        value: "%d"' % scans, 60.0 + 100.0 / speed)
         mapper.send_signal(signal.SIGINT)
         output, _ = mapper.communicate(timeout=40)
         self.assertEqual(mapper.returncode, 0, output)

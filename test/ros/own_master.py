@@ -7,6 +7,7 @@ import socket
 import subprocess
 import sys
 import tempfile
+import threading
 import time
 import unittest
 
@@ -73,8 +74,25 @@ class OwnMaster(unittest.TestCase):
     def node(self, name, *arguments):
         return self.start(os.path.join(NODES, name), *arguments)
 
-    def says(self, topic, word):
-        return until(lambda: word in (self.ask("rostopic", "echo", "-n1", topic, seconds=15) or ""))
+    def says(self, topic, word, seconds=60.0):
+        """Whether a topic does so within that time. One listener hears it all: to start one takes a second."""
+        end = time.time() + seconds
+
+        def heard():
+            listener = self.start("env", "PYTHONUNBUFFERED=1", "rostopic", "echo", topic)
+            alarm = threading.Timer(max(0.0, end - time.time()), listener.kill)
+            alarm.start()
+            said = ""
+            for line in listener.stdout:
+                said = said[-len(word):] + line
+                if word in said:
+                    break
+            alarm.cancel()
+            listener.kill()
+            listener.wait()
+            return word in said
+
+        return until(heard, seconds)
 
 
 def main():

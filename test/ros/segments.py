@@ -23,19 +23,17 @@ def samples(segments):
 
 
 def cast(segments, x, y, bearings):
-    """Ranges from a place to the nearest segment along each bearing (map frame); inf for a miss."""
-    a = segments[:, :2] - (x, y)
-    d = segments[:, 2:] - segments[:, :2]
-    ranges = []
-    for bearing in bearings:
-        c, s = math.cos(bearing), math.sin(bearing)
-        across = c * d[:, 1] - s * d[:, 0]
-        with numpy.errstate(divide="ignore", invalid="ignore"):
-            along = (a[:, 0] * d[:, 1] - a[:, 1] * d[:, 0]) / across
-            where = (a[:, 0] * s - a[:, 1] * c) / across
-        hit = (along > 0) & (where >= 0) & (where <= 1)
-        ranges.append(along[hit].min() if hit.any() else math.inf)
-    return numpy.array(ranges)
+    """Ranges to the nearest segment along each bearing (map frame), inf for a miss. x, y: one place for all beams, or
+    one each."""
+    c, s = numpy.cos(bearings)[:, None], numpy.sin(bearings)[:, None]
+    ax = segments[:, 0] - numpy.reshape(x, (-1, 1))
+    ay = segments[:, 1] - numpy.reshape(y, (-1, 1))
+    dx, dy = (segments[:, 2:] - segments[:, :2]).T
+    across = c * dy - s * dx
+    with numpy.errstate(divide="ignore", invalid="ignore"):
+        along = (ax * dy - ay * dx) / across
+        where = (ax * s - ay * c) / across
+    return numpy.where((along > 0) & (where >= 0) & (where <= 1), along, math.inf).min(axis=1)
 
 
 def distance_to(segments, points):
