@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "baselines/fitted_circle.hpp"
 
-#include <Eigen/LU>
+#include <Eigen/QR>
 #include <cmath>
 
 namespace cca::baselines {
@@ -9,21 +9,20 @@ namespace cca::baselines {
 std::optional<FittedCircle> fitCircle(const Points& points, Run run) {
   if (run.size() < 3) return std::nullopt;
   const Eigen::Vector2d mean = momentsOf(points, run).mean;
-  // About the mean the sums of x and y vanish: the centre follows from moments alone.
-  Eigen::Matrix2d spread = Eigen::Matrix2d::Zero();
-  Eigen::Vector2d moment = Eigen::Vector2d::Zero();
+  Eigen::MatrixX3d terms(run.size(), 3);
+  Eigen::VectorXd squares(run.size());
   for (std::size_t i = run.first; i < run.last; ++i) {
     const Eigen::Vector2d p = points[i] - mean;
-    spread += p * p.transpose();
-    moment += 0.5 * p.squaredNorm() * p;
+    const auto row = static_cast<Eigen::Index>(i - run.first);
+    terms.row(row) << 2.0 * p.x(), 2.0 * p.y(), 1.0;
+    squares(row) = p.squaredNorm();
   }
-  constexpr double kStraight =
-      1e-12;  // as many digits as squares of doubles leave: a millionth of its length
-  if (spread.determinant() <= kStraight * spread.trace() * spread.trace()) return std::nullopt;
-  const Eigen::Vector2d centre = spread.inverse() * moment;
-  const double radius_sq = spread.trace() / static_cast<double>(run.size()) + centre.squaredNorm();
+  const Eigen::ColPivHouseholderQR<Eigen::MatrixX3d> solver(terms);
+  if (solver.rank() < 3) return std::nullopt;
+  const Eigen::Vector3d solution = solver.solve(squares);
+  const double radius_sq = solution.z() + solution.head<2>().squaredNorm();
   if (!(radius_sq > 0.0) || !std::isfinite(radius_sq)) return std::nullopt;
-  FittedCircle circle{mean + centre, std::sqrt(radius_sq), 0.0};
+  FittedCircle circle{mean + solution.head<2>(), std::sqrt(radius_sq), 0.0};
   for (std::size_t i = run.first; i < run.last; ++i) {
     const double off = (points[i] - circle.centre).norm() - circle.radius;
     circle.residual_sum_sq += off * off;

@@ -81,8 +81,7 @@ struct Spread {
 };
 
 Spread spreadOf(const Eigen::Matrix3d& covariance) {
-  Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> axes;  // direct: iterated, it compiles for 4 s
-  axes.computeDirect(covariance.topLeftCorner<2, 2>(), Eigen::EigenvaluesOnly);
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> axes(covariance.topLeftCorner<2, 2>());
   return {std::sqrt(std::max(0.0, axes.eigenvalues().maxCoeff())), std::sqrt(covariance(2, 2))};
 }
 
