@@ -89,7 +89,7 @@ class ExploreSimulated(unittest.TestCase):
     def test_04_scan_is_that_of_the_true_walls(self):
         scan = self.scan.wait()
         self.assertEqual(scan.header.frame_id, "laser")
-        self.assertEqual(len(scan.ranges), 450)
+        self.assertEqual(len(scan.ranges), 361)
         self.assertAlmostEqual(scan.angle_max - scan.angle_min, 2 * math.pi, delta=1e-4)
         self.assertAlmostEqual(scan.range_max, 8.0)
         self.assertAlmostEqual(scan.scan_time, 0.1, delta=1e-6)

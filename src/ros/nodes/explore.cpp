@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "cca_mrpt/localisation/given_poses.hpp"
+#include "cca_mrpt/simulation/laser_models.hpp"
 #include "exploration.hpp"
 #include "node_diagnostics.hpp"
 #include "node_localisation.hpp"
@@ -50,11 +51,11 @@ Settings readSettings() {
     parameters.choice("driver", s.driver.driver, {"cmd_vel", "move_base"});
     parameters.choice("pose", s.driver.pose, {"tf", "slam", "auto", "odometry"});
     parameters.text("record", s.record);
-    for (const char* simulated : {"start_pose", "speed", "scan_rate", "seed"}) {
+    for (const char* simulated : {"start_pose", "speed", "laser_model", "scan_rate", "seed"}) {
       parameters.withoutEffect(simulated);
     }
   } else {
-    readParameters(parameters, s.simulator);
+    readParameters(parameters, s.simulator, s.program);
     sections.insert(sections.end(), {"laser", "odometry"});
     for (const char* robots : {"scan_timeout", "pose", "resume", "plan", "corrections", "scans",
                                "hazard_points", "hazard_range", "driver"}) {
@@ -184,9 +185,12 @@ const NodeDescription kNode{
     "in a simulated world\n"
     "  start_pose [the world's] X,Y,DEG\n"
     "  speed [1] simulated seconds a second; other than 1 needs /use_sim_time\n"
-    "  scan_rate [10] Hz\n"
-    "  seed [1] of all that is random\n"
-    "  record [] bag to write",
+    "  laser_model [ld19] a laser by name: " +
+        laserModelNames() +
+        "\n"
+        "  scan_rate [10, or the laser's own] Hz\n"
+        "  seed [1] of all that is random\n"
+        "  record [] bag to write",
     {"mapping", "exploration", "robot", "laser", "odometry"}};
 
 }  // namespace

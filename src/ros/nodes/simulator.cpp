@@ -29,11 +29,7 @@ Settings readSettings() {
   Settings s;
   PrivateParameters parameters{ros::NodeHandle("~")};
   parameters.text("world", s.simulator.world);
-  std::string model = laserModels().front().name;
-  parameters.text("laser_model", model);
-  s.program.laser = laserModel(model).laser;
-  s.simulator.scan_rate = laserModel(model).rate;
-  readParameters(parameters, s.simulator);
+  readParameters(parameters, s.simulator, s.program);
   parameters.flag("localisation", s.localisation);
   parameters.text("map_frame", s.frames.map);
   parameters.text("odom_frame", s.frames.odom);

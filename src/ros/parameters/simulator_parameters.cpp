@@ -9,6 +9,8 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "cca_mrpt/simulation/laser_models.hpp"
+
 namespace cca {
 namespace {
 
@@ -38,7 +40,11 @@ Pose2 parseStart(const std::string& text) {
 
 }  // namespace
 
-void readParameters(PrivateParameters& parameters, SimulatorParameters& p) {
+void readParameters(PrivateParameters& parameters, SimulatorParameters& p, Parameters& program) {
+  std::string model = laserModels().front().name;
+  parameters.text("laser_model", model);
+  program.laser = laserModel(model).laser;
+  p.scan_rate = laserModel(model).rate;
   parameters.text("start_pose", p.start_pose);
   parameters.number("speed", p.speed, 0.01, 1000.0, "times real time");
   parameters.number("scan_rate", p.scan_rate, 1.0, 100.0, "Hz");

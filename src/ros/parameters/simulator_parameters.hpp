@@ -21,7 +21,8 @@ struct SimulatorParameters {
 };
 
 /// Reads them from the node's private parameters, but for the world.
-void readParameters(PrivateParameters& parameters, SimulatorParameters& p);
+/// @param program  its laser becomes that of ~laser_model.
+void readParameters(PrivateParameters& parameters, SimulatorParameters& p, Parameters& program);
 
 /// @throws std::runtime_error for a world or start that cannot be, and for a speed other than 1
 ///         without simulated time: the stamps would run away from everybody else's clock.
