@@ -179,6 +179,36 @@ WallFaults faultsOf(const StraightWall& wall, double before, double sigma) {
 }
 
 // Real walls lie anywhere within the cells, at any angle.
+/// Free cells behind the side wall of a corridor 12 m long and 3 m wide, of a scan whose beams look
+/// up to half a spacing aside of their bearings.
+int freedBehindAGrazedWall(double told_sigma) {
+  Scan scan;
+  scan.angle_increment = 0.8 * M_PI / 180.0;
+  scan.angle_min = -20.0 * scan.angle_increment;
+  scan.T_map_sensor = {0.0, 1.5, 0.0};
+  scan.bearing_sigma = told_sigma;
+  for (int k = 0; k <= 40; ++k) {
+    const double error = (k % 2 ? 0.45 : -0.45) * scan.angle_increment;
+    const double bearing = scan.bearing(static_cast<std::size_t>(k)) + error;
+    const double along = 12.0 / std::cos(bearing);
+    const double to_side = 1.5 / std::max(std::abs(std::sin(bearing)), 1e-9);
+    scan.ranges.push_back(std::min(along, to_side));
+  }
+  ExplorationGrid grid(0.05);
+  grid.insert(scan);
+  int freed = 0;
+  for (int x = 0; x < 240; ++x)
+    for (int behind = 2; behind < 12; ++behind)
+      freed += (grid.at({x, -behind}) == CellState::kFree) +
+               (grid.at({x, 59 + behind}) == CellState::kFree);
+  return freed;
+}
+
+TEST(ExplorationGrid, BeamsThatLookBesideTheirBearingsFreeNothingBehindAWallThatTheyGraze) {
+  EXPECT_GT(freedBehindAGrazedWall(0.0), 5);
+  EXPECT_EQ(freedBehindAGrazedWall(0.8 * M_PI / 180.0 / std::sqrt(12.0)), 0);
+}
+
 TEST(ExplorationGrid, AWallAnywhereWithinItsCellsIsOccupiedAndHidesWhatIsBehind) {
   for (const double turn : {0.0, 0.03, 0.2, 0.5, M_PI / 4.0, 1.2}) {
     for (const double offset : {0.0, 0.01, 0.02, 0.025, 0.03, 0.04}) {

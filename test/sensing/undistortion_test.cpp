@@ -135,5 +135,34 @@ TEST(UndistortionOf, AStepInDepthLeavesNoPointBetween) {
   }
 }
 
+/// A wall that the laser grazes, 1 m beside it, ends 7.12 m ahead; beyond is another, 10 m ahead.
+TEST(Undistortion, MovesNoReturnFarBeyondWhereItsSurfaceEnds) {
+  Scan scan;
+  scan.angle_increment = 0.5 * M_PI / 180.0;
+  scan.sweep_duration = 0.2;
+  for (int i = 0; i < 180; ++i) {
+    const double bearing = scan.bearing(static_cast<std::size_t>(i));
+    const double to_side = 1.0 / std::max(std::sin(bearing), 1e-9);
+    scan.ranges.push_back(to_side * std::cos(bearing) < 7.12 ? to_side : 10.0 / std::cos(bearing));
+  }
+  for (double turning = 0.2; turning < 0.6; turning += 0.03) {
+    const Scan still = undistort(scan, {{0.0, 0.0}, turning});
+    EXPECT_GT(still.bearing_sigma, 0.2 * scan.angle_increment);
+    for (std::size_t i = 0; i < still.size(); ++i) {
+      if (!isReturn(still.ranges[i])) continue;
+      const Eigen::Vector2d p =
+          still.ranges[i] * Eigen::Vector2d(std::cos(still.bearing(i)), std::sin(still.bearing(i)));
+      if (p.x() > 9.5) continue;
+      EXPECT_LT(p.norm(), std::hypot(7.12, 1.0) + 0.1) << turning << " " << i;
+    }
+  }
+}
+
+TEST(Undistortion, SaysNothingOfTheBearingsWhereNothingIsUndone) {
+  const SweptRoom room;
+  const Scan scan = room.sweep({-M_PI, M_PI / 180.0, 360}, {}, {}, 0.1);
+  EXPECT_EQ(undistort(scan, {}).bearing_sigma, 0.0);
+}
+
 }  // namespace
 }  // namespace cca::undistortion_test

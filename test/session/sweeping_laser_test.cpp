@@ -23,7 +23,8 @@ const Laser kLaser{-M_PI, M_PI / 180.0, 360};
 const SweptRoom kRoom;
 
 /// A robot that drives a small circle, stands, and drives it back.
-std::vector<Measurement> drive(bool has_odometry) {
+/// @param scale  of the turns, as the odometry counts them.
+std::vector<Measurement> drive(bool has_odometry, double scale = 1.01) {
   std::mt19937 random(5);
   std::normal_distribution<double> noise(0.0, 0.005);
   std::vector<Measurement> measurements;
@@ -36,7 +37,7 @@ std::vector<Measurement> drive(bool has_odometry) {
     const double mean = 0.5 * (before + rate);
     if (k > 0) T_map_robot = T_map_robot * moveBy({{0.3 * std::abs(mean), 0.0}, mean}, kPeriod);
     if (k > 0) {
-      T_odom_robot = T_odom_robot * moveBy({{0.3 * std::abs(mean), 0.0}, 1.01 * mean}, kPeriod);
+      T_odom_robot = T_odom_robot * moveBy({{0.3 * std::abs(mean), 0.0}, scale * mean}, kPeriod);
     }
     Measurement measurement;
     measurement.scan =
@@ -79,6 +80,31 @@ TEST(SweepingLaser, ItsWallsAreStraightOnceItsSweepIsKnown) {
   EXPECT_LE(learned.lines().size(), 14U);  // twelve edges
   EXPECT_LT(wrongEnds(learned), 0.1);
   EXPECT_GT(bent.lines().size(), learned.lines().size());
+}
+
+/// m, how far the returns lie from the walls, by wheels that count turns so.
+double offAtGivenPoses(double scale) {
+  MappingSession::Settings settings;
+  settings.sweep = kPeriod;
+  MappingSession session(std::make_unique<GivenPoses>(), settings);
+  double off = 0.0, returns = 0.0;
+  for (const Measurement& measurement : drive(true, scale)) {
+    session.add(measurement);
+    const Scan& scan = session.scan();
+    for (std::size_t i = 0; i < scan.size(); ++i) {
+      if (!isReturn(scan.ranges[i])) continue;
+      const double angle = scan.bearing(i);
+      off += kRoom.distance(
+          measurement.T_map_robot.value() *
+          Eigen::Vector2d(scan.ranges[i] * std::cos(angle), scan.ranges[i] * std::sin(angle)));
+      ++returns;
+    }
+  }
+  return off / returns;
+}
+
+TEST(SweepingLaser, AtGivenPosesItsScansTellWhatTheWheelsGetWrong) {
+  EXPECT_LT(offAtGivenPoses(1.15), 1.3 * offAtGivenPoses(1.0));
 }
 
 TEST(SweepingLaser, TheScansBeforeItsSweepIsKnownAreMappedAnew) {
