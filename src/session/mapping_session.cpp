@@ -141,7 +141,7 @@ void MappingSession::analyseUndistorted(const Measurement& measurement, std::siz
   if (sensor != 0 || !compensation.undone()) return;
   const SweptScan& undone = *compensation.undone();
   const auto motion =
-      measurement.T_map_robot && !localiser_->correctsPast()
+      localiser_->believesGivenPoses() && measurement.T_map_robot
           ? matchSweep(analysed_, undone, *measurement.T_map_robot * measurement.T_robot_sensor,
                        state_.past)
           : localiser_->sweepMotion(measurement, analysed_, undone);

@@ -10,6 +10,7 @@
 
 #include "../sensing/swept_room.hpp"
 #include "cca_mrpt/localisation/given_poses.hpp"
+#include "cca_mrpt/localisation/wheel_odometry.hpp"
 #include "cca_mrpt/session/mapping_session.hpp"
 #include "cca_mrpt/slam/slam_localiser.hpp"
 #include "counting_recorder.hpp"
@@ -105,6 +106,26 @@ double offAtGivenPoses(double scale) {
 
 TEST(SweepingLaser, AtGivenPosesItsScansTellWhatTheWheelsGetWrong) {
   EXPECT_LT(offAtGivenPoses(1.15), 1.3 * offAtGivenPoses(1.0));
+}
+
+// A simulator tells the true pose with each measurement, to those who are to believe it.
+TEST(SweepingLaser, WhoDoesNotBelieveTheGivenPosesDoesNotUseThem) {
+  MappingSession::Settings settings;
+  settings.sweep = kPeriod;
+  MappingSession told(std::make_unique<WheelOdometry>(), settings);
+  MappingSession alone(std::make_unique<WheelOdometry>(), settings);
+  bool is_first = true;
+  for (Measurement measurement : drive(true, 1.15)) {
+    told.add(measurement);
+    if (!is_first) measurement.T_map_robot.reset();
+    is_first = false;
+    alone.add(measurement);
+    ASSERT_EQ(told.scan().bearing_sigma, alone.scan().bearing_sigma);
+    for (std::size_t i = 0; i < told.scan().size(); ++i) {
+      const double a = told.scan().ranges[i], b = alone.scan().ranges[i];
+      ASSERT_TRUE(a == b || (std::isnan(a) && std::isnan(b))) << i;
+    }
+  }
 }
 
 TEST(SweepingLaser, TheScansBeforeItsSweepIsKnownAreMappedAnew) {

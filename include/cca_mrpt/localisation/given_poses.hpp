@@ -11,6 +11,7 @@ class GivenPoses : public Localiser {
  public:
   Estimate update(const Measurement& measurement, const AnalysedScan& analysed,
                   const PastScans& past) override;
+  bool believesGivenPoses() const override { return true; }
   std::unique_ptr<Localiser> snapshot() const override {
     return std::make_unique<GivenPoses>(*this);
   }

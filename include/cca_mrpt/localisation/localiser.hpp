@@ -64,6 +64,9 @@ class Localiser {
     return std::nullopt;
   }
 
+  /// Whether it takes each measurement's T_map_robot for the robot's pose, whatever the scan shows.
+  virtual bool believesGivenPoses() const { return false; }
+
   /// Whether the poses of the past may be corrected: then trajectory() and isLocalised() tell how.
   virtual bool correctsPast() const { return false; }
   /// A last pass over the whole drive, for those who correct the past.
