@@ -16,4 +16,7 @@ constexpr double kChiSquareGate1 = 10.83;
 /// rad; a wall seen at less cannot be told from a step in depth [Borges & Aldon 2004].
 constexpr double kGrazing = 4.0 * M_PI / 180.0;
 
+/// Deviation of what lies anywhere within a width, as a share of it: 1 / sqrt(12).
+constexpr double kUniformToSigma = 0.28867513459481287;
+
 }  // namespace cca

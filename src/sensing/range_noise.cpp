@@ -6,11 +6,11 @@
 #include <utility>
 #include <vector>
 
+#include "sensing/gates.hpp"
+
 namespace cca {
 namespace {
 
-constexpr double kUniformToSigma =
-    0.28867513459481287;  // deviation of the unit interval, 1 / sqrt 12
 /// Deviation of a beam's bearing, in spacings: a beam lies somewhere in a quarter of its own
 /// sector.
 constexpr double kBearingShare = 0.25 * kUniformToSigma;

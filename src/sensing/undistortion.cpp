@@ -9,6 +9,7 @@
 
 #include "geometry/cross.hpp"
 #include "sensing/beam.hpp"
+#include "sensing/gates.hpp"
 
 namespace cca {
 namespace {
@@ -19,8 +20,6 @@ constexpr double kWidestGap = 0.75;  // of a beam's spacing, from a bearing to t
 constexpr double kSmallAngle = 1e-6;  // rad, below which an arc is a straight line
 constexpr double kStep = 0.1;         // of the range, between the neighbours of a return
 constexpr double kBend = 0.25;        // of a step in inverse range from neighbour to neighbour
-/// Of what lies anywhere within a spacing, the deviation: 1 / sqrt(12).
-constexpr double kUniform = 0.288675;
 /// m, the thickness of a partition; a surface that ends at a return is not known to go on by more.
 /// Moved along a wall that the beam grazes, it would lie behind the corner, and behind its wall.
 constexpr double kBeyond = 0.1;
@@ -135,7 +134,7 @@ Scan undistort(const Scan& scan, const Twist& before, const Twist& after) {
   still.sweep_duration = 0.0;
   if (!isBent(scan, before, after)) return still;
   const std::size_t n = scan.size();
-  still.bearing_sigma = kUniform * std::abs(scan.angle_increment);
+  still.bearing_sigma = kUniformToSigma * std::abs(scan.angle_increment);
   const std::vector<Moved> moved = movedBeams(scan, before, after);
   const bool closed = seesAllAround(scan);
   // Of each bearing, the beam that lies nearest.

@@ -24,14 +24,12 @@ Pose2 moveBy(const Twist& twist, double dt);
 /// lies seen from the laser's pose in the middle of the sweep, p = T_middle_sensor(t_i) p_i, and
 /// the scan is made anew on its own bearings: each beam takes the return next to its bearing, moved
 /// along the surface that the neighbours of that return show, never across a step in depth. Where
-/// the sweep has left a gap the beam is invalid; where it overlaps itself the nearest one counts.
+/// the sweep has left a gap the beam is invalid; where it overlaps itself the nearest one counts. A
+/// beam looks up to half a spacing beside the bearing that it is taken for: bearing_sigma.
 ///
 /// @param scan    with its sweep_duration; see there.
-/// @param before, after  of the sensor, in its own frame as in the middle of the sweep: before
-/// that,
+/// @param before, after  of the sensor, in its own frame as in the middle of the sweep: before it,
 ///                and after it.
-/// A beam looks up to half a spacing beside the bearing that it is taken for: bearing_sigma.
-///
 /// @return        the scan with sweep_duration 0. Equal to `scan` in all else where there is no
 ///                sweep, or where the motion is no matter: below a twentieth of a beam's spacing
 ///                and a millimetre at either end.

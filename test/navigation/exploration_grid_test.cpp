@@ -178,7 +178,6 @@ WallFaults faultsOf(const StraightWall& wall, double before, double sigma) {
   return faults;
 }
 
-// Real walls lie anywhere within the cells, at any angle.
 /// Free cells behind the side wall of a corridor 12 m long and 3 m wide, of a scan whose beams look
 /// up to half a spacing aside of their bearings.
 int freedBehindAGrazedWall(double told_sigma) {
@@ -209,6 +208,7 @@ TEST(ExplorationGrid, BeamsThatLookBesideTheirBearingsFreeNothingBehindAWallThat
   EXPECT_EQ(freedBehindAGrazedWall(0.8 * M_PI / 180.0 / std::sqrt(12.0)), 0);
 }
 
+// Real walls lie anywhere within the cells, at any angle.
 TEST(ExplorationGrid, AWallAnywhereWithinItsCellsIsOccupiedAndHidesWhatIsBehind) {
   for (const double turn : {0.0, 0.03, 0.2, 0.5, M_PI / 4.0, 1.2}) {
     for (const double offset : {0.0, 0.01, 0.02, 0.025, 0.03, 0.04}) {

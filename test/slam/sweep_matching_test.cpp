@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
+
 #include "sensing/undistortion.hpp"
 #include "walled_world.hpp"
 
@@ -11,8 +13,8 @@ namespace {
 
 constexpr double kSweep = 0.18;  // s
 constexpr int kBeams = 360;
-constexpr double kFieldOfView = 359.0 * M_PI / 180.0;
-constexpr double kNoise = 0.01;  // m
+constexpr double kFieldOfView = 359.0 * M_PI / 180.0;  // rad, as rplidar_a1 has it
+constexpr double kNoise = 0.01;                        // m
 const Twist kTrue{{0.3, 0.02}, 0.8};
 const Pose2 kBefore{0.1, 0.2, 0.3}, kMiddle{0.4, 0.1, 0.5};
 
@@ -28,11 +30,15 @@ class SweepMatching : public testing::Test {
     reference_ = scanSurface(world_.scan(kBefore, kBeams, kFieldOfView, kNoise));
   }
 
-  /// Each beam from where the laser is by then.
+  /// Each beam from where the laser is by then; one in thirty is lost.
   Scan swept(double duration) {
     Scan scan = world_.scan(kMiddle, kBeams, kFieldOfView);
     scan.sweep_duration = duration;
     for (std::size_t k = 0; k < scan.size(); ++k) {
+      if (k % 30 == 7) {
+        scan.ranges[k] = std::numeric_limits<double>::quiet_NaN();
+        continue;
+      }
       const double time = duration * (static_cast<double>(k) / (kBeams - 1) - 0.5);
       scan.ranges[k] =
           world_.scan(kMiddle * moveBy(kTrue, time), kBeams, kFieldOfView, kNoise).ranges[k];
