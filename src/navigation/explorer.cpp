@@ -15,7 +15,8 @@ namespace cca {
 namespace {
 
 constexpr double kHome = 0.3;       // m
-constexpr double kPathLost = 10.0;  // s; who stands in the only path for a moment may leave
+// s; who stands in the only path for a moment may leave, and so may the trace of who passed.
+constexpr double kPathLost = 10.0;
 constexpr int kMostHeld = 2;  // times on one errand: the first may have been somebody who passed
 // Number of the goal, see Plan::goal; those of errands lie below.
 constexpr int kHomeGoal = Plan::kLookAround - 1;
@@ -103,7 +104,7 @@ void Explorer::sense(const Observation& seen) {
   if (!T_map_start_) T_map_start_ = seen.T_map_robot;
   if (!seen.is_localised) return;
   world_->markHazards(seen.hazards);
-  world_->observe(seen.scan, seen.T_map_robot.position(), seen.rangeSigma());
+  world_->observe(driver_->withoutMovers(seen.scan), seen.T_map_robot.position(), seen.rangeSigma());
 }
 
 Explorer::Intent Explorer::plan(const Observation& seen) {
@@ -151,6 +152,11 @@ DriveTask Explorer::taskTo(int goal, const Pose2& T_map_goal, Path path,
 
 Explorer::Intent Explorer::explore(const Observation& seen) {
   const Plan& plan = planner_->update(*world_, seen.T_map_robot.position(), driver_->takeOutcome());
+  if (isShutIn(plan, seen.time)) {
+    DriveTask task = taskTo(Plan::kLookAround, seen.T_map_robot, {seen.T_map_robot.position()}, seen);
+    task.looks_around = true;
+    return {ExplorationStatus::kExploring, "waiting for a way to what is left", {}, task};
+  }
   if (plan.isFinished()) {
     why_finished_ = plan.reason;
     is_returning_ = parameters_.return_to_start;
@@ -169,6 +175,16 @@ Explorer::Intent Explorer::explore(const Observation& seen) {
   intent.task->goes_straight = parameters_.path == PathKind::kPaper;
   if (!looks_around) intent.task->look_at_map = plan.look_at;
   return intent;
+}
+
+/// Whether it may be that somebody stands in the way to what is left, or did a moment ago.
+bool Explorer::isShutIn(const Plan& plan, double time) {
+  if (!plan.isFinished() || plan.unreachedArea() < kMuchUnreached) {
+    shut_in_since_.reset();
+    return false;
+  }
+  if (!shut_in_since_) shut_in_since_ = time;
+  return time - *shut_in_since_ <= kPathLost;
 }
 
 Explorer::Intent Explorer::goHome(const Observation& seen) {

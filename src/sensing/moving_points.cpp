@@ -23,6 +23,10 @@ constexpr double kStill = 0.05;    // m, beyond the noise: a walker of 0.15 m/s 
 constexpr double kStampError = 0.01;  // s, between a scan's beams and its pose
 constexpr double kPlaceError = 0.01;  // m, of a scan's pose as seen from another's
 constexpr double kHeeded = 2.0;       // m; what is farther cannot come before the robot stands
+constexpr double kStandsLong = 5.0;  // s; who walks about pauses for two, or leans for some more
+constexpr double kCell = 0.05;  // m, of what stands: with its neighbours, the noise of two scans
+
+Cell cellOf(const Eigen::Vector2d& p_map) { return cellAt(p_map / kCell); }
 
 // rad/s, of the robot, from one scan to another. A sweep that is undone by wheels that err, and
 // stamps that are not those of the poses, leave bearings wrong by some hundredths of that.
@@ -143,17 +147,34 @@ std::vector<bool> MovingPoints::update(const Scan& scan, double range_sigma, dou
   }
   for (std::size_t i = 0; i < scan.size(); ++i) {
     if (moving[i] || !isReturn(scan.ranges[i])) continue;
-    moving[i] = std::any_of(places_.begin(), places_.end(), [&](const Place& place) {
-      return (place.p_map - points[i]).squaredNorm() < kNearby * kNearby;
-    });
+    moving[i] = mayMove(points[i], time);
   }
   if (!places_.empty() && places_.back().time == time) {
     // Who moves is suspicious in one scan after the other; what noise and lost beams show is not.
     if (places_.front().time < time) last_seen_ = time;
   }
   findUnsettled(scan, points, moving, range_sigma, time);
+  noteWhatStands(scan, points, moving, kClearly + 4.0 * range_sigma, time);
   past_.push_back({scan, points, time});
   return moving;
+}
+
+// Beside a mover, and no wall or furniture that it passes by.
+bool MovingPoints::mayMove(const Eigen::Vector2d& p_map, double time) const {
+  const bool is_beside = std::any_of(places_.begin(), places_.end(), [&](const Place& place) {
+    return (place.p_map - p_map).squaredNorm() < kNearby * kNearby;
+  });
+  return is_beside && !hasStood(p_map, time);
+}
+
+Scan MovingPoints::withoutMovers(const Scan& scan) const {
+  Scan rest = scan;
+  if (places_.empty()) return rest;
+  for (std::size_t i = 0; i < scan.size(); ++i) {
+    if (isReturn(scan.ranges[i]) && mayMove(returnOf(scan, i), past_.back().time))
+      rest.ranges[i] = std::numeric_limits<double>::quiet_NaN();
+  }
+  return rest;
 }
 
 double MovingPoints::distanceTo(const Eigen::Vector2d& p_map) const {
@@ -179,8 +200,41 @@ void MovingPoints::findUnsettled(const Scan& scan, const std::vector<Eigen::Vect
     if (moving[i] || !isReturn(scan.ranges[i]) || scan.ranges[i] > kHeeded) continue;
     const bool settled = old_enough && sawSurfaceAt(earlier->scan, earlier->points, points[i],
                                                     kStill + 2.0 * range_sigma);
-    if (!settled) unsettled_.push_back(points[i]);
+    if (!settled && !hasStood(points[i], time)) unsettled_.push_back(points[i]);
   }
+}
+
+// What this scan sees free, by the rule for movers, stands no longer. Near the robot alone: what
+// comes near has been far.
+void MovingPoints::noteWhatStands(const Scan& scan, const std::vector<Eigen::Vector2d>& points,
+                                  const std::vector<bool>& moving, double clearly, double time) {
+  if (!start_) start_ = time;
+  const auto now = static_cast<float>(time - *start_);
+  const Cell here = cellOf(scan.T_map_sensor.position());
+  if (!isStorable(here)) return;
+  const auto toSensor = transformBy(scan.T_map_sensor.inverse());
+  constexpr int kReach = static_cast<int>(kHeeded / kCell);
+  for (int y = here.y - kReach; y <= here.y + kReach; ++y) {
+    for (int x = here.x - kReach; x <= here.x + kReach; ++x) {
+      const Cell c{x, y};
+      if (standing_since_.at(c) == kNobody) continue;
+      const Eigen::Vector2d p = toSensor(kCell * middleOf(c));
+      if (p.norm() < seenAround(scan, p, 0.0) - clearly) standing_since_[c] = kNobody;
+    }
+  }
+  for (std::size_t i = 0; i < scan.size(); ++i) {
+    if (moving[i] || !isReturn(scan.ranges[i]) || scan.ranges[i] > kFarthest) continue;
+    const Cell c = cellOf(points[i]);
+    if (isStorable(c) && standing_since_.at(c) == kNobody) standing_since_[c] = now;
+  }
+}
+
+bool MovingPoints::hasStood(const Eigen::Vector2d& p_map, double time) const {
+  if (!start_) return false;
+  const Cell c = cellOf(p_map);
+  const auto has = [&](Cell at) { return standing_since_.at(at) <= time - *start_ - kStandsLong; };
+  return has(c) ||
+         std::any_of(kNeighbours.begin(), kNeighbours.end(), [&](Cell to) { return has(c + to); });
 }
 
 // All that is joined to the suspicious run, as far as a body reaches.

@@ -3,8 +3,11 @@
 
 #include <Eigen/Core>
 #include <deque>
+#include <limits>
+#include <optional>
 #include <vector>
 
+#include "cca_mrpt/geometry/tiled_grid.hpp"
 #include "cca_mrpt/sensing/scan.hpp"
 
 namespace cca {
@@ -28,9 +31,15 @@ class MovingPoints {
   bool areAround(double time) const { return time - last_seen_ < 60.0; }
 
   /// Returns of the last scan, m, map frame, that may belong to a mover though none was found in
-  /// them: they are near, movers are around, and the scan of half a second ago saw nothing at their
-  /// place. Somebody slow, or somebody who has just come from behind something.
+  /// them: they are near, movers are around, the scan of half a second ago saw nothing at their
+  /// place, and nothing is known to have stood there for longer. Somebody slow, or somebody who has
+  /// just come from behind something.
   const std::vector<Eigen::Vector2d>& unsettled() const { return unsettled_; }
+
+  /// A scan, taken right after the last one, without its returns from where somebody moves, or has
+  /// within the last kMemory: those beams tell nothing. A map that has them keeps where people were
+  /// when the laser last saw them. Cost: O(beams * places).
+  Scan withoutMovers(const Scan& scan) const;
 
   /// m, from p_map [m, map frame] to the nearest place where a mover was within the last kMemory;
   /// infinite where there was none. Cost: O(places).
@@ -50,10 +59,16 @@ class MovingPoints {
     Eigen::Vector2d p_map;
     double time;
   };
+  static constexpr float kNobody = std::numeric_limits<float>::infinity();
+
   static void markBody(const std::vector<Eigen::Vector2d>& points, std::size_t first,
                        std::size_t last, std::vector<bool>& moving);
 
   const Past& scanBefore(double time) const;
+  void noteWhatStands(const Scan& scan, const std::vector<Eigen::Vector2d>& points,
+                      const std::vector<bool>& moving, double clearly, double time);
+  bool mayMove(const Eigen::Vector2d& p_map, double time) const;
+  bool hasStood(const Eigen::Vector2d& p_map, double time) const;
   void findUnsettled(const Scan& scan, const std::vector<Eigen::Vector2d>& points,
                      const std::vector<bool>& moving, double range_sigma, double time);
 
@@ -61,6 +76,10 @@ class MovingPoints {
   std::vector<Eigen::Vector2d> unsettled_;
   std::vector<Place> places_;  ///< where movers were
   double last_seen_ = -1e9;
+  /// s, of the drive, since when something that does not move has been seen in a cell, and not that
+  /// it is free; kNobody where nothing has.
+  TiledGrid<float> standing_since_{kNobody};
+  std::optional<double> start_;  ///< s, of the drive
 };
 
 }  // namespace cca

@@ -358,6 +358,30 @@ TEST(Explorer, WaitsForTheWayBackToBeFreeAgain) {
   EXPECT_NE(last.reason.find("back at the start"), std::string::npos) << last.reason;
 }
 
+// As by people who stand around it, or in the only door. Without the wait it would be through.
+TEST(Explorer, WaitsWhereItIsShutInAndSeesTheRestAfterwards) {
+  Driver driver;
+  while (driver.distance < 1.5 && driver.time < 60.0) driver.step();
+  ASSERT_LT(driver.time, 60.0);
+  bool has_waited = false;
+  for (int i = 0; i < 80; ++i) {
+    Observation observation{kRooms.scanFrom(driver.T_map_robot, 4.0), driver.T_map_robot,
+                            driver.velocity, driver.time};
+    for (double a = 0.0; a < 2.0 * M_PI; a += 0.05) {
+      observation.hazards.push_back(driver.T_map_robot.position() +
+                                    0.5 * Eigen::Vector2d(std::cos(a), std::sin(a)));
+    }
+    const Action action = driver.explorer.step(observation);
+    ASSERT_EQ(action.status, ExplorationStatus::kExploring) << action.reason;
+    has_waited = has_waited || action.reason == "waiting for a way to what is left";
+    driver.move({});
+  }
+  EXPECT_TRUE(has_waited);
+  EXPECT_EQ(driver.run().status, ExplorationStatus::kFinished);
+  EXPECT_EQ(driver.explorer.grid().at({120, 20}), CellState::kFree) << "in the other room";
+  EXPECT_FALSE(driver.explorer.isIncomplete());
+}
+
 /// Steps until the errand has ended. @return how.
 Action runErrand(Driver& driver, int most_steps = 2000) {
   Action action = driver.step();

@@ -7,6 +7,7 @@
 #include <random>
 
 #include "../navigation/random_worlds.hpp"
+#include "sensing/beam.hpp"
 
 namespace cca::testing {
 namespace {
@@ -236,6 +237,82 @@ TEST(MovingPoints, WhatStandsIsSettledForARobotThatDrivesAndTurns) {
   }
   EXPECT_GT(near, 1000);
   EXPECT_LT(unsettled, near / 50);
+}
+
+/// A hall with a box near its middle, and somebody who walks past it.
+BoxWorld hallWithBox(const Disc& walker) {
+  BoxWorld world;
+  world.addFrame(10, 10);
+  world.add(5.5, 5.5, 5.9, 5.9);
+  world.discs = {walker};
+  return world;
+}
+
+long returnsOnBox(const Scan& scan) {
+  long on_box = 0;
+  for (std::size_t i = 0; i < scan.size(); ++i) {
+    const Eigen::Vector2d p = returnOf(scan, i);
+    on_box += isReturn(scan.ranges[i]) && (p - Eigen::Vector2d(5.7, 5.7)).norm() < 0.3;
+  }
+  return on_box;
+}
+
+// A robot that waits for all that people pass by waits beside every wall.
+TEST(MovingPoints, WhatSomebodyWalksPastStandsAsBefore) {
+  MovingPoints points;
+  for (int i = 0; i < 100; ++i) {
+    const Disc walker{{5.2, 9.0 - 0.05 * i}, 0.2};  // at 5.7, half a metre beside it, when i = 66
+    const Scan scan = hallWithBox(walker).scan({5, 4, 0}, 8.0);
+    const std::vector<bool> moving = points.update(scan, 0.0, 0.1 * i);
+    const OnDisc on = returnsOn(walker, scan, moving, points.unsettled());
+    const Scan rest = points.withoutMovers(scan);
+    if (i < 55) continue;  // nobody knows yet that the box stands
+    ASSERT_EQ(on.heeded, on.all) << i;
+    ASSERT_EQ(movingBeams(moving), on.all) << i;
+    ASSERT_EQ(returnsOnBox(rest), returnsOnBox(scan)) << i;
+    ASSERT_EQ(std::count_if(rest.ranges.begin(), rest.ranges.end(), isReturn) + on.all,
+              std::count_if(scan.ranges.begin(), scan.ranges.end(), isReturn))
+        << i;
+  }
+}
+
+// A narrow laser that turned away for a while, then back.
+TEST(MovingPoints, WhatStoodBeforeTheRobotLookedAwayIsSettledAtOnce) {
+  MovingPoints points;
+  long near = 0;
+  for (int i = 0; i < 120; ++i) {
+    const bool looks_away = i > 80 && i < 100;
+    const Disc walker{{5.0 + 0.05 * (i % 20), 1.5}, 0.2};
+    Scan scan = hallWithBox(walker).scan({5, 5, 0}, 8.0);
+    for (std::size_t k = 0; looks_away && k < scan.size(); ++k) {
+      if (std::abs(wrapAngle(scan.bearing(k) - 0.25 * M_PI)) < 1.0) scan.ranges[k] = NAN;
+    }
+    points.update(scan, 0.0, 0.1 * i);
+    if (i < 100) continue;
+    near += returnsOnBox(scan);
+    for (const Eigen::Vector2d& p : points.unsettled())
+      ASSERT_GT((p - Eigen::Vector2d(5.7, 5.7)).norm(), 0.3) << i;
+  }
+  EXPECT_GT(near, 100);
+}
+
+// Who takes the place of something that was carried away is not known to stand.
+TEST(MovingPoints, WhatWasSeenFreeStandsNoLonger) {
+  MovingPoints points;
+  for (int i = 0; i < 130; ++i) {
+    BoxWorld world = hallWithBox({{5.0 + 0.05 * (i % 20), 3.0}, 0.2});
+    const Disc other{{6.3, 5.0}, 0.2};
+    if (i < 80 || i >= 120) world.discs.push_back(other);
+    const Scan scan = world.scan({5, 5, 0}, 8.0);
+    const std::vector<bool> moving = points.update(scan, 0.0, 0.1 * i);
+    const OnDisc on = returnsOn(other, scan, moving, points.unsettled());
+    if (i > 60 && i < 80) {
+      ASSERT_EQ(on.heeded, 0) << i;
+    } else if (i == 120) {
+      ASSERT_GT(on.all, 5);
+      ASSERT_EQ(on.heeded, on.all);
+    }
+  }
 }
 
 TEST(MovingPoints, NothingIsUnsettledWhereNobodyHasBeenSeen) {

@@ -20,6 +20,7 @@ class Driver;
 class ExplorationGrid;
 class GlobalPlanner;
 class WorldModel;
+struct Plan;
 struct DriveTask;
 
 enum class ExplorationStatus {
@@ -125,6 +126,7 @@ class Explorer {
 
   Intent stand(ExplorationStatus status, const std::string& reason, double time);
   Intent explore(const Observation& seen);
+  bool isShutIn(const Plan& plan, double time);
   Intent goHome(const Observation& seen);
   Intent runErrand(const Observation& seen);
   Intent endErrand(ExplorationStatus status, const std::string& reason);
@@ -141,6 +143,7 @@ class Explorer {
   std::string why_finished_;
   std::unique_ptr<Errand> errand_;
   int errands_ = 0;  ///< so far
+  std::optional<double> shut_in_since_;  ///< s, while no way is left to what is
 };
 
 }  // namespace cca

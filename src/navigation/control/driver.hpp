@@ -51,6 +51,8 @@ class Driver {
   /// The robot moves by other parameters from now on; its radius and margin stay.
   virtual void changeMotion(const RobotParameters& robot) = 0;
 
+  /// The next scan without what is known to move: those beams tell nothing.
+  virtual Scan withoutMovers(const Scan& scan) const { return scan; }
   /// Whether it drives only where the robot's pose is known.
   virtual bool needsPose() const = 0;
   /// What the odometry has shown of how the base obeys.

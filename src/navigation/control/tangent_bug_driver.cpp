@@ -146,6 +146,14 @@ GoalOutcome TangentBugDriver::takeOutcome() {
   return std::exchange(outcome_, {outcome_.goal, GoalStatus::kUnderWay, {}});
 }
 
+Scan TangentBugDriver::withoutMovers(const Scan& scan) const {
+  Scan rest = scan;
+  rest.T_map_sensor = T_drive_map_ * scan.T_map_sensor;
+  rest = tangent_bug_.movers().withoutMovers(rest);
+  rest.T_map_sensor = scan.T_map_sensor;
+  return rest;
+}
+
 void TangentBugDriver::pauseTimers(double time) {
   progress_.pauseTimers(time);
   tangent_bug_.pauseTimers(time);

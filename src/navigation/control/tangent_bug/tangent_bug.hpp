@@ -66,6 +66,9 @@ class TangentBug {
   /// The same by a scan alone, that nobody has analysed yet.
   Velocity step(const Scan& scan, const Pose2& T_map_robot, const Velocity& velocity, double time);
 
+  /// Of the scans so far.
+  const MovingPoints& movers() const { return moving_points_; }
+
   VelocityController& controller() { return controller_; }
   const VelocityController& controller() const { return controller_; }
   const RobotParameters& robot() const { return controller_.motion().robot(); }
