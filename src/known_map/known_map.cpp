@@ -117,6 +117,7 @@ class KnownMap::State {
   struct Fit {
     PlanMatch match;
     SightShares seen;
+    std::vector<PieceSight> said;
     double evidence = 0.0;  ///< nats a beam
   };
   /// What the beams said of a piece of the plan.
@@ -133,7 +134,7 @@ class KnownMap::State {
   /// The robot is where it was found, and is followed from there on.
   void follow(const Fit& found);
   void takePlace(const ScanSurface& surface, const Pose2& T_robot_sensor);
-  void learn(const ScanSurface& surface, const Fit& fit, double share);
+  void learn(const Fit& fit, double share);
   void countDoubt(bool is_doubtful, const Pose2& step);
   void lose();
   void expectAlongWheels();
@@ -146,7 +147,8 @@ class KnownMap::State {
   SightModel sights_;
   double plan_sigma_;
   std::vector<PieceRecord> records_;
-  std::vector<bool> is_open_;  ///< pieces that rays pass: doors
+  std::vector<bool> is_open_;   ///< pieces that rays pass: doors
+  std::vector<SightRay> rays_;  ///< of the scan at hand
   std::optional<Told> told_;
   std::optional<Pose2> last_odom_sensor_;
   Pose2 T_map_sensor_;
@@ -185,6 +187,7 @@ void KnownMap::State::place(const Pose2& T_map_robot, const Eigen::Matrix3d& cov
 
 Estimate KnownMap::State::update(const Measurement& measurement, const AnalysedScan& analysed) {
   const ScanSurface surface = scanSurface(analysed);
+  rays_ = sightRays(surface);
   std::optional<Pose2> odom_sensor, wheel_step;
   if (measurement.T_odom_robot && isFinite(*measurement.T_odom_robot)) {
     odom_sensor = *measurement.T_odom_robot * measurement.T_robot_sensor;
@@ -218,9 +221,8 @@ KnownMap::State::Fit KnownMap::State::fitAt(const ScanSurface& surface, const Po
   how.scan_covariance = scan_covariance_;
   Fit fit;
   fit.match = matchPlan(surface, start, prior, plan_, how);
-  fit.seen = seePlan(sightRays(surface), fit.match.T_map_sensor, plan_,
-                     sightTolerance(surface.range_sigma), is_open_,
-                     [](const SightRay&, Sight, PlanLines::Slot) {});
+  fit.seen = seePlan(rays_, fit.match.T_map_sensor, plan_, sightTolerance(surface.range_sigma),
+                     is_open_, &fit.said);
   fit.evidence = sights_.evidence(fit.seen);
   return fit;
 }
@@ -273,33 +275,31 @@ void KnownMap::State::track(const ScanSurface& surface, const std::optional<Pose
     }
     motion_.learn(wheel_step, motion, before.inverse() * T_map_sensor_,
                   inMapAxes(covariance_, -before.theta));
-    learn(surface, fit, share);
+    learn(fit, share);
     is_fresh_ = false;
   }
   countDoubt(is_doubtful, motion.T_before_after);
 }
 
-void KnownMap::State::learn(const ScanSurface& surface, const Fit& fit, double share) {
+void KnownMap::State::learn(const Fit& fit, double share) {
   sights_.learn(fit.seen, share * kLearnSights);
   if (fit.match.piece_variance >= 0.0) {
     const double variance = plan_sigma_ * plan_sigma_;
     const double learned = variance + share * kLearnPlan * (fit.match.piece_variance - variance);
     plan_sigma_ = std::clamp(std::sqrt(std::max(0.0, learned)), kLeastPlanSigma, kMostPlanSigma);
   }
-  seePlan(sightRays(surface), T_map_sensor_, plan_, sightTolerance(surface.range_sigma), {},
-          [&](const SightRay&, Sight sight, PlanLines::Slot slot) {
-            if (slot < 0) return;
-            PieceRecord& record = records_[static_cast<std::size_t>(slot)];
-            double& count = sight == Sight::kThrough ? record.through : record.explained;
-            count += share;
-            if (count > kRecordLimit) {
-              record.through *= 0.5;
-              record.explained *= 0.5;
-            }
-            is_open_[static_cast<std::size_t>(slot)] =
-                record.through > kRaysThroughDoor &&
-                record.through > kThroughOverExplained * record.explained;
-          });
+  for (const PieceSight& said : fit.said) {
+    const auto slot = static_cast<std::size_t>(said.slot);
+    PieceRecord& record = records_[slot];
+    double& count = said.is_through ? record.through : record.explained;
+    count += share;
+    if (count > kRecordLimit) {
+      record.through *= 0.5;
+      record.explained *= 0.5;
+    }
+    is_open_[slot] = record.through > kRaysThroughDoor &&
+                     record.through > kThroughOverExplained * record.explained;
+  }
 }
 
 void KnownMap::State::countDoubt(bool is_doubtful, const Pose2& step) {

@@ -3,8 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
-#include "cca_mrpt/geometry/cell.hpp"
 #include "geometry/cross.hpp"
 
 namespace cca {
@@ -14,6 +14,11 @@ constexpr double kShortest = 1e-3;   // m: no wall is so short, and its directio
 constexpr double kFacesAlike = 0.9;  // cosine, 26 degrees: far from the wall around a corner
 constexpr double kBlind = 0.1;       // m, before the sensor: its place errs by so much
 constexpr double kRim = 0.15;        // m, of a line's end, which a ray may well miss
+constexpr double kRounding = 1e-9;   // m: what is off a line by more than this is off its piece
+/// m: what a ray crosses it crosses in a cell that it comes through, most of which are empty.
+constexpr double kThroughCell = 0.4;
+/// m: a piece is a quarter of a cell from one of its steps, at most.
+constexpr double kThroughMargin = 0.3 * kThroughCell;
 
 }  // namespace
 
@@ -32,12 +37,57 @@ PlanLines::PlanLines(const std::vector<PlanLine>& lines, const std::vector<LineS
           {start, (to - from) / length, length / parts, k == 0, k + 1 == parts, sigma});
     }
   }
-  std::vector<WallIndex::Cell> cells;
-  for (std::size_t i = 0; i < pieces_.size(); ++i) {
-    const Piece& piece = pieces_[i];
-    cells.clear();
-    index_.insert(static_cast<Slot>(i), piece.start, piece.start + piece.length * piece.direction,
-                  kMostReach, cells);
+  near_ = Grid(pieces_, kCell, kMostReach);
+  through_ = Grid(pieces_, kThroughCell, kThroughMargin);
+}
+
+PlanLines::Grid::Grid(const std::vector<Piece>& pieces, double cell, double margin) : cell_(cell) {
+  struct Stretch {
+    int first = std::numeric_limits<int>::max(), last = std::numeric_limits<int>::min();
+    void extend(int from, int to) {
+      first = std::min(first, from);
+      last = std::max(last, to);
+    }
+  };
+  const Eigen::Vector2d around = Eigen::Vector2d::Constant(margin);
+  const auto eachStep = [&](const Piece& piece, const auto& visit) {
+    const Eigen::Vector2d end = piece.start + piece.length * piece.direction;
+    const Eigen::Vector2d along = end - piece.start;
+    const int steps = 1 + static_cast<int>(std::ceil(along.norm() / (0.5 * cell)));
+    for (int i = 0; i <= steps; ++i) {
+      const Eigen::Vector2d p = piece.start + along * (static_cast<double>(i) / steps);
+      visit(cellAt((p - around) / cell), cellAt((p + around) / cell));
+    }
+  };
+  if (pieces.empty()) return;
+  Stretch all_rows;
+  for (const Piece& piece : pieces)
+    eachStep(piece, [&](Cell low, Cell high) { all_rows.extend(low.y, high.y); });
+  first_row_ = all_rows.first;
+  std::vector<Stretch> columns(static_cast<std::size_t>(all_rows.last - first_row_) + 1);
+  for (const Piece& piece : pieces) {
+    eachStep(piece, [&](Cell low, Cell high) {
+      for (int y = low.y; y <= high.y; ++y)
+        columns[static_cast<std::size_t>(y - first_row_)].extend(low.x, high.x);
+    });
+  }
+  rows_.resize(columns.size());
+  for (std::size_t y = 0; y < rows_.size(); ++y) {
+    if (columns[y].first > columns[y].last) continue;
+    rows_[y].first = columns[y].first;
+    rows_[y].cells.resize(static_cast<std::size_t>(columns[y].last - columns[y].first) + 1);
+  }
+  for (std::size_t k = 0; k < pieces.size(); ++k) {
+    const auto slot = static_cast<Slot>(k);
+    eachStep(pieces[k], [&](Cell low, Cell high) {
+      for (int y = low.y; y <= high.y; ++y) {
+        Row& row = rows_[static_cast<std::size_t>(y - first_row_)];
+        for (int x = low.x; x <= high.x; ++x) {
+          std::vector<Slot>& slots = row.cells[static_cast<std::size_t>(x - row.first)];
+          if (slots.empty() || slots.back() != slot) slots.push_back(slot);
+        }
+      }
+    });
   }
 }
 
@@ -49,11 +99,13 @@ double PlanLines::distance(const Piece& piece, const Eigen::Vector2d& p_map) {
 
 PlanLines::Slot PlanLines::nearest(const Eigen::Vector2d& p_map, const Eigen::Vector2d& normal,
                                    double reach) const {
+  const double least_facing = normal.isZero() ? 0.0 : kFacesAlike;
   Slot best = -1;
   double nearest = reach;
   for (const Slot slot : near(p_map)) {
     const Piece& piece = (*this)[slot];
-    if (!normal.isZero() && std::abs(cross(piece.direction, normal)) < kFacesAlike) continue;
+    if (std::abs(cross(piece.direction, normal)) < least_facing) continue;
+    if (std::abs(cross(piece.direction, p_map - piece.start)) > nearest + kRounding) continue;
     const double apart = distance(piece, p_map);
     if (apart >= nearest) continue;
     nearest = apart;
@@ -62,11 +114,29 @@ PlanLines::Slot PlanLines::nearest(const Eigen::Vector2d& p_map, const Eigen::Ve
   return best;
 }
 
+/// The first wanted piece, by the cells that a ray crosses.
+template <class IsWanted>
+PlanLines::Slot PlanLines::firstAlong(const Grid& grid, const Eigen::Vector2d& from,
+                                      const Eigen::Vector2d& to, const IsWanted& is_wanted) {
+  const Eigen::Vector2d way = (to - from) / grid.cell();
+  const double length = way.norm();
+  if (length <= 0.0) return -1;
+  Slot found = -1;
+  walkBeam(from / grid.cell(), way / length, length, [&](Cell cell, double) {
+    for (const Slot slot : grid.at(cell)) {
+      if (!is_wanted(slot)) continue;
+      found = slot;
+      return false;
+    }
+    return true;
+  });
+  return found;
+}
+
 PlanLines::Slot PlanLines::crossed(const Eigen::Vector2d& from, const Eigen::Vector2d& to,
                                    double behind, const std::vector<bool>& is_open) const {
   const auto isCrossed = [&](Slot slot) {
     const Piece& piece = (*this)[slot];
-    if (!is_open.empty() && is_open[static_cast<std::size_t>(slot)]) return false;
     const double off_from = cross(piece.direction, from - piece.start);
     const double off_to = cross(piece.direction, to - piece.start);
     if ((off_from > 0.0) == (off_to > 0.0)) return false;
@@ -74,19 +144,11 @@ PlanLines::Slot PlanLines::crossed(const Eigen::Vector2d& from, const Eigen::Vec
     const Eigen::Vector2d at = from + (to - from) * (off_from / (off_from - off_to));
     const double along = piece.direction.dot(at - piece.start);
     return along >= (piece.begins ? kRim : 0.0) &&
-           along <= piece.length - (piece.ends ? kRim : 0.0);
+           along <= piece.length - (piece.ends ? kRim : 0.0) &&
+           (is_open.empty() || !is_open[static_cast<std::size_t>(slot)]);
   };
-  const Eigen::Vector2d way = (to - from) / WallIndex::kCellSize;
-  const double length = way.norm();
-  if (length <= 0.0) return -1;
-  Slot found = -1;
-  walkBeam(from / WallIndex::kCellSize, way / length, length, [&](Cell cell, double) {
-    const auto& slots = index_.at({cell.x, cell.y});
-    const auto first = std::find_if(slots.begin(), slots.end(), isCrossed);
-    if (first != slots.end()) found = *first;
-    return found < 0;
-  });
-  return found;
+  if (firstAlong(through_, from, to, isCrossed) < 0) return -1;  // most rays
+  return firstAlong(near_, from, to, isCrossed);
 }
 
 }  // namespace cca

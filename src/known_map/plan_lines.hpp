@@ -3,19 +3,21 @@
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
+#include <cstddef>
+#include <cstdint>
 #include <vector>
 
+#include "cca_mrpt/geometry/cell.hpp"
 #include "cca_mrpt/known_map/plan.hpp"
-#include "mapping/wall_index.hpp"
 
 namespace cca {
 
-/// The lines of a finished map or of a drawn plan, cut into pieces, with the index that finds them.
+/// The lines of a finished map or of a drawn plan, cut into pieces, with the grids that find them.
 ///
 /// A plan does not tell which side of a line is the wall: each piece is seen from both.
 class PlanLines {
  public:
-  using Slot = WallIndex::Slot;
+  using Slot = std::int32_t;
 
   struct Piece {
     Eigen::Vector2d start;      ///< m
@@ -31,6 +33,9 @@ class PlanLines {
   /// the error of a plan is one number a piece.
   static constexpr double kLongestPiece = 2.0;
   static constexpr double kMostReach = 0.6;  ///< m, from a piece, that it can be asked for
+  /// m; some more than kMostReach: smaller cells name a piece oftener, larger ones name pieces that
+  /// nobody asks for.
+  static constexpr double kCell = 0.8;
 
   PlanLines() = default;
   /// @param lines   finite; those shorter than a millimetre are left out.
@@ -42,9 +47,9 @@ class PlanLines {
   const Piece& operator[](Slot slot) const { return pieces_[static_cast<std::size_t>(slot)]; }
   const Eigen::AlignedBox2d& bounds() const { return bounds_; }  ///< m
 
-  /// The pieces within kMostReach of a point, and others. Cost: that of one hash.
+  /// The pieces within kMostReach of a point, and others. Cost: O(1).
   const std::vector<Slot>& near(const Eigen::Vector2d& p_map) const {
-    return index_.at(WallIndex::cellOf(p_map));
+    return near_.at(cellAt(p_map / kCell));
   }
   /// The piece whose line lies next to a point.
   /// @param normal  unit, of the surface at the point: its piece faces alike, or the other way;
@@ -58,13 +63,43 @@ class PlanLines {
   /// Whether a ray has gone through a line: it ends `behind` [m] behind it at least, begins before
   /// it, and does not pass by the line's end. Cost: cells that the ray crosses.
   /// @param is_open  by slot: pieces that rays may pass; empty: none may.
-  /// @return  the first such piece found, or -1.
+  /// @return  the first such piece, by the cells that it is near; -1: none.
   Slot crossed(const Eigen::Vector2d& from, const Eigen::Vector2d& to, double behind,
                const std::vector<bool>& is_open) const;
 
  private:
+  /// The pieces that come within a margin of each cell, in their order. Each row is as long as its
+  /// pieces need: a stray line of a drawing, a kilometre off, costs little.
+  class Grid {
+   public:
+    Grid() = default;
+    Grid(const std::vector<Piece>& pieces, double cell, double margin);
+    double cell() const { return cell_; }  ///< m
+    const std::vector<Slot>& at(Cell c) const {
+      const auto y = static_cast<std::size_t>(std::int64_t{c.y} - first_row_);
+      if (y >= rows_.size()) return none_;
+      const Row& row = rows_[y];
+      const auto x = static_cast<std::size_t>(std::int64_t{c.x} - row.first);
+      return x < row.cells.size() ? row.cells[x] : none_;
+    }
+
+   private:
+    struct Row {
+      int first = 0;
+      std::vector<std::vector<Slot>> cells;
+    };
+    double cell_ = 1.0;
+    int first_row_ = 0;
+    std::vector<Row> rows_;
+    inline static const std::vector<Slot> none_;
+  };
+  template <class IsWanted>
+  static Slot firstAlong(const Grid& grid, const Eigen::Vector2d& from, const Eigen::Vector2d& to,
+                         const IsWanted& is_wanted);
+
   std::vector<Piece> pieces_;
-  WallIndex index_;
+  Grid near_;     ///< within kMostReach
+  Grid through_;  ///< in the cell itself
   Eigen::AlignedBox2d bounds_;
 };
 

@@ -12,6 +12,7 @@ namespace {
 constexpr double kFarthestRay = 15.0;  // m; further out a degree of heading is a quarter of a metre
 constexpr double kSilentSpacing = 0.07;  // rad: kRaySpacing, at a usual distance of walls, 3.6 m
 constexpr double kShortOfFree = 0.3;     // m, that a silent beam is taken to have seen less
+constexpr double kBehindPlan = 0.25;     // m, behind a line, and a ray has gone through
 
 /// What the beams of a scan are at a pose that somebody guesses, in a building.
 constexpr double kExplainedByChance = 0.25, kHiddenByChance = 0.45, kThroughByChance = 0.30;
@@ -58,9 +59,37 @@ std::vector<SightRay> sightRays(const ScanSurface& surface) {
 }
 
 SightShares seePlan(const std::vector<SightRay>& rays, const Pose2& T_map_sensor,
-                    const PlanLines& plan, double tolerance) {
-  return seePlan(rays, T_map_sensor, plan, tolerance, {},
-                 [](const SightRay&, Sight, PlanLines::Slot) {});
+                    const PlanLines& plan, double tolerance, const std::vector<bool>& is_open,
+                    std::vector<PieceSight>* said) {
+  SightShares shares;
+  const double c = std::cos(T_map_sensor.theta), s = std::sin(T_map_sensor.theta);
+  const Eigen::Vector2d origin = T_map_sensor.position();
+  for (const SightRay& ray : rays) {
+    const Eigen::Vector2d end{origin.x() + c * ray.end.x() - s * ray.end.y(),
+                              origin.y() + s * ray.end.x() + c * ray.end.y()};
+    const PlanLines::Slot crossed = plan.crossed(origin, end, kBehindPlan, {});
+    if (crossed >= 0) {
+      if (said) said->push_back({crossed, true});
+      const bool is_door = !is_open.empty() && is_open[static_cast<std::size_t>(crossed)];
+      if (!is_door || plan.crossed(origin, end, kBehindPlan, is_open) >= 0) {
+        shares.through += 1.0;
+        continue;
+      }
+    }
+    if (!ray.is_return) continue;
+    const Eigen::Vector2d normal{c * ray.normal.x() - s * ray.normal.y(),
+                                 s * ray.normal.x() + c * ray.normal.y()};
+    const PlanLines::Slot on = plan.nearest(end, normal, tolerance);
+    if (on < 0) {
+      shares.hidden += 1.0;
+      continue;
+    }
+    const double apart = PlanLines::distance(plan[on], end);
+    shares.explained += 1.0;
+    shares.distance_sq += apart * apart;
+    if (said && crossed < 0) said->push_back({on, false});
+  }
+  return shares;
 }
 
 double SightModel::evidence(const SightShares& seen) const {

@@ -55,7 +55,7 @@ bool seesEachOther(const PlanLines& plan, const Eigen::Vector2d& a, const Eigen:
 double rangeInPlan(const PlanLines& plan, const Eigen::Vector2d& p_map, double bearing,
                    double longest) {
   const Eigen::Vector2d ray(std::cos(bearing), std::sin(bearing));
-  constexpr double kSide = WallIndex::kCellSize;
+  constexpr double kSide = PlanLines::kCell;
   double nearest = std::numeric_limits<double>::infinity();
   // What is nearer than a piece that a cell knows of is near that cell as well.
   walkBeam(p_map / kSide, ray, longest / kSide, [&](Cell cell, double) {

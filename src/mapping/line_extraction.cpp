@@ -59,9 +59,10 @@ PointNoise noiseOf(const Scan& scan, const CcaParameters& parameters) {
 /// Clusters a scan again and again, until no two runs are alike and every corner is in its place.
 ClusteredScan cluster(const Scan& scan, const PointNoise& noise, const CcaParameters& parameters) {
   const Ablation& without = parameters.without;
-  const ScanPoints points = scanPoints(scan, std::max(noise.range_sigma, noise.straightness));
-  const RunFitter fitter(points.positions, noise, parameters.vertex_price);
-  ClusteredScan s{noise, points, fitter, pointClusters(points, fitter, without)};
+  ScanPoints points = scanPoints(scan, std::max(noise.range_sigma, noise.straightness));
+  RunFitter fitter(points.positions, noise, parameters.vertex_price);
+  Runs runs = pointClusters(points, fitter, without);
+  ClusteredScan s{noise, std::move(points), std::move(fitter), std::move(runs)};
 
   const AlphaCut cut(parameters);
   for (const double share : kOdds) {

@@ -6,6 +6,8 @@
 #include <unordered_map>
 #include <vector>
 
+#include "cca_mrpt/geometry/cell.hpp"
+
 namespace cca {
 
 /// A uniform grid over the plane that names, for each cell, the walls near it. Cells are made when
@@ -19,7 +21,7 @@ class WallIndex {
   static constexpr double kCellSize = 0.8;
 
   static Cell cellOf(const Eigen::Vector2d& point) {
-    return {below(point.x() / kCellSize), below(point.y() / kCellSize)};
+    return {wholeBelow(point.x() / kCellSize), wholeBelow(point.y() / kCellSize)};
   }
 
   /// The walls of a cell, in order of insertion; empty where nothing is.
@@ -35,10 +37,6 @@ class WallIndex {
   void remove(Slot slot, const std::vector<Cell>& cells);
 
  private:
-  static int below(double x) {
-    const int i = static_cast<int>(x);
-    return x < i ? i - 1 : i;
-  }
   static std::int64_t keyOf(const Cell& cell) {
     return cell.x() * (std::int64_t{1} << 32) + cell.y();
   }

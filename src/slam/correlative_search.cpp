@@ -9,6 +9,7 @@
 #include <tuple>
 #include <utility>
 
+#include "cca_mrpt/geometry/cell.hpp"
 #include "slam/surface_matching.hpp"
 
 namespace cca {
@@ -111,12 +112,12 @@ PoseSearch::TurnedQuery PoseSearch::turnedQuery(int k) const {
   const Eigen::Vector2d low =
       window_.centre.position() - Eigen::Vector2d::Constant(steps_ * pyramid_.cell());
   turned.cells.reserve(query_.size());
+  turned.offsets.reserve(query_.size());
   for (std::size_t i = 0; i < query_.size(); ++i) {
     const Eigen::Vector2d& p = query_[i].position;
     const Eigen::Vector2d at =
         pyramid_.toCells(low + Eigen::Vector2d(c * p.x() - s * p.y(), s * p.x() + c * p.y()));
-    turned.cells.emplace_back(static_cast<int>(std::floor(at.x())),
-                              static_cast<int>(std::floor(at.y())),
+    turned.cells.emplace_back(wholeBelow(at.x()), wholeBelow(at.y()),
                               pyramid_.layerOf(facings_[i] + turned.angle));
     const Eigen::Vector3i& cell = turned.cells.back();
     turned.offsets.push_back(pyramid_.offset(cell.x(), cell.y(), cell.z()));

@@ -118,6 +118,7 @@ void LikelihoodPyramid::addLevel() {
 
 std::vector<SurfacePoint> thinned(const std::vector<SurfacePoint>& points, double spacing) {
   std::unordered_set<std::int64_t> taken;
+  taken.reserve(points.size());
   std::vector<SurfacePoint> kept;
   for (const SurfacePoint& p : points) {
     const auto x = static_cast<std::int64_t>(std::floor(p.position.x() / spacing));

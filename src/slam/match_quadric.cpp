@@ -14,70 +14,51 @@ namespace {
 
 /// Surfaces face the same way within 25 degrees.
 constexpr float kSameFacing = 0.9F;
-/// So many beams to either side are asked for a partner, at most.
-constexpr int kMostBeside = 8;
-
 /// What lies k beams beside a point is farther from it than k - .5 arcs, less what the sine of that
 /// angle is short of it: this share of its square remains up to a radian.
 constexpr float kOfArc = 0.7F;
-
-/// A return of the query in the frame of a reference.
-struct SeenReturn {
-  float x, y, normal_x, normal_y;
-  int beam;
-};
 
 /// Looks for partners among the returns of one reference.
 class PartnerSearch {
  public:
   PartnerSearch(const ScanSurface& reference, double reach)
-      : point_of_beam_(reference.point_of_beam.data()),
-        beams_(reference.beams()),
-        is_full_turn_(reference.is_full_turn),
-        points_(reference.packed),
+      : returns_(reference.returns()),
+        most_beside_(std::min(ScanSurface::kBeside, reference.beams() - 1)),
         reach_sq_(static_cast<float>(reach * reach)),
         arc_sq_(kOfArc * static_cast<float>(reference.spacing * reference.spacing)) {}
 
-  /// The nearest return to `seen`, facing as it does; -1: none. Beams are asked from the one that
-  /// looks there outwards, until none can be nearer.
-  int partnerOf(const SeenReturn& seen) const {
-    Nearest nearest{-1, reach_sq_};
-    ask(seen, seen.beam, nearest);
+  /// The nearest return to one of the query, in the frame of the reference, facing as it does;
+  /// nullptr: none. Beams are asked from the one that looks there outwards, until none can be
+  /// nearer.
+  const PackedReturn* partnerOf(const PackedReturn& seen, int beam) const {
+    const PackedReturn* towards = returns_ + beam;
+    Nearest nearest{nullptr, reach_sq_};
+    ask(seen, towards, nearest);
     const float arc_sq = arc_sq_ * (seen.x * seen.x + seen.y * seen.y);
-    for (int k = 1; k <= kMostBeside && k < beams_; ++k) {
+    for (int k = 1; k <= most_beside_; ++k) {
       const float before = static_cast<float>(k) - 0.5F;
       if (before * before * arc_sq >= nearest.apart_sq) break;
-      ask(seen, seen.beam - k, nearest);
-      ask(seen, seen.beam + k, nearest);
+      ask(seen, towards - k, nearest);
+      ask(seen, towards + k, nearest);
     }
-    return nearest.point;
+    return nearest.single;
   }
 
  private:
   struct Nearest {
-    int point;
+    const PackedReturn* single;
     float apart_sq;
   };
-  void ask(const SeenReturn& seen, int beam, Nearest& nearest) const {
-    if (beam < 0 || beam >= beams_) {
-      if (!is_full_turn_) return;
-      beam += beam < 0 ? beams_ : -beams_;
-    }
-    const int i = point_of_beam_[beam];
-    if (i < 0) return;
-    const auto at = static_cast<std::size_t>(i);
-    const float dx = points_.x[at] - seen.x, dy = points_.y[at] - seen.y;
+  static void ask(const PackedReturn& seen, const PackedReturn* single, Nearest& nearest) {
+    const float dx = single->x - seen.x, dy = single->y - seen.y;
     const float apart_sq = dx * dx + dy * dy;
     if (apart_sq >= nearest.apart_sq) return;
-    if (points_.normal_x[at] * seen.normal_x + points_.normal_y[at] * seen.normal_y < kSameFacing)
-      return;
-    nearest = {i, apart_sq};
+    if (single->normal_x * seen.normal_x + single->normal_y * seen.normal_y < kSameFacing) return;
+    nearest = {single, apart_sq};
   }
 
-  const int* point_of_beam_;
-  int beams_;
-  bool is_full_turn_;
-  const PackedPoints& points_;
+  const PackedReturn* returns_;
+  int most_beside_;
   float reach_sq_, arc_sq_;
 };
 
@@ -96,24 +77,22 @@ struct Pairs {
 
 Pairs pairsWith(const ScanSurface& reference, const PackedPoints& query,
                 const Pose2& T_reference_query, double reach) {
-  const std::size_t count = query.x.size();
+  const std::size_t count = query.size();
   Pairs pairs(count);
   const PackedMotion motion(T_reference_query);
   const SeenPoints seen(query, motion, reference);
   const PartnerSearch search(reference, reach);
-  const PackedPoints& points = reference.packed;
   std::size_t found = 0;
   for (std::size_t k = 0; k < count; ++k) {
     const float nx = query.normal_x[k], ny = query.normal_y[k];
     if (seen.beam[k] < 0 || (nx == 0.0F && ny == 0.0F)) continue;
     const float x = seen.x[k], y = seen.y[k];
-    const int partner = search.partnerOf(
-        {x, y, motion.c * nx - motion.s * ny, motion.s * nx + motion.c * ny, seen.beam[k]});
-    if (partner < 0) continue;
-    const auto i = static_cast<std::size_t>(partner);
-    const float to_x = points.normal_x[i], to_y = points.normal_y[i];
+    const PackedReturn* partner = search.partnerOf(
+        {x, y, motion.c * nx - motion.s * ny, motion.s * nx + motion.c * ny}, seen.beam[k]);
+    if (!partner) continue;
+    const float to_x = partner->normal_x, to_y = partner->normal_y;
     pairs.of[found] = static_cast<std::int32_t>(k);
-    pairs.e[found] = to_x * (x - points.x[i]) + to_y * (y - points.y[i]);
+    pairs.e[found] = to_x * (x - partner->x) + to_y * (y - partner->y);
     pairs.normal_x[found] = to_x;
     pairs.normal_y[found] = to_y;
     pairs.turn[found] = to_y * (x - motion.x) - to_x * (y - motion.y);
@@ -168,13 +147,10 @@ void addPairs(Pairs& pairs, std::vector<float>& shares, double weight_of_sigma, 
 }
 
 PackedPoints everyOf(const PackedPoints& points, int stride) {
+  const auto step = static_cast<std::size_t>(stride);
   PackedPoints some;
-  for (std::size_t k = 0; k < points.x.size(); k += static_cast<std::size_t>(stride)) {
-    some.x.push_back(points.x[k]);
-    some.y.push_back(points.y[k]);
-    some.normal_x.push_back(points.normal_x[k]);
-    some.normal_y.push_back(points.normal_y[k]);
-  }
+  some.resize((points.size() + step - 1) / step);
+  for (std::size_t k = 0; k < some.size(); ++k) some.set(k, points.at(k * step));
   return some;
 }
 
@@ -182,7 +158,8 @@ PackedPoints everyOf(const PackedPoints& points, int stride) {
 struct PairsOfAll {
   PairsOfAll(const PackedPoints& points, const Pose2& T_map_query,
              const std::vector<PlacedSurface>& references, double reach)
-      : partners(points.x.size(), 0) {
+      : partners(points.size(), 0) {
+    of_reference.reserve(references.size());
     for (const PlacedSurface& placed : references) {
       of_reference.push_back(
           pairsWith(*placed.surface, points, placed.T_map_sensor.inverse() * T_map_query, reach));

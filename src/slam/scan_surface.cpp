@@ -93,12 +93,21 @@ void takeFreeRangesOfThree(ScanSurface& surface) {
 }  // namespace
 
 void ScanSurface::pack() {
-  packed = {};
-  for (const Point& point : points) {
-    packed.x.push_back(static_cast<float>(point.position.x()));
-    packed.y.push_back(static_cast<float>(point.position.y()));
-    packed.normal_x.push_back(static_cast<float>(point.normal.x()));
-    packed.normal_y.push_back(static_cast<float>(point.normal.y()));
+  packed.resize(points.size());
+  padded.assign(point_of_beam.size() + 2 * kBeside, {});
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    const Point& point = points[k];
+    const PackedReturn single{
+        static_cast<float>(point.position.x()), static_cast<float>(point.position.y()),
+        static_cast<float>(point.normal.x()), static_cast<float>(point.normal.y())};
+    packed.set(k, single);
+    padded[static_cast<std::size_t>(point.beam + kBeside)] = single;
+  }
+  if (!is_full_turn || points.empty()) return;
+  for (int k = 0; k < kBeside; ++k) {
+    const int last = beams() - 1 - k % beams(), first = k % beams();
+    padded[static_cast<std::size_t>(kBeside - 1 - k)] = returns()[last];
+    padded[static_cast<std::size_t>(kBeside + beams() + k)] = returns()[first];
   }
 }
 

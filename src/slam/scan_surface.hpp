@@ -23,11 +23,27 @@ inline double bearingOf(const Eigen::Vector2d& p) {
   return p.y() < 0.0 ? -angle : angle;
 }
 
-/// Points and the directions of their surfaces, in single precision (two micrometres at 30 m), one
-/// array for each coordinate: for loops over all of them at once.
+/// A return in single precision (two micrometres at 30 m).
+struct PackedReturn {
+  float x = 0.0F, y = 0.0F;                ///< m
+  float normal_x = 0.0F, normal_y = 0.0F;  ///< unit; zero where no surface is known
+};
+
+/// Returns, one array for each coordinate: for loops over all of them at once.
 struct PackedPoints {
-  std::vector<float> x, y;                ///< m
-  std::vector<float> normal_x, normal_y;  ///< unit; zero where no surface is known
+  std::vector<float> x, y, normal_x, normal_y;
+
+  std::size_t size() const { return x.size(); }
+  void resize(std::size_t count) {
+    for (std::vector<float>* column : {&x, &y, &normal_x, &normal_y}) column->resize(count);
+  }
+  PackedReturn at(std::size_t k) const { return {x[k], y[k], normal_x[k], normal_y[k]}; }
+  void set(std::size_t k, const PackedReturn& single) {
+    x[k] = single.x;
+    y[k] = single.y;
+    normal_x[k] = single.normal_x;
+    normal_y[k] = single.normal_y;
+  }
 };
 
 /// What one scan saw, ready to be compared with others: its returns with the direction of the
@@ -38,8 +54,13 @@ struct ScanSurface {
     Eigen::Vector2d normal;    ///< unit, towards the sensor; zero where no surface is known
     int beam = 0;
   };
-  std::vector<Point> points;       ///< counter-clockwise
-  PackedPoints packed;             ///< the same; see pack()
+  std::vector<Point> points;  ///< counter-clockwise
+  PackedPoints packed;        ///< the same; see pack()
+  /// The same by beam, of no normal where a beam has no return. At either end are kBeside more,
+  /// those of the other end after a full turn: who asks beside a beam need not ask whether there is
+  /// one.
+  static constexpr int kBeside = 8;
+  std::vector<PackedReturn> padded = std::vector<PackedReturn>(2 * kBeside);
   std::vector<int> point_of_beam;  ///< index into `points`; -1: no return
   std::vector<double> free_range;  ///< m, that each beam saw free; 0: it says nothing
   std::vector<float> least_free;   ///< m, of each beam and its two neighbours
@@ -50,6 +71,8 @@ struct ScanSurface {
   bool is_full_turn = false;       ///< the last beam is a neighbour of the first
 
   int beams() const { return static_cast<int>(point_of_beam.size()); }
+  /// Of beam 0; of others from -kBeside to beams() + kBeside - 1 as well.
+  const PackedReturn* returns() const { return padded.data() + kBeside; }
   /// The beam that looks at a point of the sensor's frame, to the nearest; -1 where
   /// none does.
   int beamTowards(const Eigen::Vector2d& p_sensor) const;

@@ -3,7 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/LU>
 #include <cmath>
+#include <random>
+#include <vector>
 
 namespace cca {
 namespace {
@@ -54,6 +57,48 @@ TEST(PlanLines, ARayMayPassAPieceThatIsOpen) {
   ASSERT_GE(slot, 0);
   is_open[static_cast<std::size_t>(slot)] = true;
   EXPECT_LT(kCorner.crossed({2.0, 1.0}, {2.0, -1.0}, 0.2, is_open), 0);
+}
+
+TEST(PlanLines, WhateverARayCrossesIsFoundAlsoOnTheBordersOfCells) {
+  std::mt19937 random(1);
+  std::uniform_int_distribution<int> at(-30, 30);
+  const auto corner = [&] { return Eigen::Vector2d(0.2 * at(random), 0.2 * at(random)); };
+  std::vector<PlanLine> lines;
+  for (int k = 0; k < 12; ++k) lines.emplace_back(corner(), corner());
+  const PlanLines plan(lines);
+  int crossed = 0, others = 0;
+  for (int k = 0; k < 1000; ++k) {
+    const Eigen::Vector2d from = corner(), to = corner();
+    bool is_clear = true, is_through = false;  // of every line
+    for (const auto& [start, end] : lines) {
+      Eigen::Matrix2d axes;
+      axes << to - from, start - end;
+      const double area = std::abs(axes.determinant()), length = (end - start).norm();
+      if (area < 1e-9 || length < 1e-9) continue;
+      const Eigen::Vector2d share = axes.inverse() * (start - from);
+      const double along = share.y() * length, across = area / length;  // m
+      const bool is_crossed = share.x() * across > 0.11 && (1.0 - share.x()) * across > 0.21 &&
+                              along > 0.16 && along < length - 0.16;
+      is_through = is_through || is_crossed;
+      is_clear = is_clear && (share.x() < 0.0 || share.x() > 1.0 || along < 0.0 || along > length);
+    }
+    const bool is_found = plan.crossed(from, to, 0.2, {}) >= 0;
+    if (is_through || is_clear) {
+      EXPECT_EQ(is_found, is_through) << k;
+    }
+    crossed += is_through;
+    others += is_clear;
+  }
+  EXPECT_GT(crossed, 100);
+  EXPECT_GT(others, 100);
+}
+
+TEST(PlanLines, AStrayLineFarAwayIsFoundAndDoesNotFillTheGridBetween) {
+  const Eigen::Vector2d far(1e5, -1e5);  // m: cells between them would take a terabyte
+  const PlanLines plan({{{0.0, 0.0}, {5.0, 0.0}}, {far, far + Eigen::Vector2d(1.0, 0.0)}});
+  EXPECT_GE(plan.nearest({1.0, 0.1}, {0, 1}, 0.2), 0);
+  EXPECT_GE(plan.nearest(far + Eigen::Vector2d(0.5, 0.1), {0, 1}, 0.2), 0);
+  EXPECT_LT(plan.nearest(0.5 * far, {0, 0}, 0.2), 0);
 }
 
 }  // namespace

@@ -31,10 +31,14 @@ inline int squareDistance(Cell a, Cell b) {
 
 /// The middle of a cell, in cells.
 inline Eigen::Vector2d middleOf(Cell c) { return {c.x + 0.5, c.y + 0.5}; }
-/// The cell that holds a point. @param p  in cells, finite.
-inline Cell cellAt(const Eigen::Vector2d& p) {
-  return {static_cast<int>(std::floor(p.x())), static_cast<int>(std::floor(p.y()))};
+/// The largest whole number up to x, which an int can hold: processors of before 2008 have no
+/// instruction for std::floor(), and it is a call.
+inline int wholeBelow(double x) {
+  const int whole = static_cast<int>(x);
+  return x < whole ? whole - 1 : whole;
 }
+/// The cell that holds a point. @param p  in cells, finite.
+inline Cell cellAt(const Eigen::Vector2d& p) { return {wholeBelow(p.x()), wholeBelow(p.y())}; }
 
 /// Visits the cells that a straight line crosses, in order [Amanatides & Woo 1987].
 ///
