@@ -27,7 +27,6 @@ constexpr double kLeastScore = 0.45;
 /// agree with score .88 and more.
 constexpr double kLeastScoreAnywhere = 0.8;
 constexpr double kCellAnywhere = 0.2, kSpacingAnywhere = 0.4;  // m, twice the others: a first place
-constexpr double kTolerance = 0.2;                             // m, within which rays agree
 constexpr double kRivalDistance = 0.6, kRivalTurn = 0.3;  // m, rad, from the best place at least
 
 /// Returns of frames in the axes that `T_base_map` leads to.
@@ -87,8 +86,8 @@ void judge(const KeyFrames& frames, const std::vector<int>& recent, const std::v
     for (const PlacedSurface& reference : references) {
       const Pose2 T_reference_k = reference.T_map_sensor.inverse() * T_earlier_k;
       if (T_reference_k.position().norm() > 1.5 * kCommonView) continue;
-      sights += compareSights(*reference.surface, seen, T_reference_k, kTolerance);
-      sights += compareSights(seen, *reference.surface, T_reference_k.inverse(), kTolerance);
+      sights += compareSights(*reference.surface, seen, T_reference_k);
+      sights += compareSights(seen, *reference.surface, T_reference_k.inverse());
     }
   }
   verdict.agreement = sights.agreement();
@@ -118,11 +117,10 @@ std::vector<RelativeSigma> loopCandidates(const KeyFrames& frames, int frame) {
   });
   // One of each visit: frames that follow one another are one.
   std::vector<RelativeSigma> chosen;
-  constexpr int kSameVisit = 20;              // frames: ten metres of way
   constexpr std::size_t kMostCandidates = 3;  // bounds what a key frame costs
   for (const Likely& next : likely) {
     const bool known = std::any_of(chosen.begin(), chosen.end(), [&](const auto& other) {
-      return std::abs(other.node - next.at.node) < kSameVisit;
+      return std::abs(other.node - next.at.node) < kFramesOfVisit;
     });
     if (!known) chosen.push_back(next.at);
     if (chosen.size() == kMostCandidates) break;

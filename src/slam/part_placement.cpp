@@ -13,9 +13,6 @@ namespace {
 constexpr std::size_t kMostAsked = 40, kJudgesOfPart = 6;
 /// m; farther from the loop the part's own drift contradicts.
 constexpr double kJudgedAround = 20.0;
-constexpr double kRaysAgree = 0.2;  // m, as where loops are closed
-/// Of the rays of a loop's own frames: among all places of a building, chance comes to less.
-constexpr double kLeastAgreement = 0.92, kLeastShared = 0.15;
 /// m, rad; loops that put the part within this say the same. Rivals lie .6 m apart or more, and
 /// two hypotheses within a metre are one that drifted.
 constexpr double kSamePlace = 0.5, kSameTurn = 0.15, kNoRival = 1.0, kNoRivalTurn = 0.2;
@@ -97,8 +94,8 @@ SightCount sightsOfParts(const KeyFrames& frames, const LoopVerdict& loop) {
     for (const auto& [apart, k] : near) {
       const ScanSurface& other = frames.surfaces[static_cast<std::size_t>(k)];
       const Pose2 T_other_own = graph.pose(k).inverse() * here;
-      sights += compareSights(other, surface, T_other_own, kRaysAgree);
-      sights += compareSights(surface, other, T_other_own.inverse(), kRaysAgree);
+      sights += compareSights(other, surface, T_other_own);
+      sights += compareSights(surface, other, T_other_own.inverse());
     }
   }
   return sights;
@@ -106,7 +103,7 @@ SightCount sightsOfParts(const KeyFrames& frames, const LoopVerdict& loop) {
 
 void PartPlacement::add(const KeyFrames& frames, const LoopVerdict& found) {
   forgetJoined(frames.graph);
-  if (found.agreement < kLeastAgreement || found.common < kLeastShared) return;
+  if (found.agreement < kAgreeAnywhere || found.common < kLeastCommon) return;
   const PoseGraph& graph = frames.graph;
   const int part = graph.part(found.frame), other_part = graph.part(found.candidate);
   for (Hypothesis& hypothesis : hypotheses_) {
