@@ -10,10 +10,8 @@ namespace cca {
 namespace {
 
 constexpr double kStep = 0.25;         // cells: a ray misses no more than the corner of one
-constexpr double kCosParallel = 0.97;  // the wall goes on as it was, to 14 degrees
 constexpr double kViewed = 0.12;  // m before a wall's face, past the cells that its noise fills
 constexpr double kWall = 0.6;
-constexpr double kSideways = 0.3;  // m; the other wall may be thicker, or stand off by that much
 
 /// Follows a ray from inside a wall's end over open cells to the next solid one. Up to the gap the
 /// wall goes on without a line, which its viewer's side shows: there it is open.
@@ -45,12 +43,12 @@ bool goesOn(const Passage& gap, const Eigen::Vector2d& direction, const std::vec
   return std::any_of(lines.begin(), lines.end(), [&](const MapLine& line) {
     const LineSegment& s = line.segment;
     if (s.length() < tuning.shortest_wall) return false;
-    if (std::abs(s.direction().dot(direction)) < kCosParallel) return false;
+    if (std::abs(s.direction().dot(direction)) < kCosOneWall) return false;
     const Eigen::Vector2d start = s.start - gap.b, end = s.end - gap.b;
     const double nearest = std::min(start.dot(direction), end.dot(direction));
     const double sideways =
         std::min(std::abs(cross(direction, start)), std::abs(cross(direction, end)));
-    return std::abs(nearest) < tuning.end_error && sideways < kSideways;
+    return std::abs(nearest) < tuning.end_error && sideways < tuning.sideways;
   });
 }
 

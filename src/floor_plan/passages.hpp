@@ -33,7 +33,8 @@ struct PassageTuning {
   double widest_door = 1.4;    ///< m; a leaf and a half: beyond a wider gap begins another wall
   double shortest_wall = 0.3;  ///< m; a line below it is no wall that could go on
   double end_error = 0.3;      ///< m; lines end that much before their wall does
-  double depth = 0.04;         ///< m; a gap is looked for so far inside of a wall's face
+  double sideways = 0.3;       ///< m; a wall in line may be thicker, or stand off by that much
+  double depth = 0.04;         ///< m; a wall's line is followed so far inside of its face
   double merge_within = 0.6;   ///< m; both faces of a wall make one passage
   double corner_cells = 3.0;   ///< cells beside a corner that noise may fill
   double deepest = 1.2;        ///< m; a narrow stretch that is longer is a corridor

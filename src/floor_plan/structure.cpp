@@ -6,12 +6,12 @@
 #include <set>
 
 #include "floor_plan/distance_transform.hpp"
+#include "floor_plan/room_regions.hpp"
 
 namespace cca {
 namespace {
 
 constexpr double kBeyondWall = 0.15;  // m; lines end that much beyond their wall
-constexpr double kDepth = 0.04;       // m inside of a wall's face, where its line is followed
 constexpr double kOpposite =
     0.5;  // cosine; walls on two sides run to 60 degrees against each other
 constexpr double kIntoCorner = 1.42;  // a disc's radius to the corner that it fits into
@@ -64,14 +64,15 @@ std::vector<char> betweenWalls(const Components& parts, const std::vector<char>&
                                const std::vector<MapLine>& lines, const StructureTuning& tuning) {
   std::vector<std::vector<Eigen::Vector2d>> met(parts.sizes.size());
   std::vector<char> is_between(parts.sizes.size(), 0);
+  const PassageTuning passages;
   for (const MapLine& line : lines) {
     const LineSegment& s = line.segment;
     if (s.length() < tuning.pillar) continue;
     const Eigen::Vector2d along = s.direction(), into_wall(along.y(), -along.x());
     for (const bool at_end : {false, true}) {
       const Eigen::Vector2d direction = at_end ? along : Eigen::Vector2d(-along);
-      const Eigen::Vector2d end = (at_end ? s.end : s.start) + kDepth * into_wall;
-      for (const std::size_t k : metBeyond(parts, is_island, end, direction, tuning.farthest)) {
+      const Eigen::Vector2d end = (at_end ? s.end : s.start) + passages.depth * into_wall;
+      for (const std::size_t k : metBeyond(parts, is_island, end, direction, passages.widest)) {
         for (const Eigen::Vector2d& other : met[k])
           is_between[k] = is_between[k] || other.dot(direction) < -kOpposite;
         met[k].push_back(direction);
@@ -244,7 +245,8 @@ Mask spaceForRooms(const Structure& structure, const Raster<float>& clearance,
     space.values[k] = structure.solid.values[k] == 0 && beside.values[k] <= reach;
     unseen.values[k] = !structure.open.values[k] && !structure.furniture.values[k];
   }
-  dropGlimpses(space, atLeast(distanceTransform(unseen), tuning.half_slit), tuning.least_seen);
+  dropGlimpses(space, atLeast(distanceTransform(unseen), tuning.half_slit),
+              RoomTuning{}.smallest_room);
   return space;
 }
 

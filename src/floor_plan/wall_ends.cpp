@@ -9,7 +9,6 @@
 namespace cca {
 namespace {
 
-constexpr double kCosAntiparallel = -0.97;  // the faces of one wall look apart, to 14 degrees
 constexpr double kCosAcross = 0.5;          // 60 degrees off the wall at least: it turns there
 constexpr double kAhead = 0.25;             // m; what lies that far before the end is open
 constexpr double kCap = 0.3;                // m, from the end to a line that begins there
@@ -36,7 +35,7 @@ std::vector<WallEnd> freeWallEnds(const Mask& solid, const std::vector<MapLine>&
     const Eigen::Vector2d along = a.direction();
     for (const MapLine& other : lines) {
       const LineSegment& b = other.segment;
-      if (b.length() < tuning.shortest_face || along.dot(b.direction()) > kCosAntiparallel)
+      if (b.length() < tuning.shortest_face || along.dot(b.direction()) > -kCosOneWall)
         continue;
       // The wall lies on the right of both.
       const Eigen::Vector2d off = b.start - a.end;

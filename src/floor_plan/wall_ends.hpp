@@ -8,6 +8,9 @@
 
 namespace cca {
 
+/// Cosine of 14 degrees: lines that differ by more are those of two walls.
+inline constexpr double kCosOneWall = 0.97;
+
 /// Where a wall ends in open space: both faces end there, and nothing goes on from there.
 struct WallEnd {
   Eigen::Vector2d point;      ///< m, map frame: between the ends of both faces
