@@ -64,7 +64,8 @@ std::vector<PlanFurniture> freeStanding(const Mask& furniture, const FurnitureTu
   for (std::size_t k = 0; k < parts.sizes.size(); ++k) {
     if (static_cast<double>(parts.sizes[k]) * cell < tuning.smallest - 1e-9) continue;
     PlanFurniture piece;
-    piece.outline = straightened(parts.labels, outlines[k].outlines.front(), OutlineTuning{}.tolerance);
+    piece.outline =
+        straightened(parts.labels, outlines[k].outlines.front(), OutlineTuning{}.tolerance);
     if (piece.outline.size() >= 3) found.push_back(piece);
   }
   return found;

@@ -9,7 +9,7 @@
 namespace cca {
 namespace {
 
-constexpr double kStep = 0.25;         // cells: a ray misses no more than the corner of one
+constexpr double kStep = 0.25;    // cells: a ray misses no more than the corner of one
 constexpr double kViewed = 0.12;  // m before a wall's face, past the cells that its noise fills
 constexpr double kWall = 0.6;
 

@@ -246,7 +246,7 @@ Mask spaceForRooms(const Structure& structure, const Raster<float>& clearance,
     unseen.values[k] = !structure.open.values[k] && !structure.furniture.values[k];
   }
   dropGlimpses(space, atLeast(distanceTransform(unseen), tuning.half_slit),
-              RoomTuning{}.smallest_room);
+               RoomTuning{}.smallest_room);
   return space;
 }
 

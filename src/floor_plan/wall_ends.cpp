@@ -9,7 +9,7 @@
 namespace cca {
 namespace {
 
-constexpr double kAhead = 0.25;             // m; what lies that far before the end is open
+constexpr double kAhead = 0.25;  // m; what lies that far before the end is open
 
 }  // namespace
 
@@ -22,8 +22,7 @@ std::vector<WallEnd> freeWallEnds(const Mask& solid, const std::vector<MapLine>&
     const Eigen::Vector2d along = a.direction();
     for (const MapLine& other : lines) {
       const LineSegment& b = other.segment;
-      if (b.length() < tuning.shortest_face || along.dot(b.direction()) > -kCosOneWall)
-        continue;
+      if (b.length() < tuning.shortest_face || along.dot(b.direction()) > -kCosOneWall) continue;
       // The wall lies on the right of both.
       const Eigen::Vector2d off = b.start - a.end;
       const double thickness = -cross(along, off);

@@ -9,8 +9,6 @@
 namespace cca {
 namespace {
 
-constexpr double kLongWall = 6.0;    // m; a wall that is longer tells no more
-
 /// m of wall that leads up to a jamb from beyond, in the line of the passage. A wall goes on beyond
 /// its doors.
 double wallBeyond(const Eigen::Vector2d& jamb, const Eigen::Vector2d& outwards,
@@ -20,7 +18,8 @@ double wallBeyond(const Eigen::Vector2d& jamb, const Eigen::Vector2d& outwards,
     const LineSegment& s = line.segment;
     if (std::abs(s.direction().dot(outwards)) < kCosOneWall) continue;
     const Eigen::Vector2d start = s.start - jamb, end = s.end - jamb;
-    if (std::min(std::abs(cross(outwards, start)), std::abs(cross(outwards, end))) > tuning.sideways)
+    if (std::min(std::abs(cross(outwards, start)), std::abs(cross(outwards, end))) >
+        tuning.sideways)
       continue;
     const auto [near, far] = std::minmax({start.dot(outwards), end.dot(outwards)});
     if (far > 0.0) pieces.emplace_back(std::max(near, 0.0), far);
@@ -32,7 +31,7 @@ double wallBeyond(const Eigen::Vector2d& jamb, const Eigen::Vector2d& outwards,
     length += std::max(0.0, end - std::max(begin, reached));
     reached = std::max(reached, end);
   }
-  return std::min(length, kLongWall);
+  return length;
 }
 
 }  // namespace
@@ -40,8 +39,8 @@ double wallBeyond(const Eigen::Vector2d& jamb, const Eigen::Vector2d& outwards,
 double wallSupport(const Passage& passage, const std::vector<MapLine>& lines,
                    const PassageTuning& tuning) {
   const Eigen::Vector2d way = (passage.b - passage.a).normalized();
-  const double wall = wallBeyond(passage.a, -way, lines, tuning) +
-                      wallBeyond(passage.b, way, lines, tuning);
+  const double wall =
+      wallBeyond(passage.a, -way, lines, tuning) + wallBeyond(passage.b, way, lines, tuning);
   return wall / (wall + passage.width());
 }
 
