@@ -15,7 +15,6 @@ constexpr double kBeyondWall = 0.15;  // m; lines end that much beyond their wal
 constexpr double kOpposite =
     0.5;  // cosine; walls on two sides run to 60 degrees against each other
 constexpr double kIntoCorner = 1.42;  // a disc's radius to the corner that it fits into
-constexpr double kBesideFace = 0.08;  // m; a cell and its neighbours across, not those aslant
 
 /// m, the longest line of each component.
 std::vector<double> longestLines(const Components& parts, const std::vector<MapLine>& lines) {
@@ -130,19 +129,11 @@ Mask besideFloor(const OccupancyRaster& grid, const Mask& way, int steps) {
   return reached;
 }
 
-/// Unknown stripes between beams: the morphological closing of the floor over unknown cells. What
-/// lies beside a face stays: it may be the inside of a wall.
-/// @param lines  cells that lines cross.
-Mask betweenBeams(const OccupancyRaster& grid, const Mask& lines, double half_stripe) {
-  Mask faces = maskOf(grid, Occupancy::kOccupied);
-  for (std::size_t k = 0; k < faces.values.size(); ++k) faces.values[k] |= lines.values[k];
-  const Raster<float> from_face = distanceTransform(faces);
+/// Unknown stripes between beams: the morphological closing of the floor over unknown cells.
+Mask betweenBeams(const OccupancyRaster& grid, double half_stripe) {
   const Mask unknown = maskOf(grid, Occupancy::kUnknown);
-  Mask hidden = unknown;
-  for (std::size_t k = 0; k < hidden.values.size(); ++k)
-    hidden.values[k] &= static_cast<std::uint8_t>(from_face.values[k] > kBesideFace);
   Mask between =
-      besideFloor(grid, hidden, static_cast<int>(std::lround(half_stripe / grid.resolution)));
+      besideFloor(grid, unknown, static_cast<int>(std::lround(half_stripe / grid.resolution)));
   Mask beyond = unknown;
   for (std::size_t k = 0; k < beyond.values.size(); ++k)
     beyond.values[k] &= static_cast<std::uint8_t>(!between.values[k]);
@@ -216,7 +207,7 @@ Structure tellStructure(const OccupancyRaster& grid, const std::vector<MapLine>&
   for (const MapLine& line : lines) {
     for (const Cell c : cellsAlong(crossed, line.segment.start, line.segment.end)) crossed[c] = 1;
   }
-  const Mask between = betweenBeams(grid, crossed, tuning.half_stripe);
+  const Mask between = betweenBeams(grid, tuning.half_stripe);
   Mask blocked = crossed;
   for (std::size_t k = 0; k < grid.values.size(); ++k) {
     const bool is_floor = grid.values[k] == Occupancy::kFree || between.values[k];
