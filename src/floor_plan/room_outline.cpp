@@ -172,7 +172,7 @@ class OutlineDrawing {
     if (std::abs(sine) > kParallel) {
       const Eigen::Vector2d meet =
           a.start + cross(b.start - a.start, b.direction) / sine * a.direction;
-      if (std::min((meet - end).norm(), (meet - begin).norm()) < tuning_.corner) {
+      if (std::min((meet - end).norm(), (meet - begin).norm()) < tuning_.bridge) {
         add(meet);
         return;
       }
