@@ -52,9 +52,8 @@ std::vector<Passage> gapsInWalls(const Mask& solid, const std::vector<MapLine>& 
 std::vector<Passage> gapsBetweenEnds(const Mask& solid, const std::vector<WallEnd>& ends,
                                      const PassageTuning& tuning = {});
 
-/// Passages at corners that stick out: between two that see each other, and from one straight off
-/// one of its faces to a wall that faces it. Cost: O(n^2) for n
-/// lines.
+/// Passages from corners that stick out, straight off one of their faces to a wall that faces it.
+/// Cost: O(n^2) for n lines.
 std::vector<Passage> gapsAtCorners(const Mask& solid, const std::vector<MapLine>& lines,
                                    const PassageTuning& tuning = {});
 
