@@ -10,17 +10,17 @@
 namespace cca {
 namespace {
 
-constexpr double kMostSigma = 8.0;     // m, beyond which a place is looked for anywhere else
-constexpr double kSigmas = 2.5;        // half window: 98.8 % of what is likely
-constexpr double kWidestWindow = 8.0;  // m; as kMostSigma, for the cost grows with its square
-constexpr int kRecent = 8;             // frames that look for their place together
-constexpr double kRecentWay = 8.0;     // m; what lies farther back has drifted from the frame
-constexpr int kEarlier = 12;           // frames that they are compared with
-constexpr double kCell = 0.1;          // m, of the search; matches reach 0.3 m
-constexpr int kLevels = 4;             // coarsest cells of 1.6 m: five to the widest half window
-constexpr int kLevelsAnywhere = 6;     // 13 m, for a whole building
-constexpr double kSpacing = 0.2;       // m, of the returns that search
-constexpr double kReach = 15.0;        // m, of the returns that are searched among
+constexpr double kMostSigma = 8.0;  // m, beyond which a place is looked for anywhere else; and of
+                                    // a half window, for the cost grows with its square
+constexpr double kSigmas = 2.5;     // half window: 98.8 % of what is likely
+constexpr int kRecent = 8;          // frames that look for their place together
+constexpr double kRecentWay = 8.0;  // m; what lies farther back has drifted from the frame
+constexpr int kEarlier = 12;        // frames that they are compared with
+constexpr double kCell = 0.1;       // m, of the search; matches reach 0.3 m
+constexpr int kLevels = 4;          // coarsest cells of 1.6 m: five to the widest half window
+constexpr int kLevelsAnywhere = 6;  // 13 m, for a whole building
+constexpr double kSpacing = 0.2;    // m, of the returns that search
+constexpr double kReach = 15.0;     // m, of the returns that are searched among
 /// Of the best place in a window, to be matched and judged by rays at all; these decide.
 constexpr double kLeastScore = 0.45;
 /// Among all places of a building some score so much without being the right one; those that rays
@@ -155,7 +155,7 @@ PlaceSearch PlaceSearch::atVisit(const KeyFrames& frames, int frame,
   known.frame = frame;
   known.candidate = earlier;
   known.sigma = candidate.position;
-  known.window = window.half_width = std::min(kSigmas * known.sigma + kTiedSigma, kWidestWindow);
+  known.window = window.half_width = std::min(kSigmas * known.sigma + kTiedSigma, kMostSigma);
   window.half_turn = std::min(kSigmas * candidate.turn + 0.05, M_PI);
   const Pose2 T_frame_map = frames.graph.pose(frame).inverse();
   const Pose2 T_earlier_map = frames.graph.pose(earlier).inverse();

@@ -19,17 +19,17 @@ constexpr double kSamePlace = 0.5, kSameTurn = 0.15, kNoRival = 1.0, kNoRivalTur
 /// m; of less way a room may have seen nothing that tells it from its like, which may be still
 /// unseen.
 constexpr double kLeastWayOfPart = 2.0;
-/// m; the same where another place was not told from this one at some time: the like of a room may
-/// be one of several.
-constexpr double kLeastWayAmongLikes = 5.0;
+/// m, the longer side of a usual room: so far it has to drive where another place was not told from
+/// this one at some time, for the like of a room may be one of several; and so far apart are loops
+/// that say the same of more than a room and its like.
+constexpr double kLongRoom = 5.0;
 /// Of the rays that say something. The right place is contradicted by .0002 to .009 (simulated
 /// drives; intel and seattle, cut in two), the like of a room by .03 and more once the robot has
 /// left it. A rival has to be contradicted by so many times as much, and by this more.
 constexpr double kMostContradicted = 0.02, kTimesMore = 3.0, kMore = 0.005;
-/// The same where nothing else is like it, and loops so far apart [m] say the same: glass and what
-/// has been moved contradict a whole visit of a museum (fhw, cut in two) by .13, and a room and its
-/// like end before that: 5 m is the longer side of a usual room.
-constexpr double kMostContradictedAlone = 0.15, kFarApart = 5.0;
+/// The same where nothing else is like it, and loops kLongRoom apart say the same: glass and what
+/// has been moved contradict a whole visit of a museum (fhw, cut in two) by .13.
+constexpr double kMostContradictedAlone = 0.15;
 /// A hypothesis that puts the part beside what was seen is contradicted by nothing, and is no rival
 /// of one with this many times as much in common.
 constexpr double kMoreInCommon = 2.0;
@@ -157,8 +157,7 @@ std::vector<LoopVerdict> PartPlacement::decide(const KeyFrames& frames, int part
     const bool is_clear = contradicted(best.sights) <= kMostContradicted;
     const double apart =
         (graph.pose(second->frame).position() - graph.pose(loops.back().frame).position()).norm();
-    const bool is_enough =
-        has_like ? is_clear && way >= kLeastWayAmongLikes : is_clear || apart >= kFarApart;
+    const bool is_enough = has_like ? is_clear && way >= kLongRoom : is_clear || apart >= kLongRoom;
     if (stands_alone && is_enough) return {*second, loops.back()};
   }
   return {};
