@@ -10,10 +10,10 @@ namespace cca {
 namespace {
 
 constexpr std::size_t kMostBeams = 90;  // evenly over the scan: more say the same
-constexpr double kOnWall = 0.15;      // m, across it; from there to kBehind a return says nothing
-constexpr double kBehind = 0.30;      // m, across it, and a ray has gone through
-constexpr double kFewestHits = 10.0;  // of a bin, for the wall to stand there
-constexpr double kMemory = 0.998;     // of one scan: what is 500 scans old counts a third
+constexpr double kOnWall = 0.15;        // m, across it; from there to kBehind a return says nothing
+constexpr double kBehind = 0.30;        // m, across it, and a ray has gone through
+constexpr double kFewestHits = 10.0;    // of a bin, for the wall to stand there
+constexpr double kMemory = 0.998;       // of one scan: what is 500 scans old counts a third
 /// Returns taken for confirmed beforehand, those of some twenty scans: one odd scan is no evidence.
 constexpr double kBenefitOfDoubt = 1000.0;
 

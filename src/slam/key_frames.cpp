@@ -172,7 +172,7 @@ class PairEdge {
 
 void adjust(KeyFrames& frames, int rounds, const DoAll& do_all) {
   constexpr double kNarrows = 0.8;  // slower than a match of one scan: each round moves all poses
-  constexpr int kAtOnce = 64;  // matches, so that sharing them out costs nothing
+  constexpr int kAtOnce = 64;       // matches, so that sharing them out costs nothing
   std::vector<PairEdge> pairs;
   for (const FramePair& pair : pairsInView(frames, kPairsOfEach)) {
     // In both directions: the lines of either are the other's measure.

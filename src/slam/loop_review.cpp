@@ -23,7 +23,7 @@ constexpr double kContradicted = 0.1;
 constexpr double kOffBy[] = {0.75, 2.4}, kTurnedBy = 0.05;
 constexpr int kRoughRounds = 5, kLastRounds = 10;  // of adjust(); the rough ones end at its reach
 constexpr double kAnotherMap = 0.5;                // m, between a frame's places in two maps
-constexpr double kTieAgrees = 0.9;  // of the rays of both
+constexpr double kTieAgrees = 0.9;                 // of the rays of both
 
 struct Hypothesis {
   std::vector<LoopOfCluster> loops;  ///< all that are known

@@ -64,8 +64,8 @@ void forgetWhatMoved(ScanSurface& surface, const Pose2& T_map_sensor,
                      const std::vector<PlacedSurface>& others) {
   std::vector<int> balance(surface.points.size(), 0);
   for (const PlacedSurface& other : others) {
-    const auto sights = sightsOf(*other.surface, surface.packed,
-                                 other.T_map_sensor.inverse() * T_map_sensor);
+    const auto sights =
+        sightsOf(*other.surface, surface.packed, other.T_map_sensor.inverse() * T_map_sensor);
     for (std::size_t k = 0; k < sights.size(); ++k) balance[k] += sights[k];
   }
   for (std::size_t k = 0; k < balance.size(); ++k) {

@@ -38,8 +38,8 @@ class LineMap {
   bool insert(const Scan& scan, const std::vector<LineSegment>& lines);
 
   /// A last look at the whole map: the evidence of its scans assigned anew (reassignEvidence()),
-  /// and what all lines owe to the poses, where these are the map's own. lines() holds all this from
-  /// now on.
+  /// and what all lines owe to the poses, where these are the map's own. lines() holds all this
+  /// from now on.
   /// @param scans  those of the map, or as many of them as were kept; none: no evidence moves.
   /// Cost: about that of an insertion for each scan; see WallNetwork::settle().
   void lookBack(const std::vector<PastScans::Kept>& scans = {});
