@@ -18,12 +18,10 @@
 namespace cca {
 namespace {
 
-constexpr int kMargin = 2;                     // cells around what is known
-constexpr double kDoor = 1.4, kOpening = 2.5;  // m, the widest of each kind
-constexpr double kStraightBy = 0.06;           // m, where lines do not make a valid polygon
-constexpr double kOnSide = 0.06;               // m: sides stand on cells of 5 cm
-constexpr double kSmallestHole = 0.05;         // m^2: a pillar of 22 cm is one
-constexpr double kBeyondGrid = 1.0;            // m, ends of lines overshoot what is known by less
+constexpr int kMargin = 2;              // cells around what is known
+constexpr double kOpening = 2.5;        // m, the widest of passages: a double door and some
+constexpr double kSmallestHole = 0.05;  // m^2: a pillar of 22 cm is one
+constexpr double kBeyondGrid = 1.0;     // m, ends of lines overshoot what is known by less
 
 std::vector<Passage> candidatePassages(const Structure& structure, const Raster<float>& clearance,
                                        const std::vector<MapLine>& lines) {
@@ -51,7 +49,7 @@ Mask hiddenFloor(const OccupancyRaster& grid, const std::vector<MapLine>& lines)
 }
 
 OpeningKind kindOf(double width) {
-  if (width <= kDoor) return OpeningKind::kDoor;
+  if (width <= PassageTuning{}.widest_door) return OpeningKind::kDoor;
   return width <= kOpening ? OpeningKind::kPassage : OpeningKind::kWide;
 }
 
@@ -89,7 +87,7 @@ void drawRoom(const Raster<int>& labels, const RegionOutline& border,
   for (const int attempt : {0, 1, 2}) {
     const auto drawn = [&](const Polygon& chain) {
       if (attempt == 0) return withoutSmallLoops(outlineAlongLines(labels, chain, lines, openings));
-      return straightened(labels, chain, attempt == 1 ? kStraightBy : 0.0);
+      return straightened(labels, chain, attempt == 1 ? OutlineTuning{}.tolerance : 0.0);
     };
     room.outline = drawn(*largest);
     room.holes.clear();
@@ -190,11 +188,12 @@ void numberAll(FloorPlan& plan) {
 
 /// Whether a line is a side of a piece of furniture: its middle lies on one, and it is no longer.
 bool isSideOf(const LineSegment& line, const PlanFurniture& piece) {
+  const double on_side = OutlineTuning{}.tolerance;
   const Eigen::Vector2d middle = 0.5 * (line.start + line.end);
   for (std::size_t k = 0; k + 1 < piece.outline.size(); ++k) {
     const Eigen::Vector2d &a = piece.outline[k], way = piece.outline[k + 1] - a;
     const double t = std::clamp((middle - a).dot(way) / way.squaredNorm(), 0.0, 1.0);
-    if ((a + t * way - middle).norm() < kOnSide && line.length() < way.norm() + 2.0 * kOnSide)
+    if ((a + t * way - middle).norm() < on_side && line.length() < way.norm() + 2.0 * on_side)
       return true;
   }
   return false;
@@ -212,12 +211,11 @@ std::vector<MapLine> withoutLeaning(const std::vector<MapLine>& lines, const Flo
 }
 
 /// The part of each wall's line that lies in the box [Liang & Barsky 1984]; lines outside of it are
-/// left out, as are dotted ones. Work along a line is then bounded by the grid.
+/// left out. Work along a line is then bounded by the grid.
 std::vector<MapLine> linesWithin(const Eigen::AlignedBox2d& box,
                                  const std::vector<MapLine>& lines) {
   std::vector<MapLine> within;
   for (const MapLine& line : lines) {
-    if (line.kind != LineKind::kWall) continue;
     const Eigen::Vector2d start = line.segment.start, way = line.segment.end - start;
     double from = 0.0, to = 1.0;
     for (int axis = 0; axis < 2; ++axis) {

@@ -12,8 +12,7 @@
 namespace cca {
 namespace {
 
-constexpr double kParallelFront = 0.97, kSquareSide = 0.26;  // cosines: 14 and 75 degrees
-constexpr double kStraight = 0.06;  // m: more than the stairs of 5 cm that cells make of a side
+constexpr double kSquareSide = 0.26;  // cosine of 75 degrees: nothing stands more aslant on a wall
 
 /// Whether corners k .. k + 5 go along a wall, around something that leans on it, and on.
 bool isStep(const Polygon& outline, std::size_t k, const FurnitureTuning& tuning) {
@@ -36,7 +35,7 @@ bool isStep(const Polygon& outline, std::size_t k, const FurnitureTuning& tuning
   }
   // Into the room, along the wall, and back.
   if (cross(way[0], way[1]) < 0.0 || cross(way[0], way[3]) > 0.0) return false;
-  if (way[2].dot(way[0]) < kParallelFront || way[4].dot(way[0]) < kParallelFront) return false;
+  if (way[2].dot(way[0]) < kCosOneWall || way[4].dot(way[0]) < kCosOneWall) return false;
   return std::abs(cross(way[0], Eigen::Vector2d(at(4) - at(1)))) < tuning.in_line;
 }
 
@@ -65,7 +64,8 @@ std::vector<PlanFurniture> freeStanding(const Mask& furniture, const FurnitureTu
   for (std::size_t k = 0; k < parts.sizes.size(); ++k) {
     if (static_cast<double>(parts.sizes[k]) * cell < tuning.smallest - 1e-9) continue;
     PlanFurniture piece;
-    piece.outline = straightened(parts.labels, outlines[k].outlines.front(), kStraight);
+    piece.outline =
+        straightened(parts.labels, outlines[k].outlines.front(), OutlineTuning{}.tolerance);
     if (piece.outline.size() >= 3) found.push_back(piece);
   }
   return found;

@@ -3,7 +3,6 @@
 #include <cmath>
 #include <optional>
 
-#include "floor_plan/clear_way.hpp"
 #include "floor_plan/passages.hpp"
 #include "geometry/cross.hpp"
 
@@ -96,16 +95,10 @@ std::optional<Passage> acrossFrom(const Mask& solid, const Eigen::Vector2d& corn
 
 std::vector<Passage> gapsAtCorners(const Mask& solid, const std::vector<MapLine>& lines,
                                    const PassageTuning& tuning) {
-  const std::vector<Corner> corners = outerCorners(solid, lines, tuning);
   std::vector<Passage> gaps;
-  for (std::size_t i = 0; i < corners.size(); ++i) {
-    for (std::size_t j = i + 1; j < corners.size(); ++j) {
-      const Passage gap{corners[i].point, corners[j].point, PassageEvidence::kAtCorner};
-      if (gap.width() < tuning.narrowest || gap.width() > tuning.widest) continue;
-      if (isClear(solid, gap.a, gap.b, tuning.corner_cells * solid.resolution)) gaps.push_back(gap);
-    }
-    for (const Eigen::Vector2d& face : {corners[i].before, corners[i].after}) {
-      if (const auto gap = acrossFrom(solid, corners[i].point, face, lines, tuning))
+  for (const Corner& corner : outerCorners(solid, lines, tuning)) {
+    for (const Eigen::Vector2d& face : {corner.before, corner.after}) {
+      if (const auto gap = acrossFrom(solid, corner.point, face, lines, tuning))
         gaps.push_back(*gap);
     }
   }

@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "floor_plan/clear_way.hpp"
 #include "floor_plan/passages.hpp"
 
 namespace cca {
@@ -11,6 +10,15 @@ namespace {
 constexpr double kTowards = 0.6;  // cosine: walls that meet at a right angle have .71 each
 // Cosines: walls that lead one way to 18 degrees, and end side by side to 17 of square.
 constexpr double kAlike = 0.95, kAside = 0.3;
+
+/// Whether a segment crosses open cells only, but for `ends` metres at both its ends.
+bool isClear(const Mask& solid, const Eigen::Vector2d& a, const Eigen::Vector2d& b, double ends) {
+  const double length = (b - a).norm(), step = 0.5 * solid.resolution;
+  for (double s = ends; s < length - ends; s += step) {
+    if (solid.at(solid.cellOf(a + s / length * (b - a)), 1)) return false;
+  }
+  return true;
+}
 
 /// m, how far one can go from a point before the next wall, at most `limit`.
 double reach(const Mask& solid, const Eigen::Vector2d& from, const Eigen::Vector2d& direction,

@@ -9,29 +9,18 @@
 namespace cca {
 namespace {
 
-constexpr double kStep = 0.25;         // cells: a ray misses no more than the corner of one
-constexpr double kCosParallel = 0.97;  // the wall goes on as it was, to 14 degrees
-constexpr double kViewed = 0.12;  // m before a wall's face, past the cells that its noise fills
+constexpr double kStep = 0.25;  // cells: a ray misses no more than the corner of one
 constexpr double kWall = 0.6;
-constexpr double kSideways = 0.3;  // m; the other wall may be thicker, or stand off by that much
 
-/// Follows a ray from inside a wall's end over open cells to the next solid one. Up to the gap the
-/// wall goes on without a line, which its viewer's side shows: there it is open.
+/// Follows a ray from inside a wall's end over open cells to the next solid one.
 std::optional<Passage> openStretch(const Mask& solid, const Eigen::Vector2d& from,
-                                   const Eigen::Vector2d& direction,
-                                   const Eigen::Vector2d& to_viewer, const PassageTuning& tuning) {
+                                   const Eigen::Vector2d& direction, const PassageTuning& tuning) {
   const double step = kStep * solid.resolution;
   const auto isSolid = [&](double s) {
     return solid.at(solid.cellOf(from + s * direction), 1) != 0;
   };
-  const auto isSeen = [&](double s) {
-    return solid.at(solid.cellOf(from + s * direction + to_viewer), 1) == 0;
-  };
   double begin = -0.5 * tuning.end_error;
-  while (begin < tuning.end_error && isSolid(begin)) {
-    if (begin > 0.0 && !isSeen(begin)) return std::nullopt;
-    begin += step;
-  }
+  while (begin < tuning.end_error && isSolid(begin)) begin += step;
   if (isSolid(begin)) return std::nullopt;
   double end = begin;
   while (end - begin <= tuning.widest + step && !isSolid(end)) end += step;
@@ -45,12 +34,12 @@ bool goesOn(const Passage& gap, const Eigen::Vector2d& direction, const std::vec
   return std::any_of(lines.begin(), lines.end(), [&](const MapLine& line) {
     const LineSegment& s = line.segment;
     if (s.length() < tuning.shortest_wall) return false;
-    if (std::abs(s.direction().dot(direction)) < kCosParallel) return false;
+    if (std::abs(s.direction().dot(direction)) < kCosOneWall) return false;
     const Eigen::Vector2d start = s.start - gap.b, end = s.end - gap.b;
     const double nearest = std::min(start.dot(direction), end.dot(direction));
     const double sideways =
         std::min(std::abs(cross(direction, start)), std::abs(cross(direction, end)));
-    return std::abs(nearest) < tuning.end_error && sideways < kSideways;
+    return std::abs(nearest) < tuning.end_error && sideways < tuning.sideways;
   });
 }
 
@@ -66,8 +55,7 @@ std::vector<Passage> gapsInWalls(const Mask& solid, const std::vector<MapLine>& 
     for (const bool at_end : {false, true}) {
       const Eigen::Vector2d direction = at_end ? along : Eigen::Vector2d(-along);
       const Eigen::Vector2d from = (at_end ? s.end : s.start) + tuning.depth * into_wall;
-      const Eigen::Vector2d to_viewer = -(tuning.depth + kViewed) * into_wall;
-      auto gap = openStretch(solid, from, direction, to_viewer, tuning);
+      auto gap = openStretch(solid, from, direction, tuning);
       if (!gap) continue;
       if (goesOn(*gap, direction, lines, tuning))
         gap->evidence = PassageEvidence::kCollinear;

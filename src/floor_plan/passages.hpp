@@ -33,7 +33,8 @@ struct PassageTuning {
   double widest_door = 1.4;    ///< m; a leaf and a half: beyond a wider gap begins another wall
   double shortest_wall = 0.3;  ///< m; a line below it is no wall that could go on
   double end_error = 0.3;      ///< m; lines end that much before their wall does
-  double depth = 0.04;         ///< m; a gap is looked for so far inside of a wall's face
+  double sideways = 0.3;       ///< m; a wall in line may be thicker, or stand off by that much
+  double depth = 0.04;         ///< m; a wall's line is followed so far inside of its face
   double merge_within = 0.6;   ///< m; both faces of a wall make one passage
   double corner_cells = 3.0;   ///< cells beside a corner that noise may fill
   double deepest = 1.2;        ///< m; a narrow stretch that is longer is a corridor
@@ -51,9 +52,8 @@ std::vector<Passage> gapsInWalls(const Mask& solid, const std::vector<MapLine>& 
 std::vector<Passage> gapsBetweenEnds(const Mask& solid, const std::vector<WallEnd>& ends,
                                      const PassageTuning& tuning = {});
 
-/// Passages at corners that stick out: between two that see each other, and from one straight off
-/// one of its faces to a wall that faces it. Cost: O(n^2) for n
-/// lines.
+/// Passages from corners that stick out, straight off one of their faces to a wall that faces it.
+/// Cost: O(n^2) for n lines.
 std::vector<Passage> gapsAtCorners(const Mask& solid, const std::vector<MapLine>& lines,
                                    const PassageTuning& tuning = {});
 

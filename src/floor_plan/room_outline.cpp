@@ -172,7 +172,7 @@ class OutlineDrawing {
     if (std::abs(sine) > kParallel) {
       const Eigen::Vector2d meet =
           a.start + cross(b.start - a.start, b.direction) / sine * a.direction;
-      if (std::min((meet - end).norm(), (meet - begin).norm()) < tuning_.corner) {
+      if (std::min((meet - end).norm(), (meet - begin).norm()) < tuning_.bridge) {
         add(meet);
         return;
       }
@@ -206,20 +206,12 @@ std::vector<Run> joinedRuns(const std::vector<Run>& runs) {
   return joined;
 }
 
-/// Runs without chance touches, and without short gaps between runs of edges.
-std::vector<Run> cleaned(std::vector<int>& edge_of, const Polygon& chain,
-                         const std::vector<Edge>& edges, double resolution,
+/// Runs without short gaps between runs of edges.
+std::vector<Run> cleaned(const std::vector<int>& edge_of, const Polygon& chain, double resolution,
                          const OutlineTuning& tuning) {
   const auto length = [&](const Run& run) {
     return resolution * static_cast<double>(run.last - run.first + 1);
   };
-  for (const Run& run : runsOf(edge_of)) {
-    if (run.edge == kNone) continue;
-    const double enough =
-        std::min(tuning.shortest_run, 0.5 * edges[static_cast<std::size_t>(run.edge)].length);
-    if (length(run) >= enough) continue;
-    for (std::size_t k = run.first; k <= run.last; ++k) edge_of[k % edge_of.size()] = kNone;
-  }
   const std::vector<Run> runs = runsOf(edge_of);
   if (runs.size() < 3) return runs;
   std::vector<Run> kept;
@@ -264,7 +256,7 @@ Polygon outlineAlongLines(const Raster<int>& labels, const Polygon& chain,
     const Eigen::Vector2d middle = labels.inMetres(chain[k] + 0.5 * side);
     edge_of.push_back(nearestEdge(edges, index, middle, {-side.y(), side.x()}, tuning.snap));
   }
-  const std::vector<Run> runs = cleaned(edge_of, chain, edges, labels.resolution, tuning);
+  const std::vector<Run> runs = cleaned(edge_of, chain, labels.resolution, tuning);
   if (runs.size() < 3) return straightened(labels, chain, tuning.tolerance);
   return OutlineDrawing(labels, chain, edges, tuning).draw(runs);
 }

@@ -11,12 +11,10 @@
 namespace cca {
 
 struct OutlineTuning {
-  double snap = 0.16;          ///< m; a side of a cell stands for a line within three cells of 5 cm
-  double shortest_run = 0.12;  ///< m of the border; a shorter piece of a line is a chance touch
-  double bridge = 0.35;        ///< m of the border without a line that two lines close: a corner
-  double notch = 1.0;          ///< m of one line that a shadow hides: the wall goes on behind it
-  double corner = 0.4;         ///< m from the border to where two lines meet
-  double tolerance = 0.06;     ///< m; border without lines is straightened by that much
+  double snap = 0.16;       ///< m; a side of a cell stands for a line within three cells of 5 cm
+  double bridge = 0.35;     ///< m of the border, or from it, that two lines close: a corner
+  double notch = 1.0;       ///< m of one line that a shadow hides: the wall goes on behind it
+  double tolerance = 0.06;  ///< m; cells of 5 cm stand off a straight side by less
 };
 
 /// Draws a chain of cell corners along the lines that it stands for.

@@ -13,7 +13,6 @@ namespace cca {
 namespace {
 
 constexpr double kNiche = 1.001;  // excess
-constexpr double kSmall = 10.0;   // excess: what is no room joins first
 
 constexpr double kNearest = 0.35,
                  kFarthest = 1.0;  // m from a passage: past the wall, before the next
@@ -285,17 +284,13 @@ class RegionGraph {
     return std::min(as_door, as_mouth);
   }
 
-  bool isSmall(const RoomBorder& border) const {
-    return std::min(area(border.rooms[0]), area(border.rooms[1])) < tuning_.smallest_room;
-  }
-
   bool joinWorst() {
     double worst = 1.0, widest = 0.0;
     const RoomBorder* found = nullptr;
     for (std::size_t k = 0; k < borders_.size(); ++k) {
       const RoomBorder& border = borders_[k];
       if (root(border.rooms[0]) == root(border.rooms[1])) continue;
-      const double e = excess(k) + (isSmall(border) ? kSmall : 0.0), width = border.passage.width();
+      const double e = excess(k), width = border.passage.width();
       if (e <= worst && !(e == worst && width > widest)) continue;
       worst = e;
       widest = width;

@@ -6,16 +6,15 @@
 #include <set>
 
 #include "floor_plan/distance_transform.hpp"
+#include "floor_plan/room_regions.hpp"
 
 namespace cca {
 namespace {
 
 constexpr double kBeyondWall = 0.15;  // m; lines end that much beyond their wall
-constexpr double kDepth = 0.04;       // m inside of a wall's face, where its line is followed
 constexpr double kOpposite =
     0.5;  // cosine; walls on two sides run to 60 degrees against each other
 constexpr double kIntoCorner = 1.42;  // a disc's radius to the corner that it fits into
-constexpr double kBesideFace = 0.08;  // m; a cell and its neighbours across, not those aslant
 
 /// m, the longest line of each component.
 std::vector<double> longestLines(const Components& parts, const std::vector<MapLine>& lines) {
@@ -64,14 +63,15 @@ std::vector<char> betweenWalls(const Components& parts, const std::vector<char>&
                                const std::vector<MapLine>& lines, const StructureTuning& tuning) {
   std::vector<std::vector<Eigen::Vector2d>> met(parts.sizes.size());
   std::vector<char> is_between(parts.sizes.size(), 0);
+  const PassageTuning passages;
   for (const MapLine& line : lines) {
     const LineSegment& s = line.segment;
     if (s.length() < tuning.pillar) continue;
     const Eigen::Vector2d along = s.direction(), into_wall(along.y(), -along.x());
     for (const bool at_end : {false, true}) {
       const Eigen::Vector2d direction = at_end ? along : Eigen::Vector2d(-along);
-      const Eigen::Vector2d end = (at_end ? s.end : s.start) + kDepth * into_wall;
-      for (const std::size_t k : metBeyond(parts, is_island, end, direction, tuning.farthest)) {
+      const Eigen::Vector2d end = (at_end ? s.end : s.start) + passages.depth * into_wall;
+      for (const std::size_t k : metBeyond(parts, is_island, end, direction, passages.widest)) {
         for (const Eigen::Vector2d& other : met[k])
           is_between[k] = is_between[k] || other.dot(direction) < -kOpposite;
         met[k].push_back(direction);
@@ -129,19 +129,11 @@ Mask besideFloor(const OccupancyRaster& grid, const Mask& way, int steps) {
   return reached;
 }
 
-/// Unknown stripes between beams: the morphological closing of the floor over unknown cells. What
-/// lies beside a face stays: it may be the inside of a wall.
-/// @param lines  cells that lines cross.
-Mask betweenBeams(const OccupancyRaster& grid, const Mask& lines, double half_stripe) {
-  Mask faces = maskOf(grid, Occupancy::kOccupied);
-  for (std::size_t k = 0; k < faces.values.size(); ++k) faces.values[k] |= lines.values[k];
-  const Raster<float> from_face = distanceTransform(faces);
+/// Unknown stripes between beams: the morphological closing of the floor over unknown cells.
+Mask betweenBeams(const OccupancyRaster& grid, double half_stripe) {
   const Mask unknown = maskOf(grid, Occupancy::kUnknown);
-  Mask hidden = unknown;
-  for (std::size_t k = 0; k < hidden.values.size(); ++k)
-    hidden.values[k] &= static_cast<std::uint8_t>(from_face.values[k] > kBesideFace);
   Mask between =
-      besideFloor(grid, hidden, static_cast<int>(std::lround(half_stripe / grid.resolution)));
+      besideFloor(grid, unknown, static_cast<int>(std::lround(half_stripe / grid.resolution)));
   Mask beyond = unknown;
   for (std::size_t k = 0; k < beyond.values.size(); ++k)
     beyond.values[k] &= static_cast<std::uint8_t>(!between.values[k]);
@@ -215,7 +207,7 @@ Structure tellStructure(const OccupancyRaster& grid, const std::vector<MapLine>&
   for (const MapLine& line : lines) {
     for (const Cell c : cellsAlong(crossed, line.segment.start, line.segment.end)) crossed[c] = 1;
   }
-  const Mask between = betweenBeams(grid, crossed, tuning.half_stripe);
+  const Mask between = betweenBeams(grid, tuning.half_stripe);
   Mask blocked = crossed;
   for (std::size_t k = 0; k < grid.values.size(); ++k) {
     const bool is_floor = grid.values[k] == Occupancy::kFree || between.values[k];
@@ -244,7 +236,8 @@ Mask spaceForRooms(const Structure& structure, const Raster<float>& clearance,
     space.values[k] = structure.solid.values[k] == 0 && beside.values[k] <= reach;
     unseen.values[k] = !structure.open.values[k] && !structure.furniture.values[k];
   }
-  dropGlimpses(space, atLeast(distanceTransform(unseen), tuning.half_slit), tuning.least_seen);
+  dropGlimpses(space, atLeast(distanceTransform(unseen), tuning.half_slit),
+               RoomTuning{}.smallest_room);
   return space;
 }
 

@@ -15,7 +15,6 @@ struct StructureTuning {
   /// and table legs alike part no rooms, unless walls lead up to them from two sides.
   double pillar = 1.0;
   double thinnest_pillar = 0.35;  ///< m; below it what stands between walls is a leg, or a person
-  double farthest = 2.7;          ///< m from the end of a wall to a pillar: PassageTuning::widest
   /// m; one of at most this extent is furniture if none of its lines is as long as `pillar`: a ring
   /// of chairs, a plant with its shadow.
   double group = 2.5;
@@ -25,7 +24,6 @@ struct StructureTuning {
   /// m; unknown cells between two beams, up to twice that apart, are floor: nothing that parts a
   /// room and shows to neither beam is that narrow.
   double half_stripe = 0.1;
-  double least_seen = 1.0;  ///< m^2 of floor without slits that a space has at least: as a room
 };
 
 /// The building and what stands in it.

@@ -9,21 +9,7 @@
 namespace cca {
 namespace {
 
-constexpr double kCosAntiparallel = -0.97;  // the faces of one wall look apart, to 14 degrees
-constexpr double kCosAcross = 0.5;          // 60 degrees off the wall at least: it turns there
-constexpr double kAhead = 0.25;             // m; what lies that far before the end is open
-constexpr double kCap = 0.3;                // m, from the end to a line that begins there
-
-/// Whether the wall turns: a long line begins at its end, and leads off across.
-bool turns(const WallEnd& end, const std::vector<MapLine>& lines, const WallEndTuning& tuning) {
-  return std::any_of(lines.begin(), lines.end(), [&](const MapLine& line) {
-    const LineSegment& s = line.segment;
-    if (s.length() < tuning.turn) return false;
-    if (std::abs(s.direction().dot(end.direction)) > kCosAcross) return false;
-    const double nearest = std::min((s.start - end.point).norm(), (s.end - end.point).norm());
-    return nearest < kCap;
-  });
-}
+constexpr double kAhead = 0.25;  // m; what lies that far before the end is open
 
 }  // namespace
 
@@ -36,8 +22,7 @@ std::vector<WallEnd> freeWallEnds(const Mask& solid, const std::vector<MapLine>&
     const Eigen::Vector2d along = a.direction();
     for (const MapLine& other : lines) {
       const LineSegment& b = other.segment;
-      if (b.length() < tuning.shortest_face || along.dot(b.direction()) > kCosAntiparallel)
-        continue;
+      if (b.length() < tuning.shortest_face || along.dot(b.direction()) > -kCosOneWall) continue;
       // The wall lies on the right of both.
       const Eigen::Vector2d off = b.start - a.end;
       const double thickness = -cross(along, off);
@@ -45,7 +30,7 @@ std::vector<WallEnd> freeWallEnds(const Mask& solid, const std::vector<MapLine>&
       if (std::abs(off.dot(along)) > tuning.uneven) continue;
       const WallEnd end{0.5 * (a.end + b.start), along, thickness};
       const Cell ahead = solid.cellOf(end.point + (0.5 * tuning.uneven + kAhead) * along);
-      if (solid.at(ahead, 1) == 0 && !turns(end, lines, tuning)) ends.push_back(end);
+      if (solid.at(ahead, 1) == 0) ends.push_back(end);
     }
   }
   return ends;

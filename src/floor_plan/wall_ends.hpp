@@ -8,7 +8,10 @@
 
 namespace cca {
 
-/// Where a wall ends in open space: both faces end there, and nothing goes on from there.
+/// Cosine of 14 degrees: lines that differ by more are those of two walls.
+inline constexpr double kCosOneWall = 0.97;
+
+/// Where a wall ends in open space: both faces end there.
 struct WallEnd {
   Eigen::Vector2d point;      ///< m, map frame: between the ends of both faces
   Eigen::Vector2d direction;  ///< unit, out of the wall
@@ -19,7 +22,6 @@ struct WallEndTuning {
   double shortest_face = 0.4;  ///< m; below it a line is no face of a wall
   double thickest = 0.65;      ///< m; a thicker obstacle is a block with corners
   double uneven = 0.2;         ///< m; one face may end that much before the other
-  double turn = 0.7;           ///< m; where a line that long begins across, the wall turns
 };
 
 /// Pairs of lines that are the two faces of one wall, and end at the same place.

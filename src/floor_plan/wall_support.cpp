@@ -9,20 +9,17 @@
 namespace cca {
 namespace {
 
-constexpr double kCosInLine = 0.97;  // 14 degrees: more is another wall
-constexpr double kAside = 0.3;       // m; a wall's other face, and the thicker wall beyond a gap
-constexpr double kLongWall = 6.0;    // m; a wall that is longer tells no more
-
 /// m of wall that leads up to a jamb from beyond, in the line of the passage. A wall goes on beyond
 /// its doors.
 double wallBeyond(const Eigen::Vector2d& jamb, const Eigen::Vector2d& outwards,
-                  const std::vector<MapLine>& lines, double longest_break) {
+                  const std::vector<MapLine>& lines, const PassageTuning& tuning) {
   std::vector<std::pair<double, double>> pieces;  // m from the jamb: begin, end
   for (const MapLine& line : lines) {
     const LineSegment& s = line.segment;
-    if (std::abs(s.direction().dot(outwards)) < kCosInLine) continue;
+    if (std::abs(s.direction().dot(outwards)) < kCosOneWall) continue;
     const Eigen::Vector2d start = s.start - jamb, end = s.end - jamb;
-    if (std::min(std::abs(cross(outwards, start)), std::abs(cross(outwards, end))) > kAside)
+    if (std::min(std::abs(cross(outwards, start)), std::abs(cross(outwards, end))) >
+        tuning.sideways)
       continue;
     const auto [near, far] = std::minmax({start.dot(outwards), end.dot(outwards)});
     if (far > 0.0) pieces.emplace_back(std::max(near, 0.0), far);
@@ -30,11 +27,11 @@ double wallBeyond(const Eigen::Vector2d& jamb, const Eigen::Vector2d& outwards,
   std::sort(pieces.begin(), pieces.end());
   double length = 0.0, reached = 0.0;
   for (const auto& [begin, end] : pieces) {
-    if (begin > reached + longest_break) break;
+    if (begin > reached + tuning.widest_door) break;
     length += std::max(0.0, end - std::max(begin, reached));
     reached = std::max(reached, end);
   }
-  return std::min(length, kLongWall);
+  return length;
 }
 
 }  // namespace
@@ -42,8 +39,8 @@ double wallBeyond(const Eigen::Vector2d& jamb, const Eigen::Vector2d& outwards,
 double wallSupport(const Passage& passage, const std::vector<MapLine>& lines,
                    const PassageTuning& tuning) {
   const Eigen::Vector2d way = (passage.b - passage.a).normalized();
-  const double wall = wallBeyond(passage.a, -way, lines, tuning.widest_door) +
-                      wallBeyond(passage.b, way, lines, tuning.widest_door);
+  const double wall =
+      wallBeyond(passage.a, -way, lines, tuning) + wallBeyond(passage.b, way, lines, tuning);
   return wall / (wall + passage.width());
 }
 

@@ -24,8 +24,6 @@ constexpr double kLeastNews = 0.02;
 /// apart, of which the mean is nought; and by this at least (m, rad).
 constexpr double kOfSweepError = 0.15, kScanSigma = 0.003, kScanTurnSigma = 0.001;
 
-/// 99.7 % of the prior lies within; and m, a usual distance of walls, which turns move.
-constexpr double kReachSigmas = 3.0, kArmOfReach = 3.0;
 constexpr double kLeastMatchReach = 0.15;  // m: coarser than the finest reach of a match by a round
 
 /// nats a beam, below which a scan is in doubt; and of what is usual here: where the plan explains
@@ -235,7 +233,7 @@ double KnownMap::State::doubt() const {
 KnownMap::State::Fit KnownMap::State::fitAbout(const ScanSurface& surface, const PoseBelief& prior,
                                                double share) const {
   const Spread spread = spreadOf(prior.information.inverse());
-  const double reach = std::clamp(kReachSigmas * (spread.position + kArmOfReach * spread.turn),
+  const double reach = std::clamp(kPriorSigmas * (spread.position + kTurnArm * spread.turn),
                                   kLeastMatchReach, PlanLines::kMostReach);
   const Fit here = fitAt(surface, prior.mean, prior, reach, share);
   if (here.evidence >= doubt() || here.seen.count() < kFewestRays) return here;
@@ -371,8 +369,8 @@ void KnownMap::State::takePlace(const ScanSurface& surface, const Pose2& T_robot
   const Spread spread = spreadOf(covariance);
   SearchWindow window;
   window.centre = prior.mean;
-  window.half_width = std::min(kReachSigmas * spread.position, kWidestReach);
-  window.half_turn = std::min(kReachSigmas * spread.turn, M_PI);
+  window.half_width = std::min(kPriorSigmas * spread.position, kWidestReach);
+  window.half_turn = std::min(kPriorSigmas * spread.turn, M_PI);
   Fit fit = fitAt(surface, prior.mean, prior, PlanLines::kMostReach, 1.0);
   if (const auto elsewhere = global_.bestIn(window, surface)) {
     const Fit there = fitAt(surface, *elsewhere, prior, PlanLines::kMostReach, 1.0);

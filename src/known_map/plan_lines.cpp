@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "cca_mrpt/mapping/scan_agreement.hpp"
 #include "geometry/cross.hpp"
 
 namespace cca {
@@ -12,8 +13,6 @@ namespace {
 
 constexpr double kShortest = 1e-3;   // m: no wall is so short, and its direction would be rounding
 constexpr double kFacesAlike = 0.9;  // cosine, 26 degrees: far from the wall around a corner
-constexpr double kBlind = 0.1;       // m, before the sensor: its place errs by so much
-constexpr double kRim = 0.15;        // m, of a line's end, which a ray may well miss
 constexpr double kRounding = 1e-9;   // m: what is off a line by more than this is off its piece
 /// m: what a ray crosses it crosses in a cell that it comes through, most of which are empty.
 constexpr double kThroughCell = 0.4;
@@ -140,11 +139,11 @@ PlanLines::Slot PlanLines::crossed(const Eigen::Vector2d& from, const Eigen::Vec
     const double off_from = cross(piece.direction, from - piece.start);
     const double off_to = cross(piece.direction, to - piece.start);
     if ((off_from > 0.0) == (off_to > 0.0)) return false;
-    if (std::abs(off_to) < behind || std::abs(off_from) < kBlind) return false;
+    if (std::abs(off_to) < behind || std::abs(off_from) < kBlindCompared) return false;
     const Eigen::Vector2d at = from + (to - from) * (off_from / (off_from - off_to));
     const double along = piece.direction.dot(at - piece.start);
-    return along >= (piece.begins ? kRim : 0.0) &&
-           along <= piece.length - (piece.ends ? kRim : 0.0) &&
+    return along >= (piece.begins ? kRimOfWall : 0.0) &&
+           along <= piece.length - (piece.ends ? kRimOfWall : 0.0) &&
            (is_open.empty() || !is_open[static_cast<std::size_t>(slot)]);
   };
   if (firstAlong(through_, from, to, isCrossed) < 0) return -1;  // most rays

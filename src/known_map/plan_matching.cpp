@@ -11,10 +11,6 @@
 namespace cca {
 namespace {
 
-constexpr double kShrinkReach = 0.7;     // a round: the widest, 0.6 m, is the finest after six
-constexpr double kFinestReach = 0.1;     // m: what leans on a wall is no wall
-constexpr double kReachOverSigma = 4.0;  // of the robust kernel: what is beyond is another wall's
-constexpr int kRoundsAtMost = 12;        // six shrink the widest reach; the rest settle
 constexpr double kStill = 2e-4, kStillTurn = 5e-5;  // m, rad: a tenth of what a match is worth
 constexpr double kFewOnPiece = 5.0;                 // returns, for its mean distance to tell
 /// A pose has three numbers, which leave the mean distances of three pieces nought.
@@ -78,7 +74,7 @@ void admitScanError(const Eigen::Matrix3d& covariance, PlanQuadric& quadric) {
 PlanQuadric planQuadric(const ScanSurface& surface, const Pose2& pose, const PlanLines& plan,
                         double reach, double sigma, double plan_sigma) {
   const double c = std::cos(pose.theta), s = std::sin(pose.theta);
-  const double kernel = reach / kReachOverSigma;
+  const double kernel = reach / kReachPerSigma;
   PlanQuadric quadric;
   PieceSums sums;
   for (const ScanSurface::Point& point : surface.points) {
@@ -122,10 +118,10 @@ PlanMatch matchPlan(const ScanSurface& surface, const Pose2& start, const PoseBe
                     const PlanLines& plan, const PlanMatching& how) {
   PlanMatch match;
   match.T_map_sensor = start;
-  const double finest = std::max(kFinestReach, kReachOverSigma * surface.range_sigma);
+  const double finest = std::max(kFinestReach, kReachPerSigma * surface.range_sigma);
   double reach = std::clamp(how.first_reach, finest, PlanLines::kMostReach);
-  double sigma = std::max(surface.range_sigma, kFinestReach / kReachOverSigma);
-  for (int round = 0; round < kRoundsAtMost; ++round) {
+  double sigma = std::max(surface.range_sigma, kFinestReach / kReachPerSigma);
+  for (int round = 0; round < kMostMatchRounds; ++round) {
     PlanQuadric quadric =
         planQuadric(surface, match.T_map_sensor, plan, reach, sigma, how.plan_sigma);
     admitScanError(how.scan_covariance, quadric);

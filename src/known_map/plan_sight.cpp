@@ -4,12 +4,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cca_mrpt/mapping/scan_agreement.hpp"
 #include "slam/likelihood_pyramid.hpp"
 
 namespace cca {
 namespace {
 
-constexpr double kFarthestRay = 15.0;  // m; further out a degree of heading is a quarter of a metre
 constexpr double kSilentSpacing = 0.07;  // rad: kRaySpacing, at a usual distance of walls, 3.6 m
 constexpr double kShortOfFree = 0.3;     // m, that a silent beam is taken to have seen less
 constexpr double kBehindPlan = 0.25;     // m, behind a line, and a ray has gone through
@@ -39,7 +39,7 @@ double sightTolerance(double range_sigma) { return std::clamp(4.0 * range_sigma,
 std::vector<SightRay> sightRays(const ScanSurface& surface) {
   std::vector<SurfacePoint> points;
   for (const ScanSurface::Point& point : surface.points) {
-    if (point.position.norm() < kFarthestRay) points.push_back({point.position, point.normal});
+    if (point.position.norm() < kFarthestCompared) points.push_back({point.position, point.normal});
   }
   std::vector<SightRay> rays;
   for (const SurfacePoint& p : thinned(points, kRaySpacing)) {
@@ -49,7 +49,7 @@ std::vector<SightRay> sightRays(const ScanSurface& surface) {
   for (int beam = 0; beam < surface.beams(); ++beam) {
     const auto k = static_cast<std::size_t>(beam);
     const double bearing = surface.first_bearing + beam * surface.spacing;
-    const double free = std::min(surface.free_range[k], kFarthestRay) - kShortOfFree;
+    const double free = std::min(surface.free_range[k], kFarthestCompared) - kShortOfFree;
     if (surface.point_of_beam[k] >= 0 || free <= 0.0 || bearing - last < kSilentSpacing) continue;
     last = bearing;
     rays.push_back({free * Eigen::Vector2d(std::cos(bearing), std::sin(bearing)),

@@ -10,13 +10,10 @@ namespace cca {
 namespace {
 
 constexpr std::size_t kMostBeams = 90;  // evenly over the scan: more say the same
-constexpr double kLongestRay = 15.0;  // m; further out a degree of heading is a quarter of a metre
-constexpr double kOnWall = 0.15;      // m, across it; from there to kBehind a return says nothing
-constexpr double kBehind = 0.30;      // m, across it, and a ray has gone through
-constexpr double kRim = 0.15;         // m, of a wall, which a ray may well miss
-constexpr double kBlind = 0.1;        // m, before the sensor: the robot itself is there
-constexpr double kFewestHits = 10.0;  // of a bin, for the wall to stand there
-constexpr double kMemory = 0.998;     // of one scan: what is 500 scans old counts a third
+constexpr double kOnWall = 0.15;        // m, across it; from there to kBehind a return says nothing
+constexpr double kBehind = 0.30;        // m, across it, and a ray has gone through
+constexpr double kFewestHits = 10.0;    // of a bin, for the wall to stand there
+constexpr double kMemory = 0.998;       // of one scan: what is 500 scans old counts a third
 /// Returns taken for confirmed beforehand, those of some twenty scans: one odd scan is no evidence.
 constexpr double kBenefitOfDoubt = 1000.0;
 
@@ -36,9 +33,9 @@ bool isCrossed(const Wall& wall, const Eigen::Vector2d& origin, const Eigen::Vec
   const Eigen::Vector2d from = wall.toWall(origin), to = wall.toWall(hit);
   const double off_from = wall.offLine(from), off_to = wall.offLine(to);
   if ((off_from > 0.0) == (off_to > 0.0)) return false;
-  if (std::abs(off_to) < kBehind || std::abs(off_from) < kBlind) return false;
+  if (std::abs(off_to) < kBehind || std::abs(off_from) < kBlindCompared) return false;
   const double t = from.x() + (to.x() - from.x()) * off_from / (off_from - off_to);
-  return stands(wall, t) && stands(wall, t - kRim) && stands(wall, t + kRim);
+  return stands(wall, t) && stands(wall, t - kRimOfWall) && stands(wall, t + kRimOfWall);
 }
 
 }  // namespace
@@ -50,7 +47,7 @@ ScanVerdict compareWithMap(const Scan& scan, const Walls& walls) {
   std::vector<Walls::Slot> near;
   for (std::size_t beam = step / 2; beam < scan.size(); beam += step) {
     const double range = scan.ranges[beam];
-    if (!isReturn(range) || range > kLongestRay) continue;
+    if (!isReturn(range) || range > kFarthestCompared) continue;
     const double angle = scan.T_map_sensor.theta + scan.bearing(beam);
     const Eigen::Vector2d hit = origin + range * Eigen::Vector2d(std::cos(angle), std::sin(angle));
     if (!hit.allFinite()) continue;

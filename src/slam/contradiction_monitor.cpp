@@ -23,8 +23,6 @@ constexpr double kLeastInCommon = 0.1;
 /// Contradicting scans in a row after which the robot is lost, once it has driven so far.
 constexpr int kLostScans = 3;
 constexpr double kLostWay = 1.0;  // m; turns on the spot among people contradict, too
-/// The same number without any motion: some seconds.
-constexpr int kLostStanding = 50;
 /// m with turns: some 80 degrees on the spot. Contradicting scans that agree by kOfOnePlace with
 /// one another show one place, and neither people nor the floor.
 constexpr double kLostWayOfOnePlace = 2.0, kOfOnePlace = 0.9;
@@ -85,7 +83,7 @@ void ContradictionMonitor::add(const Pose2& step, const ScanSurface& surface) {
 
 bool ContradictionMonitor::isLost() const {
   const int scans = static_cast<int>(run_.scans.size());
-  if (scans >= kLostStanding) return true;
+  if (scans >= kStandingScans) return true;
   return scans >= kLostScans &&
          (run_.way >= kLostWay ||
           (run_.agrees_with_itself && run_.way_with_turns >= kLostWayOfOnePlace));

@@ -8,6 +8,9 @@
 
 namespace cca {
 
+/// Scans, some seconds, that decide without any motion.
+inline constexpr int kStandingScans = 50;
+
 /// Decides from scans in a row that contradict the map whether the robot is lost.
 ///
 /// One such scan has seen people or the floor. Several of them, over a metre of way, say that the

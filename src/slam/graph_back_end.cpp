@@ -13,9 +13,6 @@ constexpr int kCellsAtOnce = 2000000;
 /// Poses are solved for again when the graph has grown by this, and by this share: all solutions of
 /// a drive together cost a few of the last one.
 constexpr int kOptimiseAfter = 15, kOptimiseShare = 10;
-/// Of a match to the frames of an earlier visit, after a loop: it is off by what the loop's
-/// optimisation left, as of a first match.
-constexpr MatchScale kRevisitMatch{0.3, 0.08};
 /// Rounds of the bundle adjustment: from its first reach to its last in five, and as many there.
 constexpr int kAdjustRounds = 10;
 

@@ -12,8 +12,6 @@ constexpr double kDoubtful = 0.6;
 /// m; a jump is accepted after this way, or after this share of what it claims, whatever is more. A
 /// turn on the spot shows nothing new.
 constexpr double kLeastWay = 0.5, kWayOfClaim = 0.35;
-/// Scans after which it is accepted without motion: some seconds.
-constexpr int kStandingScans = 50;
 
 }  // namespace
 

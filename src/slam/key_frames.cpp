@@ -23,7 +23,6 @@ double apartness(const Pose2& a, const Pose2& b, bool full_turn) {
 constexpr int kLeastPairs = 10;
 /// Directions that less than this share of the strongest speaks for are noise of the normals.
 constexpr double kWeakest = 0.01;
-constexpr double kArm = 3.0;             // m, at which a turn counts as a shift
 constexpr std::size_t kPairsOfEach = 7;  // bounds the matches of a frame in an adjustment
 
 }  // namespace
@@ -68,8 +67,7 @@ std::optional<GraphEdge> matchEdge(const KeyFrames& frames, int from, int to,
       matchQuadric(frames.surfaces[static_cast<std::size_t>(to)], T_from_to,
                    {{&frames.surfaces[static_cast<std::size_t>(from)], Pose2{}}}, scale);
   if (quadric.paired < kLeastPairs) return std::nullopt;
-  // A turn is measured by how far it moves what is seen: at kArm [m].
-  const Eigen::Vector3d unit(1.0, 1.0, 1.0 / kArm);
+  const Eigen::Vector3d unit(1.0, 1.0, 1.0 / kTurnArm);
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(
       Eigen::Matrix3d(unit.asDiagonal() * quadric.H * unit.asDiagonal()));
   const double least = kWeakest * solver.eigenvalues().z();
@@ -159,12 +157,9 @@ class PairEdge {
   const std::optional<GraphEdge>& edge() const { return edge_; }
 
  private:
-  /// What moves by less finds the same partners, but for a few in a hundred.
-  static constexpr double kStays = 5e-4;  // m, a turn at kArm
-
   bool isAt(const Pose2& pose) const {
     const Eigen::Vector3d moved = difference(pose, T_from_to_);
-    return moved.head<2>().norm() + kArm * std::abs(moved.z()) < kStays;
+    return moved.head<2>().norm() + kTurnArm * std::abs(moved.z()) < kSettled;
   }
 
   int from_, to_;
@@ -176,9 +171,8 @@ class PairEdge {
 }  // namespace
 
 void adjust(KeyFrames& frames, int rounds, const DoAll& do_all) {
-  // m; as of a match of one scan, but narrowed slowly: each round moves all poses.
-  constexpr double kFirstReach = 0.3, kNarrows = 0.8, kLastReach = 0.1;
-  constexpr int kAtOnce = 64;  // matches, so that sharing them out costs nothing
+  constexpr double kNarrows = 0.8;  // slower than a match of one scan: each round moves all poses
+  constexpr int kAtOnce = 64;       // matches, so that sharing them out costs nothing
   std::vector<PairEdge> pairs;
   for (const FramePair& pair : pairsInView(frames, kPairsOfEach)) {
     // In both directions: the lines of either are the other's measure.
@@ -190,12 +184,12 @@ void adjust(KeyFrames& frames, int rounds, const DoAll& do_all) {
   for (const GraphEdge& edge : frames.graph.edges()) {
     if (edge.kind == EdgeKind::kWheels) steps.push_back(edge);
   }
-  double reach = kFirstReach;
+  double reach = kFirstMatchReach;
   for (int round = 0; round < rounds; ++round) {
     const MatchScale scale{reach, 0.25 * reach};
     do_all((count + kAtOnce - 1) / kAtOnce, [&](int part) {
       for (int k = part * kAtOnce; k < std::min(count, (part + 1) * kAtOnce); ++k) {
-        pairs[static_cast<std::size_t>(k)].match(frames, scale, reach > kLastReach);
+        pairs[static_cast<std::size_t>(k)].match(frames, scale, reach > kFinestReach);
       }
     });
     std::vector<GraphEdge> edges = steps;
@@ -207,8 +201,8 @@ void adjust(KeyFrames& frames, int rounds, const DoAll& do_all) {
     const double moved = optimisePoses(edges, poses, 5);
     for (int k = 0; k < frames.size(); ++k)
       frames.graph.place(k, poses[static_cast<std::size_t>(k)]);
-    if (reach <= kLastReach && moved < 1e-3) break;
-    reach = std::max(kLastReach, kNarrows * reach);
+    if (reach <= kFinestReach && moved < 1e-3) break;
+    reach = std::max(kFinestReach, kNarrows * reach);
   }
 }
 

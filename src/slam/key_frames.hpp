@@ -51,6 +51,12 @@ std::vector<int> framesInView(const KeyFrames& frames, int anchor, const Pose2& 
 std::optional<GraphEdge> matchEdge(const KeyFrames& frames, int from, int to,
                                    const MatchScale& scale);
 
+/// Of a match to the frames of an earlier visit, after a loop: it is off by what the loop's
+/// optimisation left, as of a first match.
+inline constexpr MatchScale kRevisitMatch{0.3, 0.08};
+/// Frames, ten metres of way: what is nearer in the order of frames is of the same visit.
+inline constexpr int kFramesOfVisit = 20;
+
 /// Two frames of one part of the graph within the common view of each other.
 struct FramePair {
   int first, second;   ///< first < second

@@ -12,9 +12,7 @@ constexpr double kNeighbourWay = 12.0;
 /// The more places were offered, the more likely one of them agrees by chance, most of all where
 /// the right one has not been seen yet and its like has: rays have to agree by more in wide windows
 /// [m].
-constexpr double kAgreeNear = 0.8, kAgreeAnywhere = 0.92, kNearWindow = 1.0;
-/// Of the rays; what fewer say decides nothing.
-constexpr double kLeastCommon = 0.15;
+constexpr double kAgreeNear = 0.8, kNearWindow = 1.0;
 /// Between shelves, or doors, one place is as another a few metres on, whose like has not been seen
 /// yet: nothing but the way can tell. What moves by more than this [m] has to be likely.
 constexpr double kFarMove = 3.0, kLikelySigmas = 1.5;

@@ -10,24 +10,23 @@
 namespace cca {
 namespace {
 
-constexpr double kMostSigma = 8.0;     // m, beyond which a place is looked for anywhere else
-constexpr double kSigmas = 2.5;        // half window: 98.8 % of what is likely
-constexpr double kWidestWindow = 8.0;  // m; as kMostSigma, for the cost grows with its square
-constexpr int kRecent = 8;             // frames that look for their place together
-constexpr double kRecentWay = 8.0;     // m; what lies farther back has drifted from the frame
-constexpr int kEarlier = 12;           // frames that they are compared with
-constexpr double kCell = 0.1;          // m, of the search; matches reach 0.3 m
-constexpr int kLevels = 4;             // coarsest cells of 1.6 m: five to the widest half window
-constexpr int kLevelsAnywhere = 6;     // 13 m, for a whole building
-constexpr double kSpacing = 0.2;       // m, of the returns that search
-constexpr double kReach = 15.0;        // m, of the returns that are searched among
+constexpr double kMostSigma = 8.0;  // m, beyond which a place is looked for anywhere else; and of
+                                    // a half window, for the cost grows with its square
+constexpr double kSigmas = 2.5;     // half window: 98.8 % of what is likely
+constexpr int kRecent = 8;          // frames that look for their place together
+constexpr double kRecentWay = 8.0;  // m; what lies farther back has drifted from the frame
+constexpr int kEarlier = 12;        // frames that they are compared with
+constexpr double kCell = 0.1;       // m, of the search; matches reach 0.3 m
+constexpr int kLevels = 4;          // coarsest cells of 1.6 m: five to the widest half window
+constexpr int kLevelsAnywhere = 6;  // 13 m, for a whole building
+constexpr double kSpacing = 0.2;    // m, of the returns that search
+constexpr double kReach = 15.0;     // m, of the returns that are searched among
 /// Of the best place in a window, to be matched and judged by rays at all; these decide.
 constexpr double kLeastScore = 0.45;
 /// Among all places of a building some score so much without being the right one; those that rays
 /// agree with score .88 and more.
 constexpr double kLeastScoreAnywhere = 0.8;
 constexpr double kCellAnywhere = 0.2, kSpacingAnywhere = 0.4;  // m, twice the others: a first place
-constexpr double kTolerance = 0.2;                             // m, within which rays agree
 constexpr double kRivalDistance = 0.6, kRivalTurn = 0.3;  // m, rad, from the best place at least
 
 /// Returns of frames in the axes that `T_base_map` leads to.
@@ -87,8 +86,8 @@ void judge(const KeyFrames& frames, const std::vector<int>& recent, const std::v
     for (const PlacedSurface& reference : references) {
       const Pose2 T_reference_k = reference.T_map_sensor.inverse() * T_earlier_k;
       if (T_reference_k.position().norm() > 1.5 * kCommonView) continue;
-      sights += compareSights(*reference.surface, seen, T_reference_k, kTolerance);
-      sights += compareSights(seen, *reference.surface, T_reference_k.inverse(), kTolerance);
+      sights += compareSights(*reference.surface, seen, T_reference_k);
+      sights += compareSights(seen, *reference.surface, T_reference_k.inverse());
     }
   }
   verdict.agreement = sights.agreement();
@@ -118,11 +117,10 @@ std::vector<RelativeSigma> loopCandidates(const KeyFrames& frames, int frame) {
   });
   // One of each visit: frames that follow one another are one.
   std::vector<RelativeSigma> chosen;
-  constexpr int kSameVisit = 20;              // frames: ten metres of way
   constexpr std::size_t kMostCandidates = 3;  // bounds what a key frame costs
   for (const Likely& next : likely) {
     const bool known = std::any_of(chosen.begin(), chosen.end(), [&](const auto& other) {
-      return std::abs(other.node - next.at.node) < kSameVisit;
+      return std::abs(other.node - next.at.node) < kFramesOfVisit;
     });
     if (!known) chosen.push_back(next.at);
     if (chosen.size() == kMostCandidates) break;
@@ -157,7 +155,7 @@ PlaceSearch PlaceSearch::atVisit(const KeyFrames& frames, int frame,
   known.frame = frame;
   known.candidate = earlier;
   known.sigma = candidate.position;
-  known.window = window.half_width = std::min(kSigmas * known.sigma + kTiedSigma, kWidestWindow);
+  known.window = window.half_width = std::min(kSigmas * known.sigma + kTiedSigma, kMostSigma);
   window.half_turn = std::min(kSigmas * candidate.turn + 0.05, M_PI);
   const Pose2 T_frame_map = frames.graph.pose(frame).inverse();
   const Pose2 T_earlier_map = frames.graph.pose(earlier).inverse();

@@ -26,6 +26,10 @@ struct LoopVerdict {
 
 /// A place that scores this share of the best one could as well be it.
 inline constexpr double kRival = 0.9;
+/// Share of the rays that agree with a place: among all places of a building, chance comes to less.
+inline constexpr double kAgreeAnywhere = 0.92;
+/// Of the rays; what fewer say decides nothing.
+inline constexpr double kLeastCommon = 0.15;
 
 /// Earlier frames that may have seen the place of `frame` although they are not tied to it: for
 /// each other visit, the one most likely nearest.

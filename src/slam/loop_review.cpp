@@ -21,14 +21,9 @@ constexpr double kContradicted = 0.1;
 /// m, rad; how far the map may be off there: two and a half times as far is searched, 2 or 6 m. By
 /// the bound that the graph knows, a corridor's next doors would be as likely.
 constexpr double kOffBy[] = {0.75, 2.4}, kTurnedBy = 0.05;
-/// Of the rays of a loop that was refused, to be thought of again: as among all places of a
-/// building.
-constexpr double kRaysOfRefused = 0.92, kCommonOfRefused = 0.15;
 constexpr int kRoughRounds = 5, kLastRounds = 10;  // of adjust(); the rough ones end at its reach
 constexpr double kAnotherMap = 0.5;                // m, between a frame's places in two maps
-/// Of visits that the map brings together: as after a loop.
-constexpr MatchScale kTie{0.3, 0.08};
-constexpr double kTieAgrees = 0.9;  // of the rays of both
+constexpr double kTieAgrees = 0.9;                 // of the rays of both
 
 struct Hypothesis {
   std::vector<LoopOfCluster> loops;  ///< all that are known
@@ -114,7 +109,7 @@ class LoopJury {
       const bool is_known = std::any_of(believed.begin(), believed.end(), [&](const auto& known) {
         return known.frame == verdict.frame && known.candidate == verdict.candidate;
       });
-      if (is_known || verdict.agreement < kRaysOfRefused || verdict.common < kCommonOfRefused) {
+      if (is_known || verdict.agreement < kAgreeAnywhere || verdict.common < kLeastCommon) {
         continue;
       }
       loops.push_back({verdict, false});
@@ -238,7 +233,7 @@ class LoopJury {
     }
     for (const SeenPair& pair : best_.agreement.pairs) {
       if (pair.frames.is_same_visit || pair.sights.agreement() < kTieAgrees) continue;
-      const auto edge = matchEdge(frames_, pair.frames.first, pair.frames.second, kTie);
+      const auto edge = matchEdge(frames_, pair.frames.first, pair.frames.second, kRevisitMatch);
       if (edge) graph.connect(*edge);
     }
     // A loop alone ties two parts, though it errs.

@@ -13,26 +13,23 @@ namespace {
 constexpr std::size_t kMostAsked = 40, kJudgesOfPart = 6;
 /// m; farther from the loop the part's own drift contradicts.
 constexpr double kJudgedAround = 20.0;
-constexpr double kRaysAgree = 0.2;  // m, as where loops are closed
-/// Of the rays of a loop's own frames: among all places of a building, chance comes to less.
-constexpr double kLeastAgreement = 0.92, kLeastShared = 0.15;
 /// m, rad; loops that put the part within this say the same. Rivals lie .6 m apart or more, and
 /// two hypotheses within a metre are one that drifted.
 constexpr double kSamePlace = 0.5, kSameTurn = 0.15, kNoRival = 1.0, kNoRivalTurn = 0.2;
 /// m; of less way a room may have seen nothing that tells it from its like, which may be still
 /// unseen.
 constexpr double kLeastWayOfPart = 2.0;
-/// m; the same where another place was not told from this one at some time: the like of a room may
-/// be one of several.
-constexpr double kLeastWayAmongLikes = 5.0;
+/// m, the longer side of a usual room: so far it has to drive where another place was not told from
+/// this one at some time, for the like of a room may be one of several; and so far apart are loops
+/// that say the same of more than a room and its like.
+constexpr double kLongRoom = 5.0;
 /// Of the rays that say something. The right place is contradicted by .0002 to .009 (simulated
 /// drives; intel and seattle, cut in two), the like of a room by .03 and more once the robot has
 /// left it. A rival has to be contradicted by so many times as much, and by this more.
 constexpr double kMostContradicted = 0.02, kTimesMore = 3.0, kMore = 0.005;
-/// The same where nothing else is like it, and loops so far apart [m] say the same: glass and what
-/// has been moved contradict a whole visit of a museum (fhw, cut in two) by .13, and a room and its
-/// like end before that: 5 m is the longer side of a usual room.
-constexpr double kMostContradictedAlone = 0.15, kFarApart = 5.0;
+/// The same where nothing else is like it, and loops kLongRoom apart say the same: glass and what
+/// has been moved contradict a whole visit of a museum (fhw, cut in two) by .13.
+constexpr double kMostContradictedAlone = 0.15;
 /// A hypothesis that puts the part beside what was seen is contradicted by nothing, and is no rival
 /// of one with this many times as much in common.
 constexpr double kMoreInCommon = 2.0;
@@ -97,8 +94,8 @@ SightCount sightsOfParts(const KeyFrames& frames, const LoopVerdict& loop) {
     for (const auto& [apart, k] : near) {
       const ScanSurface& other = frames.surfaces[static_cast<std::size_t>(k)];
       const Pose2 T_other_own = graph.pose(k).inverse() * here;
-      sights += compareSights(other, surface, T_other_own, kRaysAgree);
-      sights += compareSights(surface, other, T_other_own.inverse(), kRaysAgree);
+      sights += compareSights(other, surface, T_other_own);
+      sights += compareSights(surface, other, T_other_own.inverse());
     }
   }
   return sights;
@@ -106,7 +103,7 @@ SightCount sightsOfParts(const KeyFrames& frames, const LoopVerdict& loop) {
 
 void PartPlacement::add(const KeyFrames& frames, const LoopVerdict& found) {
   forgetJoined(frames.graph);
-  if (found.agreement < kLeastAgreement || found.common < kLeastShared) return;
+  if (found.agreement < kAgreeAnywhere || found.common < kLeastCommon) return;
   const PoseGraph& graph = frames.graph;
   const int part = graph.part(found.frame), other_part = graph.part(found.candidate);
   for (Hypothesis& hypothesis : hypotheses_) {
@@ -160,8 +157,7 @@ std::vector<LoopVerdict> PartPlacement::decide(const KeyFrames& frames, int part
     const bool is_clear = contradicted(best.sights) <= kMostContradicted;
     const double apart =
         (graph.pose(second->frame).position() - graph.pose(loops.back().frame).position()).norm();
-    const bool is_enough =
-        has_like ? is_clear && way >= kLeastWayAmongLikes : is_clear || apart >= kFarApart;
+    const bool is_enough = has_like ? is_clear && way >= kLongRoom : is_clear || apart >= kLongRoom;
     if (stands_alone && is_enough) return {*second, loops.back()};
   }
   return {};

@@ -17,13 +17,10 @@ Eigen::Vector2d towardsSensor(const Eigen::Vector2d& direction, const Eigen::Vec
   return normal.dot(p) > 0.0 ? Eigen::Vector2d(-normal) : normal;
 }
 
-/// A return lies on a line within this many deviations of its noise, or the straightness of walls.
-constexpr double kOnLine = 3.0;
-
 void takeNormalsOfLines(const std::vector<LineSegment>& lines, double straightness,
                         ScanSurface& surface) {
   const int count = static_cast<int>(surface.points.size());
-  const double gate = std::max(straightness, kOnLine * surface.range_sigma);
+  const double gate = std::max(straightness, kGates * surface.range_sigma);
   for (const LineSegment& line : lines) {
     const Eigen::Vector2d direction = line.direction();
     const double length = line.length();

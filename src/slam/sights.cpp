@@ -24,21 +24,23 @@ double SightCount::agreement() const {
 
 namespace {
 
+/// m, within which a ray ends at a return: what poses err by within a visit.
+constexpr float kRaysAgree = 0.2F;
+
 /// What the rays of a viewer say of points in its frame: 1, they stand where it had a return, or
 /// could have had one; -1, it saw through; 0, it saw nothing of them.
 std::vector<std::int8_t> sightsOf(const ScanSurface& viewer, const PackedPoints& points,
-                                  const Pose2& T_viewer_points, double tolerance) {
+                                  const Pose2& T_viewer_points) {
   const SeenPoints seen(points, PackedMotion(T_viewer_points), viewer);
-  const float within = static_cast<float>(tolerance);
   std::vector<std::int8_t> sights(points.x.size(), 0);
   for (std::size_t k = 0; k < sights.size(); ++k) {
     if (seen.beam[k] < 0) continue;
     const auto beam = static_cast<std::size_t>(seen.beam[k]);
     const float range = std::sqrt(seen.x[k] * seen.x[k] + seen.y[k] * seen.y[k]);
     // Between the nearest and the farthest of three neighbouring beams a surface may lie anywhere.
-    if (range <= viewer.least_free[beam] - within) {
+    if (range <= viewer.least_free[beam] - kRaysAgree) {
       sights[k] = -1;
-    } else if (range < viewer.most_free[beam] + within) {
+    } else if (range < viewer.most_free[beam] + kRaysAgree) {
       sights[k] = 1;
     }
   }
@@ -48,9 +50,9 @@ std::vector<std::int8_t> sightsOf(const ScanSurface& viewer, const PackedPoints&
 }  // namespace
 
 SightCount compareSights(const ScanSurface& viewer, const ScanSurface& other,
-                         const Pose2& T_viewer_other, double tolerance) {
+                         const Pose2& T_viewer_other) {
   SightCount count;
-  for (const std::int8_t sight : sightsOf(viewer, other.packed, T_viewer_other, tolerance)) {
+  for (const std::int8_t sight : sightsOf(viewer, other.packed, T_viewer_other)) {
     count.agree += sight > 0;
     count.contradict += sight < 0;
     count.unseen += sight == 0;
@@ -59,11 +61,11 @@ SightCount compareSights(const ScanSurface& viewer, const ScanSurface& other,
 }
 
 void forgetWhatMoved(ScanSurface& surface, const Pose2& T_map_sensor,
-                     const std::vector<PlacedSurface>& others, double tolerance) {
+                     const std::vector<PlacedSurface>& others) {
   std::vector<int> balance(surface.points.size(), 0);
   for (const PlacedSurface& other : others) {
-    const auto sights = sightsOf(*other.surface, surface.packed,
-                                 other.T_map_sensor.inverse() * T_map_sensor, tolerance);
+    const auto sights =
+        sightsOf(*other.surface, surface.packed, other.T_map_sensor.inverse() * T_map_sensor);
     for (std::size_t k = 0; k < sights.size(); ++k) balance[k] += sights[k];
   }
   for (std::size_t k = 0; k < balance.size(); ++k) {

@@ -15,8 +15,6 @@ namespace {
 
 /// From a key frame to the next.
 constexpr MatchScale kStepMatch{0.15, 0.04};
-/// A match to one of these latest frames is of the same visit, and closes no loop.
-constexpr int kSameVisit = 20;
 
 std::optional<Pose2> sensorOf(const std::optional<Pose2>& T_odom_robot,
                               const Pose2& T_robot_sensor) {
@@ -173,7 +171,7 @@ void Slam::State::addKeyFrame(int frame, const GraphEdge& odometry, bool is_meas
   for (const int other : tracker_.view()) {
     if (auto edge = matchEdge(frames_, other, frame, kStepMatch)) {
       if (other == odometry.from && is_measured) learnScale(odometry, *edge);
-      if (other >= frame - kSameVisit) edge->kind = EdgeKind::kMatch;
+      if (other >= frame - kFramesOfVisit) edge->kind = EdgeKind::kMatch;
       back_end_.connectMatch(frames_.graph, *edge);
     }
   }

@@ -8,17 +8,9 @@
 namespace cca {
 namespace {
 
-/// The reach shrinks by this a round, and so does the kernel, to these at the least.
-constexpr double kShrink = 0.7;
-constexpr double kLeastReach = 0.1;     // m; a wall is not to be taken for its other face
-constexpr double kReachPerSigma = 4.0;  // of the kernel; what is beyond is of another wall
-constexpr int kMostRounds = 12;         // four shrink 0.3 m to the least; the rest settle
 /// A step of less than this share of the reach finds the partners of the finest one at once.
 constexpr double kNear = 0.1;
-/// m; a turn counts as it moves what is seen so far away.
-constexpr double kTurnArm = 3.0;
-/// A tenth of what a match is worth.
-constexpr double kSettled = 5e-4, kSettledTurn = 1e-4;
+constexpr double kSettledTurn = 1e-4;  // rad; a tenth of what a match is worth
 /// Of the kernel's sigma, at least: the walls themselves are no better.
 constexpr double kLeastNoise = 0.1;
 
@@ -27,7 +19,7 @@ MatchScale scaleOf(double reach) { return {reach, reach / kReachPerSigma}; }
 }  // namespace
 
 MatchScale finestScale(const ScanSurface& query) {
-  return scaleOf(std::max(kLeastReach, kReachPerSigma * query.range_sigma));
+  return scaleOf(std::max(kFinestReach, kReachPerSigma * query.range_sigma));
 }
 
 double noiseShare(const ScanSurface& surface, const MatchScale& scale) {
@@ -45,7 +37,7 @@ MatchResult matchSurface(const ScanSurface& query, const Pose2& start, const Pos
   result.T_map_query = start;
   MatchScale scale = scaleOf(first_reach);
   const double least = finestScale(query).reach;
-  for (int round = 0; round < kMostRounds; ++round) {
+  for (int round = 0; round < kMostMatchRounds; ++round) {
     scale.stride = scale.reach > least ? coarseStride(query) : 1;
     const MatchQuadric quadric = matchQuadric(query, result.T_map_query, references, scale);
     const Eigen::Vector3d off = difference(result.T_map_query, prior.mean);
@@ -71,7 +63,7 @@ MatchResult matchSurface(const ScanSurface& query, const Pose2& start, const Pos
     if (is_finest && step.head<2>().norm() < kSettled && std::abs(step.z()) < kSettledTurn) break;
     const bool is_near =
         step.head<2>().norm() + kTurnArm * std::abs(step.z()) < kNear * scale.reach;
-    scale = scaleOf(is_near ? least : std::max(least, kShrink * scale.reach));
+    scale = scaleOf(is_near ? least : std::max(least, kShrinkReach * scale.reach));
   }
   return result;
 }

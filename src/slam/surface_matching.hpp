@@ -20,6 +20,8 @@ struct PoseBelief {
   Eigen::Matrix3d information = Eigen::Matrix3d::Zero();  ///< 1/m^2, 1/(m rad), 1/rad^2
 };
 
+/// 99.7 % of a prior lies within.
+inline constexpr double kPriorSigmas = 3.0;
 /// Degrees of freedom of a prior about a pose: Student's t, for wheels slip now and then.
 inline constexpr double kPriorFreedom = 4.0;
 
@@ -40,6 +42,21 @@ struct MatchScale {
   double sigma = 0.05;  ///< m, of the robust (Cauchy) kernel
   int stride = 1;       ///< one in so many returns of the query is asked, and counts as so many
 };
+
+// A match to scans, and one to a plan: the reach shrinks a round, and so does the kernel.
+inline constexpr double kShrinkReach = 0.7;
+/// m, the first, where the start is about right: the least window of a search and a half of it.
+inline constexpr double kFirstMatchReach = 0.3;
+/// m, the finest; a wall is not to be taken for its other face, nor what leans on it for a wall.
+inline constexpr double kFinestReach = 0.1;
+/// Of the kernel; what is beyond is of another wall.
+inline constexpr double kReachPerSigma = 4.0;
+/// Four shrink 0.3 m to the finest, six 0.6 m; the rest settle.
+inline constexpr int kMostMatchRounds = 12;
+/// m, a usual distance of walls: a turn counts as it moves what is seen there.
+inline constexpr double kTurnArm = 3.0;
+/// m, a tenth of what a match is worth: what moves by less finds the same partners.
+inline constexpr double kSettled = 5e-4;
 
 /// Of the last steps of a match.
 MatchScale finestScale(const ScanSurface& query);
@@ -95,13 +112,14 @@ struct SightCount {
   double agreement() const;
 };
 
-/// @param T_viewer_other  pose of the other's sensor in the viewer's frame.
+/// A ray ends at a return within 20 cm of it. @param T_viewer_other  pose of the other's sensor in
+/// the viewer's frame.
 SightCount compareSights(const ScanSurface& viewer, const ScanSurface& other,
-                         const Pose2& T_viewer_other, double tolerance);
+                         const Pose2& T_viewer_other);
 
 /// Takes the surface, and with it all say in matches, from returns that more of the others saw
 /// through than saw: people, doors. Cost: O(returns x others).
 void forgetWhatMoved(ScanSurface& surface, const Pose2& T_map_sensor,
-                     const std::vector<PlacedSurface>& others, double tolerance);
+                     const std::vector<PlacedSurface>& others);
 
 }  // namespace cca

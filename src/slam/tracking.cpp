@@ -14,7 +14,6 @@ namespace {
 /// Key frames that a scan which becomes no key frame is matched with: the nearest of those in view.
 constexpr std::size_t kMatched = 5;
 constexpr std::size_t kJudges = 3;  // frames that say how well a scan agrees with them
-constexpr double kAgree = 0.2;      // m, within which rays do
 /// m; of a search around the pose: cells of half the least reach of a match, returns two cells
 /// apart, none beyond 12 m, where beams of a degree are farther apart than these.
 constexpr double kSearchCell = 0.05, kSpacingOverCell = 2.0, kSearchReach = 12.0;
@@ -24,13 +23,10 @@ constexpr double kCellAllRound = 0.1;
 /// Coarsest cells of 0.4 m for a window of one metre. All round of 1.6 m, which nearly spans the
 /// window: one bound a direction.
 constexpr int kSearchLevels = 3, kLevelsAllRound = 4;
-/// 99.7 % of the prior lies within the window.
-constexpr double kSearchSigmas = 3.0;
 /// m, rad; a wider window finds the next door as well, which is for loop closing to tell apart.
 constexpr double kWidestWindowHere = 1.0, kWidestTurn = 1.0;
 /// m, rad; a narrower window is what a match reaches by itself.
 constexpr double kLeastSearch = 0.2, kLeastTurn = 0.2;
-constexpr double kSearchArm = 3.0;  // m, a usual distance of walls
 /// Share of the prior's information that is left where it is not to decide: a scan that sees
 /// nothing stays where the prior has it all the same.
 constexpr double kVague = 1e-3;
@@ -44,18 +40,18 @@ Sigmas sigmasOf(const PoseBelief& prior) {
   return {std::sqrt(0.5 * covariance.topLeftCorner<2, 2>().trace()), std::sqrt(covariance(2, 2))};
 }
 
-/// How far off [m] the prior may put what is seen kSearchArm away.
+/// How far off [m] the prior may put what is seen kTurnArm away.
 double spanOf(const PoseBelief& prior) {
   const Sigmas sigmas = sigmasOf(prior);
-  return kSearchSigmas * (sigmas.position + kSearchArm * sigmas.turn);
+  return kPriorSigmas * (sigmas.position + kTurnArm * sigmas.turn);
 }
 
 SearchWindow windowOf(const PoseBelief& prior) {
   const Sigmas sigmas = sigmasOf(prior);
   SearchWindow window;
   window.centre = prior.mean;
-  window.half_width = std::clamp(kSearchSigmas * sigmas.position, kLeastSearch, kWidestWindowHere);
-  window.half_turn = std::clamp(kSearchSigmas * sigmas.turn, kLeastTurn, kWidestTurn);
+  window.half_width = std::clamp(kPriorSigmas * sigmas.position, kLeastSearch, kWidestWindowHere);
+  window.half_turn = std::clamp(kPriorSigmas * sigmas.turn, kLeastTurn, kWidestTurn);
   window.prior_information = prior.information.diagonal();
   return window;
 }
@@ -64,9 +60,9 @@ SearchWindow windowOf(const PoseBelief& prior) {
 
 SightCount mutualSights(const ScanSurface& reference, const ScanSurface& query,
                         const Pose2& T_reference_query) {
-  SightCount sights = compareSights(reference, query, T_reference_query, kAgree);
+  SightCount sights = compareSights(reference, query, T_reference_query);
   if (query.points.empty()) return sights;  // nothing at all says nothing
-  sights += compareSights(query, reference, T_reference_query.inverse(), kAgree);
+  sights += compareSights(query, reference, T_reference_query.inverse());
   return sights;
 }
 
@@ -79,7 +75,7 @@ void removeMovers(KeyFrames& frames, int frame, const std::vector<int>& view) {
       if (other != seen) others.push_back(frames.placed(other));
     }
     forgetWhatMoved(frames.surfaces[static_cast<std::size_t>(seen)], frames.graph.pose(seen),
-                    others, kAgree);
+                    others);
   }
 }
 

@@ -74,9 +74,6 @@ class ScanTracker {
   std::vector<int> view_;
 };
 
-/// m, of a match that begins within the least window of a search: this and a half of it.
-inline constexpr double kFirstMatchReach = 0.3;
-
 /// The belief where the odometry says nothing of where the robot is: what the match finds counts.
 PoseBelief withoutOdometry(PoseBelief prior);
 

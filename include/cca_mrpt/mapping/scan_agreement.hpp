@@ -47,4 +47,12 @@ class ScanAgreement {
 /// poses; wheels that bend by 5 degrees a metre come to between 0.97 and 0.99 within one lap.
 inline constexpr double kPoorAgreement = 0.99;
 
+// Of the rays that are compared with a map or a plan.
+/// m; further out a degree of heading is a quarter of a metre.
+inline constexpr double kFarthestCompared = 15.0;
+/// m, before the sensor: the robot itself is there, and its place errs by so much.
+inline constexpr double kBlindCompared = 0.1;
+/// m, of the end of a wall, which a ray may well miss.
+inline constexpr double kRimOfWall = 0.15;
+
 }  // namespace cca

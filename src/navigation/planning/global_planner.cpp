@@ -14,7 +14,6 @@ constexpr std::size_t kWorthReconsidering = 20;  // cells newly seen: a third of
 constexpr double kPromising = 0.15;              // m^2 that are expected for their way
 constexpr double kPassed = 0.1;                  // m, two cells: a corner is no truer than these
 constexpr double kLongestInVain = 100.0;         // m, and once around what is known
-constexpr std::size_t kMostExplained = 12;       // candidates, as many as a tour has stops
 
 /// For people. Its place is that in the map frame.
 std::string promiseOf(const ExplorationGrid& grid, const ViewPoint& view) {
@@ -249,7 +248,7 @@ bool GlobalPlanner::driveToFrontier(PlanningScene& scene, const Eigen::Vector2d&
   if (open.empty()) return false;
   const ViewPoint best = open.front();
   driveTo(scene, best, robot_map, promiseOf(scene.grid(), best) + ", at a frontier");
-  open.resize(std::min(open.size(), kMostExplained), best);
+  open.resize(std::min(open.size(), ViewSearch::kMostStops), best);
   explain(scene.grid(), robot_map, {best, "", DecisionRule::kFrontier, std::move(open), {}});
   return true;
 }
@@ -271,7 +270,7 @@ void GlobalPlanner::explain(const ExplorationGrid& grid, const Eigen::Vector2d& 
 // Where no place promises much, all that is left is seen in a tour.
 GlobalPlanner::Choice GlobalPlanner::nextStop(const PlanningScene& scene, const ViewPoint& best) {
   const ViewSearch::Filter open = openOnes(scene);
-  const std::size_t shown = observer_ ? kMostExplained - 1 : 1;
+  const std::size_t shown = observer_ ? ViewSearch::kMostStops - 1 : 1;
   auto weighed = view_search_.nextBest(scene, parameters_.strategy, open, {best}, shown);
   const std::string next = weighed.empty()
                                ? "nothing else is worth its way"
@@ -283,7 +282,7 @@ GlobalPlanner::Choice GlobalPlanner::nextStop(const PlanningScene& scene, const 
     const auto passed = view_search_.onTheWay(scene, open, best);
     if (!passed) return by_score;
     by_score.weighed.insert(by_score.weighed.begin(), *passed);
-    by_score.weighed.resize(std::min(by_score.weighed.size(), kMostExplained), best);
+    by_score.weighed.resize(std::min(by_score.weighed.size(), ViewSearch::kMostStops), best);
     return {*passed,
             "in passing, on the way to " + promiseOf(scene.grid(), best),
             DecisionRule::kInPassing,

@@ -158,8 +158,7 @@ void markRays(Cell from, Cell to, double reach, std::vector<bool>& marks) {
     marks[static_cast<std::size_t>((k % count + count) % count)] = true;
 }
 
-constexpr double kPerMetre = 0.2;     // lambda of [Gonzalez-Banos & Latombe 2002]
-constexpr double kShortestWay = 0.2;  // m: ways are measured in blocks of this size
+constexpr double kPerMetre = 0.2;  // lambda of [Gonzalez-Banos & Latombe 2002]
 
 constexpr int kEntryAside = 12;  // cells, from a frontier's middle
 

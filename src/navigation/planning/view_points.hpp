@@ -28,6 +28,8 @@ bool isInView(const ExplorationGrid& grid, Cell from, Cell to, double range);
 
 /// m: of rays that get a metre into the unknown on average (see ViewPoint), a fifth get farther.
 inline constexpr double kThroughUnknown = 1.5;
+/// m, that any look costs: ways are measured in blocks of this size.
+inline constexpr double kShortestWay = 0.2;
 
 /// What a place (a known cell) is good for. The gain is the unknown area in view if all unknown
 /// cells were free [Gonzalez-Banos & Latombe 2002]: 360 rays, as fine as a laser's beams, end at

@@ -13,10 +13,8 @@ constexpr int kLook = 16;                  // what a look takes; 1 where no fron
 constexpr int kLooksAtATime = 60 * kLook;  // some 10 ms, 20 in a wide hall
 constexpr std::size_t kWorthAskingAgain = 200;  // cells newly seen: half a square metre
 constexpr double kMostExpected = 10.0;          // m^2, that any place may show
-constexpr std::size_t kMostStops = 12;          // of a tour: some 1 ms
 constexpr double kMostDetour = 1.0;             // m, for what is seen in passing
 constexpr double kElsewhere = 2.0;              // m, a frontier's length: what is another goal
-constexpr double kAtHand = 0.2;                 // m, that a look costs at least, a block's length
 constexpr double kNone = -std::numeric_limits<double>::infinity();
 
 /// m^2 / m, what is expected for the way: a place at hand is a metre off, too.
@@ -210,7 +208,7 @@ std::optional<ViewPoint> ViewSearch::onTheWay(const PlanningScene& scene, const 
   std::vector<std::pair<double, ViewPoint*>> candidates;
   for (ViewPoint& view : viewpoints_) {
     if (isOnTheWay(view))
-      candidates.emplace_back((kAtHand + detourBy(view)) / view.expected, &view);
+      candidates.emplace_back((kShortestWay + detourBy(view)) / view.expected, &view);
   }
   std::stable_sort(candidates.begin(), candidates.end(),
                    [](const auto& a, const auto& b) { return a.first < b.first; });

@@ -22,6 +22,7 @@ namespace cca {
 /// evaluated first, a bounded number in each call.
 class ViewSearch {
  public:
+  static constexpr std::size_t kMostStops = 12;  ///< of a tour: some 1 ms
   /// What a viewpoint must fulfil beyond its gain.
   using Filter = std::function<bool(const ViewPoint&)>;
 
