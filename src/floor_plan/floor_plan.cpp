@@ -211,11 +211,12 @@ std::vector<MapLine> withoutLeaning(const std::vector<MapLine>& lines, const Flo
 }
 
 /// The part of each wall's line that lies in the box [Liang & Barsky 1984]; lines outside of it are
-/// left out. Work along a line is then bounded by the grid.
+/// left out, as are dotted ones. Work along a line is then bounded by the grid.
 std::vector<MapLine> linesWithin(const Eigen::AlignedBox2d& box,
                                  const std::vector<MapLine>& lines) {
   std::vector<MapLine> within;
   for (const MapLine& line : lines) {
+    if (line.kind != LineKind::kWall) continue;
     const Eigen::Vector2d start = line.segment.start, way = line.segment.end - start;
     double from = 0.0, to = 1.0;
     for (int axis = 0; axis < 2; ++axis) {

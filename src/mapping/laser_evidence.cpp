@@ -162,7 +162,8 @@ std::array<BeamRange, 2> beamsTowards(const Scan& scan, const Eigen::Vector2d& s
 }
 
 void depositReturns(const Scan& scan, const std::vector<Eigen::Vector2d>& beams,
-                    const std::vector<NewLine>& lines, const MapNoise& noise, Walls& walls) {
+                    const std::vector<NewLine>& lines, const MapNoise& noise, Walls& walls,
+                    std::vector<Eigen::Vector2d>* loose) {
   const Eigen::Vector2d viewpoint = scan.T_map_sensor.position();
   const std::vector<Slot> walls_of_lines = wallsOfReturns(scan, beams, lines, noise);
   const double on_wall = kGates * noise.lateralSigma();
@@ -175,7 +176,11 @@ void depositReturns(const Scan& scan, const std::vector<Eigen::Vector2d>& beams,
       const Slot known = walls.hitBy(p, viewpoint, on_wall);
       if (known >= 0) slot = known;
     }
-    if (slot >= 0) walls.hit(slot, p);
+    if (slot >= 0) {
+      walls.hit(slot, p);
+    } else if (loose) {
+      loose->push_back(p);
+    }
   }
 }
 

@@ -32,9 +32,11 @@ std::array<BeamRange, 2> beamsTowards(const Scan& scan, const Eigen::Vector2d& s
 ///
 /// @param beams  as beamDirections() gives them.
 /// @param lines  of the scan, in any order.
+/// @param loose  where not null, takes the returns of no wall, m, map frame.
 /// Cost: O(beams).
 void depositReturns(const Scan& scan, const std::vector<Eigen::Vector2d>& beams,
-                    const std::vector<NewLine>& lines, const MapNoise& noise, Walls& walls);
+                    const std::vector<NewLine>& lines, const MapNoise& noise, Walls& walls,
+                    std::vector<Eigen::Vector2d>* loose = nullptr);
 
 /// Counts each ray against the bins of the walls that it went clearly through: further behind them
 /// than noise and pose error could feign. A ray without return counts up to

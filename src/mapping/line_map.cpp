@@ -11,6 +11,7 @@
 #include "mapping/hindsight.hpp"
 #include "mapping/laser_evidence.hpp"
 #include "mapping/line_covariance.hpp"
+#include "mapping/loose_returns.hpp"
 #include "mapping/map_arcs.hpp"
 #include "mapping/map_clusters.hpp"
 #include "mapping/map_corners.hpp"
@@ -27,6 +28,7 @@ constexpr double kMostVisits = 200.0;    // what all scans share does not averag
 constexpr double kFarthestPose = 1e7;    // m; beyond, a double no longer tells bins apart
 constexpr double kLongestSight = 500.0;  // m; no 2-D laser sees further
 constexpr double kCornerReach = 0.1;     // m, two bins of support
+constexpr double kSameRow = 0.5;         // m, between the middles of a dotted wall then and now
 
 /// The line in the map frame, its sensor on the left, the pose error in its covariance.
 NewLine inMap(const LineSegment& line, const Pose2& T_map_sensor, const MapNoise& noise) {
@@ -76,6 +78,8 @@ class LineMap::State {
   MapNoise noise_;
   Poses poses_;
   WallNetwork network_;  ///< of own poses
+  LooseReturns loose_;
+  std::vector<MapLine> dotted_;
   std::uint64_t next_id_ = 1;
 };
 
@@ -88,7 +92,10 @@ bool LineMap::State::insert(const Scan& scan, const std::vector<LineSegment>& li
   learn(new_lines);
   if (poses_ == Poses::kOwn) network_.add(T, new_lines);
   const std::vector<Eigen::Vector2d> beams = beamDirections(scan);
-  depositReturns(scan, beams, new_lines, noise_, walls_);
+  std::vector<Eigen::Vector2d> loose;
+  const bool is_wanted = loose_.wants(scan);
+  depositReturns(scan, beams, new_lines, noise_, walls_, is_wanted ? &loose : nullptr);
+  if (is_wanted) loose_.add(scan, loose);
   if (!parameters_.without(Part::kRays)) passRays(scan, beams, noise_, walls_);
   seeToTouched(walls_, noise_, parameters_, next_id_);
   return true;
@@ -100,6 +107,15 @@ void LineMap::State::lookBack(const std::vector<PastScans::Kept>& scans) {
     seeToTouched(walls_, noise_, parameters_, next_id_);
   }
   if (poses_ == Poses::kOwn) network_.settle(noise_, walls_);
+  const std::vector<MapLine> before = std::exchange(dotted_, {});
+  for (MapLine line : loose_.dottedWalls(pieces(), noise_)) {
+    const Eigen::Vector2d middle = 0.5 * (line.segment.start + line.segment.end);
+    const auto same = std::find_if(before.begin(), before.end(), [&](const MapLine& old) {
+      return (0.5 * (old.segment.start + old.segment.end) - middle).norm() < kSameRow;
+    });
+    line.id = same == before.end() ? next_id_++ : same->id;
+    dotted_.push_back(line);
+  }
 }
 
 std::vector<NewLine> LineMap::State::newLines(const std::vector<LineSegment>& lines,
@@ -156,6 +172,7 @@ std::vector<MapLine> LineMap::State::pieces() const {
 std::vector<MapLine> LineMap::State::lines() const {
   std::vector<MapLine> all = pieces();
   joinCorners(all, kCornerReach);
+  all.insert(all.end(), dotted_.begin(), dotted_.end());
   return all;
 }
 

@@ -449,6 +449,18 @@ TEST(FloorPlan, IsTheSameHoweverTheCellsWereCutOut) {
   for (std::size_t k = 0; k < 2; ++k) EXPECT_EQ(one.rooms[k].outline, other.rooms[k].outline);
 }
 
+TEST(FloorPlan, TakesNoDottedLineForAWall) {
+  DrawnMap map = drawMap({twoRooms()}, {0.0, 0.0, 0.0});
+  const FloorPlan plan = floorPlan(map.grid, map.lines);
+  MapLine pane = map.lines.front();
+  pane.id = 99;
+  pane.kind = LineKind::kDotted;
+  pane.segment.start = {2.5, 0.5};
+  pane.segment.end = {2.5, 3.5};
+  map.lines.push_back(pane);
+  EXPECT_EQ(floorPlan(map.grid, map.lines).walls.size(), plan.walls.size());
+}
+
 TEST(FloorPlan, TellsTheRoomOfAPoint) {
   const DrawnMap map = drawMap({twoRooms()}, {0.0, 0.0, 0.0});
   const FloorPlan plan = floorPlan(map.grid, map.lines);

@@ -73,7 +73,7 @@ struct FloorPlan {
 /// @param grid   occupancy of the place; where nothing is known, the plan is empty.
 /// @param lines  of the same place, the viewer on the left of each; may be empty: then the rooms
 /// are
-///               parted by narrowings alone, and follow the cells.
+///               parted by narrowings alone, and follow the cells. Dotted ones part none.
 /// The same input gives the same plan, and ids. Cost: .5 s for 1000 m^2 at 5 cm.
 FloorPlan floorPlan(const OccupancyRaster& grid, const std::vector<MapLine>& lines);
 

@@ -38,16 +38,17 @@ class LineMap {
   bool insert(const Scan& scan, const std::vector<LineSegment>& lines);
 
   /// A last look at the whole map: the evidence of its scans assigned anew (reassignEvidence()),
-  /// and what all lines owe to the poses, where these are the map's own. lines() holds all this
-  /// from now on.
+  /// dotted walls among what is left over, and what all lines owe to the poses, where these are the
+  /// map's own. lines() holds all this from now on.
   /// @param scans  those of the map, or as many of them as were kept; none: no evidence moves.
-  /// Cost: about that of an insertion for each scan; see WallNetwork::settle().
+  /// Cost: about that of an insertion for each scan; see LooseReturns::dottedWalls() and
+  /// WallNetwork::settle().
   void lookBack(const std::vector<PastScans::Kept>& scans = {});
 
-  /// The lines as they stand, by rising id; ends that meet share their corner.
+  /// The lines as they stand, by rising id; ends that meet share their corner. Dotted walls last.
   /// Cost: O(n log n) for n lines, of which none is fitted anew.
   std::vector<MapLine> lines() const;
-  /// The same lines, chained along their corners.
+  /// The same lines but the dotted ones, chained along their corners.
   std::vector<PolyLine> polyLines() const;
   /// Round pillars and curved walls among the same lines; see arcsOfWalls().
   std::vector<MapArc> arcs() const;

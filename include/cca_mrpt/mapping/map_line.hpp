@@ -10,6 +10,12 @@
 
 namespace cca {
 
+/// What a line of the map is.
+enum class LineKind : std::uint8_t {
+  kWall,    ///< returns all along
+  kDotted,  ///< posts, or a pane that few beams return from: rays pass between
+};
+
 /// One segment of the map, in the map frame.
 struct MapLine {
   std::uint64_t id = 0;  ///< stable while the line exists
@@ -17,6 +23,8 @@ struct MapLine {
   /// middle, see covarianceOf().
   LineSegment segment;
   double support = 0.0;  ///< number of laser returns that it stands on
+  LineKind kind = LineKind::kWall;
+  double share = 1.0;  ///< of its length that returns
 };
 
 /// Vertices of a chain of map lines that meet at their ends; closed where first equals last.

@@ -10,9 +10,11 @@
 
 namespace cca {
 
-/// A line map as CSV, header `x1,y1,x2,y2,id,support,length,sigma_offset,sigma_angle_deg`: end
-/// points [m, map frame], stable id, laser returns, length [m], the standard deviations of the
-/// line's lateral offset at its middle [m] and of its orientation [deg].
+/// A line map as CSV, header
+/// `x1,y1,x2,y2,id,support,length,sigma_offset,sigma_angle_deg,kind,share`: end points [m, map
+/// frame], stable id, laser returns, length [m], the standard deviations of the line's lateral
+/// offset at its middle [m] and of its orientation [deg], `wall` or `dotted`, and the share of its
+/// length that returns.
 std::string linesCsv(const std::vector<MapLine>& lines);
 
 /// Reads linesCsv() back, and any CSV whose header names x1, y1, x2 and y2.

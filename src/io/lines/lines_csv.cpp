@@ -15,8 +15,9 @@ namespace cca {
 namespace {
 
 constexpr double kDegreesPerRadian = 180.0 / M_PI;
-constexpr std::array<const char*, 8> kColumns = {
-    "x1", "y1", "x2", "y2", "id", "support", "sigma_offset", "sigma_angle_deg"};
+constexpr std::array<const char*, 9> kColumns = {
+    "x1", "y1", "x2", "y2", "id", "support", "sigma_offset", "sigma_angle_deg", "share"};
+constexpr const char* kDotted = "dotted";
 constexpr std::size_t kNeeded = 4;
 constexpr double kLargestValue =
     1e16;  // in whatever column: what is read must fit a row when written
@@ -60,13 +61,14 @@ double number(const std::string& cell, const std::string& where) {
 }  // namespace
 
 std::string linesCsv(const std::vector<MapLine>& lines) {
-  std::string text = "x1,y1,x2,y2,id,support,length,sigma_offset,sigma_angle_deg\n";
+  std::string text = "x1,y1,x2,y2,id,support,length,sigma_offset,sigma_angle_deg,kind,share\n";
   char row[256];
   for (const MapLine& line : lines) {
     const LineSegment& s = line.segment;
-    std::snprintf(row, sizeof row, "%.4f,%.4f,%.4f,%.4f,%" PRIu64 ",%.1f,%.4f,%.6f,%.6f\n",
+    std::snprintf(row, sizeof row, "%.4f,%.4f,%.4f,%.4f,%" PRIu64 ",%.1f,%.4f,%.6f,%.6f,%s,%.4f\n",
                   s.start.x(), s.start.y(), s.end.x(), s.end.y(), line.id, line.support, s.length(),
-                  sigma(s.covariance(0, 0)), kDegreesPerRadian * sigma(s.covariance(1, 1)));
+                  sigma(s.covariance(0, 0)), kDegreesPerRadian * sigma(s.covariance(1, 1)),
+                  line.kind == LineKind::kDotted ? kDotted : "wall", line.share);
     text += row;
   }
   return text;
@@ -98,12 +100,15 @@ std::vector<MapLine> readLinesCsv(const std::string& text, const std::string& na
   std::getline(rows, row);
   const std::vector<std::string> header = cells(row);
   const auto at = findColumns(header, name);
+  const auto kind_at =
+      static_cast<std::size_t>(std::find(header.begin(), header.end(), "kind") - header.begin());
   std::vector<MapLine> lines;
   for (std::size_t number_of_row = 2; std::getline(rows, row); ++number_of_row) {
     const std::vector<std::string> values = cells(row);
     if (values.empty()) continue;
     std::array<double, kColumns.size()> value{};
     value[4] = static_cast<double>(lines.size());
+    value[8] = 1.0;
     for (std::size_t k = 0; k < kColumns.size(); ++k) {
       if (at[k] == header.size()) continue;
       const std::string where =
@@ -119,6 +124,9 @@ std::vector<MapLine> readLinesCsv(const std::string& text, const std::string& na
     const double offset = std::min(std::abs(value[6]), kLargestSigma);
     const double angle = std::min(std::abs(value[7]), kLargestSigma) / kDegreesPerRadian;
     line.segment.covariance << offset * offset, 0.0, 0.0, angle * angle;
+    const bool is_dotted = kind_at < values.size() && values[kind_at] == kDotted;
+    line.kind = is_dotted ? LineKind::kDotted : LineKind::kWall;
+    line.share = value[8];
     lines.push_back(line);
   }
   return lines;

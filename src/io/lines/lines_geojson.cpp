@@ -43,6 +43,7 @@ Json lineFeature(const MapLine& line, const Positions& position) {
   return feature({{"kind", "line"},
                   {"id", line.id},
                   {"support", line.support},
+                  {"share", rounded(line.share)},
                   {"length", rounded(line.segment.length())},
                   {"covariance", {c(0, 0), c(0, 1), c(1, 1)}}},
                  Json::array({position(line.segment.start), position(line.segment.end)}));

@@ -78,7 +78,17 @@ void drawRooms(Canvas& canvas, const std::vector<PlanRoom>& rooms) {
 
 void drawLines(Canvas& canvas, const MapProducts& products, double unit) {
   for (const MapLine& line : loneLines(products.lines, products.poly_lines)) {
-    canvas.polyline({line.segment.start, line.segment.end}, 2.2 * unit, kInk);
+    const LineSegment& s = line.segment;
+    if (line.kind == LineKind::kWall) {
+      canvas.polyline({s.start, s.end}, 2.2 * unit, kInk);
+      continue;
+    }
+    const double dash = 5.0 * unit / canvas.pixelsPerMetre();
+    for (double t = 0.0; t < s.length(); t += 2.0 * dash) {
+      const Eigen::Vector2d from = s.start + t * s.direction();
+      canvas.polyline({from, from + std::min(dash, s.length() - t) * s.direction()}, 2.2 * unit,
+                      kInk);
+    }
   }
   std::size_t next = 0;
   for (const PolyLine& chain : products.poly_lines) {
