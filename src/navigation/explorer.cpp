@@ -177,12 +177,11 @@ Explorer::Intent Explorer::explore(const Observation& seen) {
   return intent;
 }
 
-/// Whether it may be that somebody stands in the way to what is left, or did a moment ago.
+/// Whether it may be that somebody stands in the way to what is left, or did a moment ago. A wait
+/// is over for good where it was in vain, but for a goal that is found after all.
 bool Explorer::isShutIn(const Plan& plan, double time) {
-  if (!plan.isFinished() || plan.unreachedArea() < kMuchUnreached) {
-    shut_in_since_.reset();
-    return false;
-  }
+  if (plan.phase == PlanPhase::kDriving) shut_in_since_.reset();
+  if (!plan.isFinished() || plan.unreachedArea() < kMuchUnreached) return false;
   if (!shut_in_since_) shut_in_since_ = time;
   return time - *shut_in_since_ <= kPathLost;
 }

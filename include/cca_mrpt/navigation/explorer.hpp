@@ -143,7 +143,7 @@ class Explorer {
   std::string why_finished_;
   std::unique_ptr<Errand> errand_;
   int errands_ = 0;  ///< so far
-  std::optional<double> shut_in_since_;  ///< s, while no way is left to what is
+  std::optional<double> shut_in_since_;  ///< s, since no way is left to what is
 };
 
 }  // namespace cca
