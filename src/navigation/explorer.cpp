@@ -14,7 +14,7 @@
 namespace cca {
 namespace {
 
-constexpr double kHome = 0.3;       // m
+constexpr double kHome = 0.3;  // m
 // s; who stands in the only path for a moment may leave, and so may the trace of who passed.
 constexpr double kPathLost = 10.0;
 constexpr int kMostHeld = 2;  // times on one errand: the first may have been somebody who passed
@@ -104,7 +104,8 @@ void Explorer::sense(const Observation& seen) {
   if (!T_map_start_) T_map_start_ = seen.T_map_robot;
   if (!seen.is_localised) return;
   world_->markHazards(seen.hazards);
-  world_->observe(driver_->withoutMovers(seen.scan), seen.T_map_robot.position(), seen.rangeSigma());
+  world_->observe(driver_->withoutMovers(seen.scan), seen.T_map_robot.position(),
+                  seen.rangeSigma());
 }
 
 Explorer::Intent Explorer::plan(const Observation& seen) {
@@ -153,7 +154,8 @@ DriveTask Explorer::taskTo(int goal, const Pose2& T_map_goal, Path path,
 Explorer::Intent Explorer::explore(const Observation& seen) {
   const Plan& plan = planner_->update(*world_, seen.T_map_robot.position(), driver_->takeOutcome());
   if (isShutIn(plan, seen.time)) {
-    DriveTask task = taskTo(Plan::kLookAround, seen.T_map_robot, {seen.T_map_robot.position()}, seen);
+    DriveTask task =
+        taskTo(Plan::kLookAround, seen.T_map_robot, {seen.T_map_robot.position()}, seen);
     task.looks_around = true;
     return {ExplorationStatus::kExploring, "waiting for a way to what is left", {}, task};
   }

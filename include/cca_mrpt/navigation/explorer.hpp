@@ -142,7 +142,7 @@ class Explorer {
   bool is_returning_ = false;
   std::string why_finished_;
   std::unique_ptr<Errand> errand_;
-  int errands_ = 0;  ///< so far
+  int errands_ = 0;                      ///< so far
   std::optional<double> shut_in_since_;  ///< s, since no way is left to what is
 };
 
