@@ -169,7 +169,7 @@ bool MovingPoints::mayMove(const Eigen::Vector2d& p_map, double time) const {
 
 Scan MovingPoints::withoutMovers(const Scan& scan) const {
   Scan rest = scan;
-  if (places_.empty()) return rest;
+  if (places_.empty() || !areAround(past_.back().time)) return rest;
   for (std::size_t i = 0; i < scan.size(); ++i) {
     if (isReturn(scan.ranges[i]) && mayMove(returnOf(scan, i), past_.back().time))
       rest.ranges[i] = std::numeric_limits<double>::quiet_NaN();

@@ -38,7 +38,8 @@ class MovingPoints {
 
   /// A scan, taken right after the last one, without its returns from where somebody moves, or has
   /// within the last kMemory: those beams tell nothing. A map that has them keeps where people were
-  /// when the laser last saw them. Cost: O(beams * places).
+  /// when the laser last saw them. Where nobody is around it stays as it is.
+  /// Cost: O(beams * places).
   Scan withoutMovers(const Scan& scan) const;
 
   /// m, from p_map [m, map frame] to the nearest place where a mover was within the last kMemory;
