@@ -34,7 +34,7 @@ struct Predicted {
 using StoppingPath = std::vector<Predicted>;
 
 // The command for one period, to which the base turns as fast as it can, then braking until it
-// stands. @param turns_faster  rad/s^2.
+// drives no more. @param turns_faster  rad/s^2.
 StoppingPath stoppingPath(const PredictedState& start, const Velocity& command, double turns_faster,
                           const Velocity& brakes, double period) {
   StoppingPath path;
@@ -61,7 +61,8 @@ StoppingPath stoppingPath(const PredictedState& start, const Velocity& command, 
     turned_up += kStep;
   }
   velocity = {linear, command.angular};
-  while (velocity.linear > kNoMotion || std::abs(velocity.angular) > kNoMotion) {
+  // Until it drives no more: a disc that turns on goes nowhere.
+  while (velocity.linear > kNoMotion) {
     advance({towards(velocity.linear, 0.0, brakes.linear * kStep),
              towards(velocity.angular, 0.0, brakes.angular * kStep)});
   }
