@@ -166,6 +166,9 @@ TEST(PlanReader, TellsWhichEndingsItKnows) {
 
 TEST(PlanReader, RefusesNumbersThatAreFarFromAnyBuilding) {
   EXPECT_THAT(whyNot("a.csv", "x1,y1,x2,y2\n0,0,1e12,0\n"), HasSubstr("1e8 m"));
+  EXPECT_THAT(
+      whyNot("a.csv", "x1,y1,x2,y2\n0,0,1,0\n4e5,5.8e6,4e5,5.9e6\n"),
+      AllOf(HasSubstr("between (0, 0) and (400000, 5.9e+06) m"), HasSubstr("1000 m apart")));
 }
 
 MapLine lineOf(std::uint64_t id, const Eigen::Vector2d& a, const Eigen::Vector2d& b) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "io/plans/plan_reader.hpp"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
@@ -16,6 +17,9 @@ namespace cca {
 namespace {
 
 constexpr double kFarthestPlan = 1e8;  // m, from (0, 0): beyond, it is in other units
+// m: whoever localises in it keeps a grid over all of it, 1.4 GB for so much. Drawings with
+// coordinates of a country often have something left at (0, 0).
+constexpr double kWidestPlan = 1000.0;
 
 std::string planText(const std::filesystem::path& path) {
   std::ifstream file(path, std::ios::binary);
@@ -82,6 +86,24 @@ PlanFile read(const std::filesystem::path& path, double scale,
                            ".geojson, .json, .dxf, .svg and .yaml");
 }
 
+void checkExtent(const std::vector<PlanLine>& lines, const std::string& path) {
+  Eigen::AlignedBox2d bounds;
+  for (const auto& [a, b] : lines) {
+    const double farthest = std::max(a.cwiseAbs().maxCoeff(), b.cwiseAbs().maxCoeff());
+    if (!(farthest <= kFarthestPlan)) {
+      throw std::runtime_error(path +
+                               ": a line ends more than 1e8 m from (0, 0), or at no finite place");
+    }
+    bounds.extend(a).extend(b);
+  }
+  if (lines.empty() || bounds.sizes().maxCoeff() <= kWidestPlan) return;
+  std::ostringstream text;
+  text << path << ": its lines lie between (" << bounds.min().x() << ", " << bounds.min().y()
+       << ") and (" << bounds.max().x() << ", " << bounds.max().y() << ") m, more than "
+       << kWidestPlan << " m apart: it is in other units, or a line of it is astray";
+  throw std::runtime_error(text.str());
+}
+
 }  // namespace
 
 std::string inWords(const Counts& counts) {
@@ -116,13 +138,7 @@ PlanFile readPlan(const std::string& path, double scale,
   std::filesystem::path file(path);
   if (std::filesystem::is_directory(file)) file /= "lines.csv";
   PlanFile plan = read(file, scale, read_grid);
-  for (const auto& [a, b] : plan.lines) {
-    const double farthest = std::max(a.cwiseAbs().maxCoeff(), b.cwiseAbs().maxCoeff());
-    if (!(farthest <= kFarthestPlan)) {
-      throw std::runtime_error(path +
-                               ": a line ends more than 1e8 m from (0, 0), or at no finite place");
-    }
-  }
+  checkExtent(plan.lines, path);
   if (plan.lines.empty()) {
     const std::string rest = plan.not_understood;
     throw std::runtime_error(path + ": holds no line" + (rest.empty() ? "" : ", but " + rest));
