@@ -232,6 +232,7 @@ void MovingPoints::noteWhatStands(const Scan& scan, const std::vector<Eigen::Vec
 bool MovingPoints::hasStood(const Eigen::Vector2d& p_map, double time) const {
   if (!start_) return false;
   const Cell c = cellOf(p_map);
+  if (!isStorable(c)) return false;
   const auto has = [&](Cell at) { return standing_since_.at(at) <= time - *start_ - kStandsLong; };
   return has(c) ||
          std::any_of(kNeighbours.begin(), kNeighbours.end(), [&](Cell to) { return has(c + to); });
