@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "cca_mrpt/mapping/scan_agreement.hpp"
+#include "geometry/cells_near.hpp"
 #include "geometry/cross.hpp"
 
 namespace cca {
@@ -48,24 +49,18 @@ PlanLines::Grid::Grid(const std::vector<Piece>& pieces, double cell, double marg
       last = std::max(last, to);
     }
   };
-  const Eigen::Vector2d around = Eigen::Vector2d::Constant(margin);
-  const auto eachStep = [&](const Piece& piece, const auto& visit) {
+  const auto eachBlock = [&](const Piece& piece, const auto& visit) {
     const Eigen::Vector2d end = piece.start + piece.length * piece.direction;
-    const Eigen::Vector2d along = end - piece.start;
-    const int steps = 1 + static_cast<int>(std::ceil(along.norm() / (0.5 * cell)));
-    for (int i = 0; i <= steps; ++i) {
-      const Eigen::Vector2d p = piece.start + along * (static_cast<double>(i) / steps);
-      visit(cellAt((p - around) / cell), cellAt((p + around) / cell));
-    }
+    visitCellsNear(piece.start, end, margin, cell, visit);
   };
   if (pieces.empty()) return;
   Stretch all_rows;
   for (const Piece& piece : pieces)
-    eachStep(piece, [&](Cell low, Cell high) { all_rows.extend(low.y, high.y); });
+    eachBlock(piece, [&](Cell low, Cell high) { all_rows.extend(low.y, high.y); });
   first_row_ = all_rows.first;
   std::vector<Stretch> columns(static_cast<std::size_t>(all_rows.last - first_row_) + 1);
   for (const Piece& piece : pieces) {
-    eachStep(piece, [&](Cell low, Cell high) {
+    eachBlock(piece, [&](Cell low, Cell high) {
       for (int y = low.y; y <= high.y; ++y)
         columns[static_cast<std::size_t>(y - first_row_)].extend(low.x, high.x);
     });
@@ -78,7 +73,7 @@ PlanLines::Grid::Grid(const std::vector<Piece>& pieces, double cell, double marg
   }
   for (std::size_t k = 0; k < pieces.size(); ++k) {
     const auto slot = static_cast<Slot>(k);
-    eachStep(pieces[k], [&](Cell low, Cell high) {
+    eachBlock(pieces[k], [&](Cell low, Cell high) {
       for (int y = low.y; y <= high.y; ++y) {
         Row& row = rows_[static_cast<std::size_t>(y - first_row_)];
         for (int x = low.x; x <= high.x; ++x) {

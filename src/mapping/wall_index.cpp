@@ -2,26 +2,23 @@
 #include "mapping/wall_index.hpp"
 
 #include <algorithm>
-#include <cmath>
+
+#include "geometry/cells_near.hpp"
 
 namespace cca {
 
 void WallIndex::insert(Slot slot, const Eigen::Vector2d& from, const Eigen::Vector2d& to,
                        double margin, std::vector<Cell>& cells) {
-  const int steps = 1 + static_cast<int>(std::ceil((to - from).norm() / (0.5 * kCellSize)));
-  for (int i = 0; i <= steps; ++i) {
-    const Eigen::Vector2d p = from + (to - from) * (static_cast<double>(i) / steps);
-    const Cell low = cellOf(p - Eigen::Vector2d::Constant(margin));
-    const Cell high = cellOf(p + Eigen::Vector2d::Constant(margin));
-    for (int y = low.y(); y <= high.y(); ++y) {
-      for (int x = low.x(); x <= high.x(); ++x) {
+  visitCellsNear(from, to, margin, kCellSize, [&](cca::Cell low, cca::Cell high) {
+    for (int y = low.y; y <= high.y; ++y) {
+      for (int x = low.x; x <= high.x; ++x) {
         std::vector<Slot>& slots = cells_[keyOf({x, y})];
         if (std::find(slots.begin(), slots.end(), slot) != slots.end()) continue;
         slots.push_back(slot);
         cells.emplace_back(x, y);
       }
     }
-  }
+  });
 }
 
 void WallIndex::remove(Slot slot, const std::vector<Cell>& cells) {

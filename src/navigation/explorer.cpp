@@ -54,7 +54,8 @@ Explorer::Explorer(const RobotParameters& robot, const ExplorerParameters& param
     : parameters_(parameters),
       world_(std::make_unique<WorldModel>(robot.leastClearance())),
       planner_(std::make_unique<GlobalPlanner>(parameters, robot.radius)),
-      driver_(std::make_unique<TangentBugDriver>(robot)) {}
+      driver_(std::make_unique<TangentBugDriver>(robot)),
+      shut_in_(std::make_unique<ProgressClock>()) {}
 
 Explorer::~Explorer() = default;
 Explorer::Explorer(Explorer&&) noexcept = default;
@@ -153,7 +154,7 @@ DriveTask Explorer::taskTo(int goal, const Pose2& T_map_goal, Path path,
 
 Explorer::Intent Explorer::explore(const Observation& seen) {
   const Plan& plan = planner_->update(*world_, seen.T_map_robot.position(), driver_->takeOutcome());
-  if (isShutIn(plan, seen.time)) {
+  if (waitsForWay(plan, seen.time)) {
     DriveTask task =
         taskTo(Plan::kLookAround, seen.T_map_robot, {seen.T_map_robot.position()}, seen);
     task.looks_around = true;
@@ -179,13 +180,13 @@ Explorer::Intent Explorer::explore(const Observation& seen) {
   return intent;
 }
 
-/// Whether it may be that somebody stands in the way to what is left, or did a moment ago. A wait
-/// is over for good where it was in vain, but for a goal that is found after all.
-bool Explorer::isShutIn(const Plan& plan, double time) {
-  if (plan.phase == PlanPhase::kDriving) shut_in_since_.reset();
+/// Whether to wait: it may be that somebody stands in the way to what is left, or did a moment ago.
+/// A wait is over for good where it was in vain, but for a goal that is found after all.
+bool Explorer::waitsForWay(const Plan& plan, double time) {
+  if (plan.phase == PlanPhase::kDriving) shut_in_->stop();
   if (!plan.isFinished() || plan.unreachedArea() < kMuchUnreached) return false;
-  if (!shut_in_since_) shut_in_since_ = time;
-  return time - *shut_in_since_ <= kPathLost;
+  shut_in_->run(time);
+  return !shut_in_->isOver(kPathLost, time);
 }
 
 Explorer::Intent Explorer::goHome(const Observation& seen) {

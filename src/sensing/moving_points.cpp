@@ -167,14 +167,13 @@ bool MovingPoints::mayMove(const Eigen::Vector2d& p_map, double time) const {
   return is_beside && !hasStood(p_map, time);
 }
 
-Scan MovingPoints::withoutMovers(const Scan& scan) const {
-  Scan rest = scan;
-  if (places_.empty() || !areAround(past_.back().time)) return rest;
+Scan MovingPoints::withoutMovers(Scan scan) const {
+  if (places_.empty() || !areAround(past_.back().time)) return scan;
   for (std::size_t i = 0; i < scan.size(); ++i) {
     if (isReturn(scan.ranges[i]) && mayMove(returnOf(scan, i), past_.back().time))
-      rest.ranges[i] = std::numeric_limits<double>::quiet_NaN();
+      scan.ranges[i] = std::numeric_limits<double>::quiet_NaN();
   }
-  return rest;
+  return scan;
 }
 
 double MovingPoints::distanceTo(const Eigen::Vector2d& p_map) const {
@@ -213,7 +212,7 @@ void MovingPoints::noteWhatStands(const Scan& scan, const std::vector<Eigen::Vec
   const Cell here = cellOf(scan.T_map_sensor.position());
   if (!isStorable(here)) return;
   const auto toSensor = transformBy(scan.T_map_sensor.inverse());
-  constexpr int kReach = static_cast<int>(kHeeded / kCell);
+  constexpr int kReach = static_cast<int>(kHeeded / kCell);  // cells
   for (int y = here.y - kReach; y <= here.y + kReach; ++y) {
     for (int x = here.x - kReach; x <= here.x + kReach; ++x) {
       const Cell c{x, y};

@@ -40,7 +40,7 @@ class MovingPoints {
   /// within the last kMemory: those beams tell nothing. A map that has them keeps where people were
   /// when the laser last saw them. Where nobody is around it stays as it is.
   /// Cost: O(beams * places).
-  Scan withoutMovers(const Scan& scan) const;
+  Scan withoutMovers(Scan scan) const;
 
   /// m, from p_map [m, map frame] to the nearest place where a mover was within the last kMemory;
   /// infinite where there was none. Cost: O(places).
@@ -60,6 +60,7 @@ class MovingPoints {
     Eigen::Vector2d p_map;
     double time;
   };
+  /// s, since when: nothing stands.
   static constexpr float kNobody = std::numeric_limits<float>::infinity();
 
   static void markBody(const std::vector<Eigen::Vector2d>& points, std::size_t first,

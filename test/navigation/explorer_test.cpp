@@ -337,6 +337,17 @@ TEST(Explorer, AddsNothingOnItsWayHomeWhileItsPoseIsUnknown) {
   EXPECT_EQ(driver.explorer.grid().revealed(), revealed);
 }
 
+/// What it observes with something all around it, half a metre off.
+Observation surrounded(const Driver& driver) {
+  Observation observation{kRooms.scanFrom(driver.T_map_robot, 4.0), driver.T_map_robot,
+                          driver.velocity, driver.time};
+  for (double a = 0.0; a < 2.0 * M_PI; a += 0.05) {
+    observation.hazards.push_back(driver.T_map_robot.position() +
+                                  0.5 * Eigen::Vector2d(std::cos(a), std::sin(a)));
+  }
+  return observation;
+}
+
 // Somebody is in the way for two seconds, on the way back.
 TEST(Explorer, WaitsForTheWayBackToBeFreeAgain) {
   Driver driver;
@@ -344,13 +355,7 @@ TEST(Explorer, WaitsForTheWayBackToBeFreeAgain) {
   ASSERT_LT(driver.time, 60.0);
   driver.explorer.returnToStart();
   for (int i = 0; i < 20; ++i) {
-    Observation observation{kRooms.scanFrom(driver.T_map_robot, 4.0), driver.T_map_robot,
-                            driver.velocity, driver.time};
-    for (double a = 0.0; a < 2.0 * M_PI; a += 0.05) {
-      observation.hazards.push_back(driver.T_map_robot.position() +
-                                    0.5 * Eigen::Vector2d(std::cos(a), std::sin(a)));
-    }
-    const Action action = driver.explorer.step(observation);
+    const Action action = driver.explorer.step(surrounded(driver));
     ASSERT_EQ(action.status, ExplorationStatus::kReturning) << action.reason;
     driver.move({});
   }
@@ -365,13 +370,7 @@ TEST(Explorer, WaitsWhereItIsShutInAndSeesTheRestAfterwards) {
   ASSERT_LT(driver.time, 60.0);
   bool has_waited = false;
   for (int i = 0; i < 80; ++i) {
-    Observation observation{kRooms.scanFrom(driver.T_map_robot, 4.0), driver.T_map_robot,
-                            driver.velocity, driver.time};
-    for (double a = 0.0; a < 2.0 * M_PI; a += 0.05) {
-      observation.hazards.push_back(driver.T_map_robot.position() +
-                                    0.5 * Eigen::Vector2d(std::cos(a), std::sin(a)));
-    }
-    const Action action = driver.explorer.step(observation);
+    const Action action = driver.explorer.step(surrounded(driver));
     ASSERT_EQ(action.status, ExplorationStatus::kExploring) << action.reason;
     has_waited = has_waited || action.reason == "waiting for a way to what is left";
     driver.move({});

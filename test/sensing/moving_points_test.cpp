@@ -240,10 +240,11 @@ TEST(MovingPoints, WhatStandsIsSettledForARobotThatDrivesAndTurns) {
 }
 
 /// A hall with a box near its middle, and somebody who walks past it.
-BoxWorld hallWithBox(const Disc& walker) {
+/// @param aside  m, of the box: 0 stands on the lines of a grid of 5 cm.
+BoxWorld hallWithBox(const Disc& walker, double aside = 0.0) {
   BoxWorld world;
   world.addFrame(10, 10);
-  world.add(5.5, 5.5, 5.9, 5.9);
+  world.add(5.5 + aside, 5.5 + aside, 5.9 + aside, 5.9 + aside);
   world.discs = {walker};
   return world;
 }
@@ -274,6 +275,40 @@ TEST(MovingPoints, WhatSomebodyWalksPastStandsAsBefore) {
               std::count_if(scan.ranges.begin(), scan.ranges.end(), isReturn))
         << i;
   }
+}
+
+// As real lasers see it: noise of a centimetre, beams that are lost, walls anywhere in their cells.
+TEST(MovingPoints, WhatSomebodyWalksPastStandsInNoiseAnywhereInItsCellsAndThoughBeamsAreLost) {
+  std::mt19937 generator(1);
+  std::normal_distribution<double> noise(0.0, 0.01);
+  std::bernoulli_distribution is_lost(0.03);
+  long on_box = 0, taken_for_walkers = 0, on_walker = 0, heeded = 0;
+  for (const double aside : {0.0, 0.013, 0.025, 0.041}) {
+    MovingPoints points;
+    for (int i = 0; i < 100; ++i) {
+      const Disc walker{{5.2, 9.0 - 0.05 * i}, 0.2};
+      const Scan exact = hallWithBox(walker, aside).scan({5, 4, 0}, 8.0);
+      Scan scan = exact;
+      for (double& r : scan.ranges) r = is_lost(generator) ? INFINITY : r + noise(generator);
+      const std::vector<bool> moving = points.update(scan, 0.01, 0.1 * i);
+      if (i < 55) continue;
+      for (std::size_t k = 0; k < scan.size(); ++k) {
+        if (!isReturn(exact.ranges[k]) || !isReturn(scan.ranges[k])) continue;
+        const Eigen::Vector2d p = returnOf(exact, k), seen = returnOf(scan, k);
+        const bool is_box = (p - Eigen::Vector2d(5.7 + aside, 5.7 + aside)).norm() < 0.3;
+        const bool is_walker = walker.distance(p) < 0.001;
+        const auto& news = points.unsettled();
+        const bool is_heeded = moving[k] || std::find(news.begin(), news.end(), seen) != news.end();
+        on_box += is_box;
+        taken_for_walkers += is_box && is_heeded;
+        on_walker += is_walker;
+        heeded += is_walker && is_heeded;
+      }
+    }
+  }
+  EXPECT_GT(on_box, 1000);
+  EXPECT_LT(taken_for_walkers, on_box / 50);
+  EXPECT_GT(heeded, 0.95 * on_walker);
 }
 
 // A narrow laser that turned away for a while, then back.

@@ -19,6 +19,7 @@ class ActuationModel;
 class Driver;
 class ExplorationGrid;
 class GlobalPlanner;
+class ProgressClock;
 class WorldModel;
 struct Plan;
 struct DriveTask;
@@ -126,7 +127,7 @@ class Explorer {
 
   Intent stand(ExplorationStatus status, const std::string& reason, double time);
   Intent explore(const Observation& seen);
-  bool isShutIn(const Plan& plan, double time);
+  bool waitsForWay(const Plan& plan, double time);
   Intent goHome(const Observation& seen);
   Intent runErrand(const Observation& seen);
   Intent endErrand(ExplorationStatus status, const std::string& reason);
@@ -142,8 +143,8 @@ class Explorer {
   bool is_returning_ = false;
   std::string why_finished_;
   std::unique_ptr<Errand> errand_;
-  int errands_ = 0;                      ///< so far
-  std::optional<double> shut_in_since_;  ///< s, since no way is left to what is
+  int errands_ = 0;                         ///< so far
+  std::unique_ptr<ProgressClock> shut_in_;  ///< while no way is left to what is
 };
 
 }  // namespace cca

@@ -86,6 +86,7 @@ PlanFile read(const std::filesystem::path& path, double scale,
                            ".geojson, .json, .dxf, .svg and .yaml");
 }
 
+/// @param lines  one at least.
 void checkExtent(const std::vector<PlanLine>& lines, const std::string& path) {
   Eigen::AlignedBox2d bounds;
   for (const auto& [a, b] : lines) {
@@ -96,7 +97,7 @@ void checkExtent(const std::vector<PlanLine>& lines, const std::string& path) {
     }
     bounds.extend(a).extend(b);
   }
-  if (lines.empty() || bounds.sizes().maxCoeff() <= kWidestPlan) return;
+  if (bounds.sizes().maxCoeff() <= kWidestPlan) return;
   std::ostringstream text;
   text << path << ": its lines lie between (" << bounds.min().x() << ", " << bounds.min().y()
        << ") and (" << bounds.max().x() << ", " << bounds.max().y() << ") m, more than "
@@ -138,11 +139,11 @@ PlanFile readPlan(const std::string& path, double scale,
   std::filesystem::path file(path);
   if (std::filesystem::is_directory(file)) file /= "lines.csv";
   PlanFile plan = read(file, scale, read_grid);
-  checkExtent(plan.lines, path);
   if (plan.lines.empty()) {
     const std::string rest = plan.not_understood;
     throw std::runtime_error(path + ": holds no line" + (rest.empty() ? "" : ", but " + rest));
   }
+  checkExtent(plan.lines, path);
   return plan;
 }
 

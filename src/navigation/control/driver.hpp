@@ -52,7 +52,7 @@ class Driver {
   virtual void changeMotion(const RobotParameters& robot) = 0;
 
   /// The next scan without what is known to move: those beams tell nothing.
-  virtual Scan withoutMovers(const Scan& scan) const { return scan; }
+  virtual Scan withoutMovers(Scan scan) const { return scan; }
   /// Whether it drives only where the robot's pose is known.
   virtual bool needsPose() const = 0;
   /// What the odometry has shown of how the base obeys.

@@ -16,7 +16,7 @@ namespace {
 constexpr double kTurningGain = 2.5;  // 1/s; stable at 10 Hz with one period of delay
 
 constexpr double kStep = 0.05;      // s, of the predicted motion
-constexpr double kNoMotion = 1e-9;  // m/s, rad/s: what rounding leaves of a speed that was braked
+constexpr double kNoMotion = 1e-9;  // m/s: what rounding leaves of a speed that was braked
 // m, by which a hazard may come nearer that is inside the clearance, and inside the robot itself: a
 // robot that touches something only turns or leaves.
 constexpr double kDeeper = 1e-4, kSlack = 1e-9;

@@ -39,10 +39,10 @@ double bearingPast(const std::vector<Hazard>& hazards, double radius, double bea
 /// still stop before it touches anything.
 ///
 /// A command is safe where the motion that it starts, one control period at that command, then
-/// braking both velocities with the robot's accelerations, keeps every hazard outside the disc of
-/// `radius` less its allowance; a hazard that is inside already must not come nearer. Braking at
-/// once is what the safety of the last command rests on, so it is the answer where nothing else is
-/// safe. Turning on the spot is always safe for a disc.
+/// braking both velocities with the robot's accelerations until it drives no more, keeps every
+/// hazard outside the disc of `radius` less its allowance; a hazard that is inside already must not
+/// come nearer. Braking at once is what the safety of the last command rests on, so it is the
+/// answer where nothing else is safe. Turning on the spot is always safe for a disc.
 ///
 /// Where the command may act earlier or later than expected, it must be safe from there, too, or at
 /// least come no nearer to any hazard than braking would.

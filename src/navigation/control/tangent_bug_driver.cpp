@@ -146,12 +146,12 @@ GoalOutcome TangentBugDriver::takeOutcome() {
   return std::exchange(outcome_, {outcome_.goal, GoalStatus::kUnderWay, {}});
 }
 
-Scan TangentBugDriver::withoutMovers(const Scan& scan) const {
-  Scan rest = scan;
-  rest.T_map_sensor = T_drive_map_ * scan.T_map_sensor;
-  rest = tangent_bug_.movers().withoutMovers(rest);
-  rest.T_map_sensor = scan.T_map_sensor;
-  return rest;
+Scan TangentBugDriver::withoutMovers(Scan scan) const {
+  const Pose2 T_map_sensor = scan.T_map_sensor;
+  scan.T_map_sensor = T_drive_map_ * T_map_sensor;
+  scan = tangent_bug_.movers().withoutMovers(std::move(scan));
+  scan.T_map_sensor = T_map_sensor;
+  return scan;
 }
 
 void TangentBugDriver::pauseTimers(double time) {

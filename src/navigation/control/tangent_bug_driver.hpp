@@ -29,7 +29,7 @@ class TangentBugDriver : public Driver {
   void changeMotion(const RobotParameters& robot) override {
     tangent_bug_.controller().motion().changeMotion(robot);
   }
-  Scan withoutMovers(const Scan& scan) const override;
+  Scan withoutMovers(Scan scan) const override;
   bool needsPose() const override { return false; }
   const ActuationModel& actuation() const override {
     return tangent_bug_.controller().motion().actuation();
