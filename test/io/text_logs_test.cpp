@@ -274,9 +274,10 @@ TEST_F(TextLog, CarmenLinesWithoutStampsHaveNoTime) {
   EXPECT_NEAR(of_one_pose[0].time, 976052857.33, 1e-6);
 }
 
-std::string rawLaser(double time, double range) {
+std::string rawLaser(double time, double range, int number = 1) {
   std::ostringstream line;
-  line << "RAWLASER1 0 -1.0 2.0 1.0 30.0 0.01 0 3 " << range << " 4 5 0 " << time << " host 0\n";
+  line << "RAWLASER" << number << " 0 -1.0 2.0 1.0 30.0 0.01 0 3 " << range << " 4 5 0 " << time
+       << " host 0\n";
   return line.str();
 }
 
@@ -298,6 +299,32 @@ TEST_F(TextLog, RawCarmenLasersGiveWayToThoseWithPoses) {
                             "FLASER 4 2.0 2.1 2.2 2.3 1 2 0.5 1 2 0.5 1 h 1\n");
   ASSERT_EQ(records.size(), 1U);
   EXPECT_EQ(records[0].scan.size(), 4U);
+}
+
+TEST_F(TextLog, ASecondRawCarmenLaserLooksBack) {
+  const auto records = read("ODOM 1 2 0 0 0 0 10.0 host 0\n" + rawLaser(10.0, 1.0, 2) +
+                            "ODOM 1 2 0 0 0 0 11.0 host 0\n" + rawLaser(11.0, 1.5, 2));
+  ASSERT_EQ(records.size(), 2U);
+  EXPECT_NEAR(std::abs(records[0].T_robot_sensor.theta), M_PI, 1e-12);
+  EXPECT_NEAR(std::abs(records[0].scan.T_map_sensor.theta), M_PI, 1e-12);
+  EXPECT_NEAR(records[0].scan.T_map_sensor.y, 2.0, 1e-12);
+  EXPECT_EQ(warnings_, "");
+}
+
+TEST_F(TextLog, CarmenLasersThatNobodyPlacesAreToldOf) {
+  const std::string others = rawLaser(1.0, 7.0, 2) + rawLaser(1.0, 8.0, 3) + rawLaser(2.0, 8.0, 3) +
+                             "LASER4 3 9 9 9 1 host 1\n";
+  const auto records = read(rawLaser(1.0, 1.0) + others);
+  ASSERT_EQ(records.size(), 1U);
+  EXPECT_EQ(records[0].scan.ranges[0], 1.0);
+  EXPECT_THAT(warnings_, testing::HasSubstr("1 LASER4 line(s) left out: where on the robot"));
+  EXPECT_THAT(warnings_, testing::HasSubstr("1 RAWLASER2 line(s) left out"));
+  EXPECT_THAT(warnings_, testing::HasSubstr("2 RAWLASER3 line(s) left out"));
+}
+
+TEST_F(TextLog, ALogOfCarmenLasersThatNobodyPlacesIsRefused) {
+  EXPECT_THAT(refusal(repeated("LASER3 3 9 9 9 1 host 1\n", 4, "")),
+              testing::HasSubstr("4 LASER3 line(s) left out: where on the robot"));
 }
 
 }  // namespace

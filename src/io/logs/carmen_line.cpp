@@ -134,10 +134,10 @@ std::optional<CarmenScan> parseTellingLaser(Words& words) {
   return scan;
 }
 
-std::optional<CarmenScan> parseRawLaser(Words words) {
+std::optional<CarmenScan> parseRawLaser(Words words, CarmenMessage message) {
   auto scan = parseTellingLaser(words);
   if (!scan) return std::nullopt;
-  scan->message = CarmenMessage::kRawLaser;
+  scan->message = message;
   scan->time = readTime(words);
   return scan;
 }
@@ -167,7 +167,8 @@ std::optional<CarmenScan> parseCarmenScan(std::string_view line) {
   if (name == "FLASER") return parseSickLaser(words, CarmenMessage::kFrontLaser);
   if (name == "RLASER") return parseSickLaser(words, CarmenMessage::kRearLaser);
   if (name == "ROBOTLASER1" || name == "ROBOTLASER2") return parseRobotLaser(words);
-  if (name == "RAWLASER1") return parseRawLaser(words);
+  if (name == "RAWLASER1") return parseRawLaser(words, CarmenMessage::kRawLaser);
+  if (name == "RAWLASER2") return parseRawLaser(words, CarmenMessage::kRawRearLaser);
   return std::nullopt;
 }
 
@@ -185,13 +186,21 @@ std::optional<CarmenOdometry> parseCarmenOdometry(std::string_view line) {
 bool isCarmenScan(std::string_view line) {
   const std::string_view name = Words(line).word();
   return name == "FLASER" || name == "RLASER" || name == "ROBOTLASER1" || name == "ROBOTLASER2" ||
-         name == "RAWLASER1";
+         name == "RAWLASER1" || name == "RAWLASER2";
+}
+
+std::string_view unplacedLaser(std::string_view line) {
+  const std::string_view name = Words(line).word();
+  for (const char* unplaced : {"LASER3", "LASER4", "RAWLASER3", "RAWLASER4", "RAWLASER5"}) {
+    if (name == unplaced) return name;
+  }
+  return {};
 }
 
 bool isCarmenLine(std::string_view line) {
   const std::string_view name = Words(line).word();
   return isCarmenScan(line) || name == "ODOM" || name == "PARAM" || name == "SYNC" ||
-         name == "TRUEPOS" || name == "NEFF" || name == "#" || name.substr(0, 8) == "RAWLASER";
+         name == "TRUEPOS" || name == "NEFF" || name == "#" || !unplacedLaser(line).empty();
 }
 
 }  // namespace cca

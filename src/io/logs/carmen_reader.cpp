@@ -25,13 +25,19 @@ bool samePose(const Pose2& a, const Pose2& b, double tolerance) {
 
 /// Lines of the same lasers: a log may carry a scan as more than one of them.
 enum class CarmenFamily {
-  kSick,   ///< FLASER and RLASER
-  kRobot,  ///< ROBOTLASER1, ROBOTLASER2
-  kRaw     ///< RAWLASER1, whose poses are those of the ODOM lines about it
+  kSick,    ///< FLASER and RLASER
+  kRobot,   ///< ROBOTLASER1, ROBOTLASER2
+  kRaw,     ///< RAWLASER1, whose poses are those of the ODOM lines about it
+  kRawRear  ///< RAWLASER2, likewise
 };
+
+bool isRaw(CarmenFamily family) {
+  return family == CarmenFamily::kRaw || family == CarmenFamily::kRawRear;
+}
 
 CarmenFamily familyOf(CarmenMessage message) {
   if (message == CarmenMessage::kRawLaser) return CarmenFamily::kRaw;
+  if (message == CarmenMessage::kRawRearLaser) return CarmenFamily::kRawRear;
   return message == CarmenMessage::kRobotLaser ? CarmenFamily::kRobot : CarmenFamily::kSick;
 }
 
@@ -40,6 +46,8 @@ struct Survey {
   CarmenFamily family = CarmenFamily::kSick;  ///< that is read
   std::size_t scans = 0, damaged_lines = 0;
   bool damaged_file = false;
+  std::map<std::string, std::size_t>
+      left_out;                 ///< lines of lasers whose place nobody tells, by name
   double no_return_from = 0.0;  ///< m
   bool rewritten = false;       ///< poses are a SLAM program's
   bool has_odometry = false;    ///< a chain of raw odometry leads through the log
@@ -96,8 +104,11 @@ class Surveyor {
 
 Survey surveyLog(const std::string& path) {
   GzipLines lines(path);
-  std::map<CarmenFamily, Surveyor> families{
-      {CarmenFamily::kSick, {}}, {CarmenFamily::kRobot, {}}, {CarmenFamily::kRaw, {}}};
+  std::map<CarmenFamily, Surveyor> families{{CarmenFamily::kSick, {}},
+                                            {CarmenFamily::kRobot, {}},
+                                            {CarmenFamily::kRaw, {}},
+                                            {CarmenFamily::kRawRear, {}}};
+  std::map<std::string, std::size_t> left_out;
   std::size_t damaged = 0;
   bool has_odometry_lines = false;
   while (const auto line = lines.next()) {
@@ -108,6 +119,8 @@ Survey surveyLog(const std::string& path) {
       families[familyOf(scan->message)].add(*scan);
     } else if (line->substr(0, 5) == "NEFF ") {  // a line that only GMapping writes, one a scan
       for (auto& [family, surveyor] : families) surveyor.addEffectiveParticles();
+    } else if (const auto name = unplacedLaser(*line); !name.empty()) {
+      ++left_out[std::string(name)];
     } else {
       damaged += isCarmenScan(*line);
     }
@@ -116,9 +129,13 @@ Survey surveyLog(const std::string& path) {
   CarmenFamily family = CarmenFamily::kSick;
   if (scansOf(CarmenFamily::kRobot) > scansOf(family)) family = CarmenFamily::kRobot;
   if (scansOf(family) == 0) family = CarmenFamily::kRaw;  // others carry the same with their poses
+  if (scansOf(family) == 0) family = CarmenFamily::kRawRear;
+  const std::size_t rear = scansOf(CarmenFamily::kRawRear);
+  if (family == CarmenFamily::kRaw && rear > 0) left_out["RAWLASER2"] = rear;
   Survey survey = families[family].survey();
   survey.family = family;
-  if (family == CarmenFamily::kRaw) {
+  survey.left_out = std::move(left_out);
+  if (isRaw(family)) {
     survey.has_odometry = has_odometry_lines;
     survey.rewritten = survey.mounting_holds = false;
   }
@@ -149,13 +166,13 @@ class CarmenReader : public LogReader {
       : path_(path), survey_(surveyLog(path)), lines_(path) {
     if (survey_.scans == 0) {
       throw std::runtime_error(
-          path + ": holds no whole laser scan (FLASER, RLASER, ROBOTLASER1, RAWLASER1)" +
+          path + ": holds no whole laser scan (FLASER, RLASER, ROBOTLASER1, RAWLASER1, RAWLASER2)" +
           (warnings().empty() ? "" : "; " + warnings()));
     }
   }
 
   std::optional<LogRecord> next() override {
-    if (survey_.family == CarmenFamily::kRaw) return nextRaw();
+    if (isRaw(survey_.family)) return nextRaw();
     while (const auto line = lines_.next()) {
       if (const auto odometry = parseCarmenOdometry(*line)) {
         const Pose2& logged = odometry->T_odom_robot;
@@ -175,13 +192,17 @@ class CarmenReader : public LogReader {
       text += (text.empty() ? "" : "; ") + std::to_string(survey_.damaged_lines) +
               " damaged laser line(s) left out";
     }
+    for (const auto& [name, lines] : survey_.left_out) {
+      text += (text.empty() ? "" : "; ") + std::to_string(lines) + " " + name +
+              " line(s) left out: where on the robot that laser is, the log does not tell";
+    }
     return text;
   }
 
   double progress() const override { return lines_.progress(); }
 
  private:
-  /// The next RAWLASER1 line, which waits for the ODOM line after it.
+  /// The next line of a raw laser, which waits for the ODOM line after it.
   std::optional<LogRecord> nextRaw() {
     while (waiting_.empty() || !(may_leave_ || !survey_.has_odometry)) {
       const auto line = lines_.next();
@@ -194,16 +215,15 @@ class CarmenReader : public LogReader {
         later_ = odometry;
         may_leave_ = !waiting_.empty();
       } else if (auto scan = parseCarmenScan(*line)) {
-        if (familyOf(scan->message) == CarmenFamily::kRaw) waiting_.push_back(unplaced(*scan));
+        if (familyOf(scan->message) == survey_.family) waiting_.push_back(unplaced(*scan));
       }
     }
     LogRecord record = std::move(waiting_.front());
     waiting_.pop_front();
     if (waiting_.empty()) may_leave_ = false;
-    if (survey_.has_odometry) {
-      record.odometry = odometryAt(record);
-      record.scan.T_map_sensor = *record.odometry;
-    }
+    if (survey_.family == CarmenFamily::kRawRear) record.T_robot_sensor = {0.0, 0.0, M_PI};
+    if (survey_.has_odometry) record.odometry = odometryAt(record);
+    record.scan.T_map_sensor = record.odometry.value_or(Pose2{}) * record.T_robot_sensor;
     return record;
   }
 
@@ -257,7 +277,7 @@ class CarmenReader : public LogReader {
   GzipLines lines_;
   OdometryChain chain_;
   std::optional<Pose2> last_laser_;  ///< of the scan just given, until the next ODOM line
-  // Of RAWLASER1 lines alone.
+  // Of raw lasers alone.
   std::deque<LogRecord> waiting_;                  ///< for the next ODOM line
   std::optional<CarmenOdometry> earlier_, later_;  ///< the last two ODOM lines
   bool may_leave_ = false;                         ///< whether those that wait have met it
