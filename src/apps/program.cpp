@@ -4,6 +4,7 @@
 #include <csignal>
 #include <cstdio>
 #include <exception>
+#include <filesystem>
 #include <string>
 
 namespace cca::apps {
@@ -32,6 +33,24 @@ void tell(const CLI::App& program, const std::string& message) {
   std::fprintf(stderr, "%s: %s\n", program.get_name().c_str(), message.c_str());
 }
 
+/// An empty value is a shell variable that was never set.
+void refuseEmptyValues(CLI::App& program) {
+  for (CLI::App* command : program.get_subcommands({})) {
+    for (CLI::Option* option : command->get_options()) {
+      if (option->get_expected_min() == 0) continue;
+      option->check([](const std::string& value) { return value.empty() ? "is empty" : ""; });
+    }
+  }
+}
+
+/// What is missing is asked for before what is too much is told of: a misspelt --out is both.
+void tellOfUnknownOptions(const CLI::App& program) {
+  for (const std::string& word : program.remaining(true)) {
+    if (word.rfind('-', 0) != 0) continue;
+    std::fprintf(stderr, "The following argument was not expected: %s\n", word.c_str());
+  }
+}
+
 /// What was printed may not have arrived: a full disk behind `> FILE` is told at the end only.
 int withOutput(const CLI::App& program, int status) {
   if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return status;
@@ -52,13 +71,21 @@ int runProgram(CLI::App& program, int argc, char** argv) {
                  name.c_str());
     return kUsage;
   }
+  refuseEmptyValues(program);
   try {
     program.parse(argc, argv);
+  } catch (const CLI::RequiredError& error) {
+    tellOfUnknownOptions(program);
+    program.exit(error);
+    return kUsage;
   } catch (const CLI::ParseError& error) {
     return withOutput(program, program.exit(error) == 0 ? kDone : kUsage);
   } catch (const Shortcoming& shortcoming) {
     tell(program, shortcoming.what());
     return withOutput(program, kFellShort);
+  } catch (const std::filesystem::filesystem_error& error) {
+    tell(program, error.path1().string() + ": " + error.code().message());
+    return kRunFailed;
   } catch (const std::exception& error) {
     tell(program, withoutCallStack(error.what()));
     return kRunFailed;

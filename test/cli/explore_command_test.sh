@@ -168,6 +168,7 @@ said=$("$program" explore "$maps/two_rooms.yaml" --out c --quiet 2>&1)
 printf 'image: gone.png\nresolution: 0.05\norigin: [0, 0, 0]\noccupied_thresh: 0.65\nfree_thresh: 0.196\n' >gone.yaml
 expect_error 1 "gone.yaml: image:" explore gone.yaml --out d
 expect_error 1 "nowhere.yaml: cannot be read" explore nowhere.yaml --out d
+expect_error 1 "offcie: is no file, and no world of ours: apartment " explore offcie --out d
 expect_error 1 "touches an obstacle" explore "$maps/two_rooms.yaml" --start 5,1,0 --out d
 expect_error 1 "outside the world" explore "$maps/two_rooms.yaml" --start=-5,1,0 --out d
 expect_error 1 "outside the world" explore "$maps/two_rooms.yaml" --start=1e6,1,0 --out d

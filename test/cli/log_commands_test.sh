@@ -179,7 +179,11 @@ refuses 1 "not a log of a known kind" "$program" map letter.log --out letter
 check "a map has a place on the Earth" "$program" map room.log --out placed --origin 48.1,11.6,30
 grep -q '"origin":\[48.1,11.6,30.0\]' placed/lines.geojson || { echo "FAILED: lines.geojson tells no origin"; failed=1; }
 grep -q 'id="north"' placed/lines.svg || { echo "FAILED: lines.svg has no north"; failed=1; }
-refuses 2 "LAT,LON,DEG" "$program" map room.log --out misplaced --origin 91,0
+refuses 2 "--origin: '91,0': LAT,LON or LAT,LON,DEG is needed" "$program" map room.log --out misplaced --origin 91,0
+refuses 2 "was not expected: --ouut" "$program" map room.log --ouut map
+refuses 2 "--out: is empty" "$program" map room.log --out ""
+refuses 2 "--resume: is empty" "$program" map room.log --out nowhere --resume ""
+[ ! -e nowhere ] || { echo "FAILED: a folder was left for options that were refused"; failed=1; }
 printf 'SQLite format 3\0' >drive.db3
 printf '\211MCAP0\r\n' >drive.mcap
 mkdir drive && touch drive/metadata.yaml
@@ -227,8 +231,8 @@ check "map over a killed one" "$program" map room.log --out map --force --quiet
 ln -s loop loop
 refuses 1 "loop: cannot be made a folder" "$program" map room.log --out loop
 refuses 1 "loop" "$program" map loop --out d
-refuses 1 "empty name" "$program" map room.log --out ""
-refuses 1 "empty name" "$program" extract room.log --out ""
+refuses 1 "^cca-mrpt: loop: Too many levels of symbolic links" "$program" map room.log --out nowhere --resume loop
+refuses 2 "--out: is empty" "$program" extract room.log --out ""
 refuses 1 "is no text" "$program" explore room.log.gz --out d
 printf 'image: a.png\nresolution:\norigin: [0, 0, 0]\n' >half.yaml
 refuses 1 "resolution: has no value" "$program" explore half.yaml --out d

@@ -158,7 +158,7 @@ void addMapCommand(CLI::App& program) {
           },
           "where (0, 0) of the map lies, and how far its x axis is turned from east to the left, "
           "degrees: lines.geojson is in longitude and latitude then")
-      ->type_name("LAT,LON,DEG");
+      ->type_name("LAT,LON[,DEG]");
   command->add_flag("--force", options->force, "overwrite a map that is there");
   command->add_flag("--quiet", options->quiet, "print nothing but errors");
   options->serve = addServeOptions(*command);

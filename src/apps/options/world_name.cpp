@@ -2,7 +2,9 @@
 #include "world_name.hpp"
 
 #include <filesystem>
+#include <set>
 #include <sstream>
+#include <stdexcept>
 #include <system_error>
 #include <vector>
 
@@ -24,6 +26,23 @@ std::vector<fs::path> mapFolders() {
   return folders;
 }
 
+/// Each after a blank, in order.
+std::string namesOfOurs() {
+  std::set<std::string> names;
+  std::error_code none;
+  for (const fs::path& folder : mapFolders()) {
+    for (const auto& entry : fs::directory_iterator(folder, none)) {
+      const fs::path& file = entry.path();
+      // Beside WORLD.yaml may lie what moves in it, WORLD.movers.yaml.
+      if (file.extension() == ".yaml" && !file.stem().has_extension())
+        names.insert(file.stem().string());
+    }
+  }
+  std::string all;
+  for (const std::string& name : names) all += " " + name;
+  return all;
+}
+
 }  // namespace
 
 std::string findWorld(const std::string& path_or_name) {
@@ -36,7 +55,7 @@ std::string findWorld(const std::string& path_or_name) {
     const fs::path file = folder / (path_or_name + ".yaml");
     if (fs::exists(file, unknown)) return file.string();
   }
-  return path_or_name;
+  throw std::runtime_error(path_or_name + ": is no file, and no world of ours:" + namesOfOurs());
 }
 
 }  // namespace cca::apps

@@ -80,10 +80,11 @@ GeoReference geoReferenceOf(const std::string& text) {
   const auto fits = [&](std::size_t k, double most) { return std::abs(numbers[k]) <= most; };
   if (numbers.size() < 2 || numbers.size() > 3 || !fits(0, 89.9) || !fits(1, 180.0) ||
       (numbers.size() == 3 && !fits(2, 360.0))) {
-    throw std::runtime_error("origin: '" + text +
-                             "': LAT,LON,DEG is needed: degrees in [-89.9, 89.9], [-180, 180] and "
-                             "[-360, 360], the last one how far the map's x axis is turned from "
-                             "east to the left");
+    throw std::runtime_error(
+        "'" + text +
+        "': LAT,LON or LAT,LON,DEG is needed: degrees in [-89.9, 89.9], [-180, 180] and "
+        "[-360, 360], the last one how far the map's x axis is turned from "
+        "east to the left");
   }
   return {numbers[0], numbers[1], numbers.size() == 3 ? numbers[2] : 0.0};
 }
