@@ -53,28 +53,46 @@ std::string serveMapper(SharedMapping& mapping, const std::string& address, int 
   });
 }
 
+nb::object covarianceArray(const Estimate& e) {
+  auto numbers = std::make_unique<double[]>(9);
+  std::copy_n(e.covariance.data(), 9, numbers.get());
+  return ownedArray(std::move(numbers), 3, 3);
+}
+
+nb::tuple poseTuple(const Estimate& e) {
+  return nb::make_tuple(e.T_map_robot.x, e.T_map_robot.y, e.T_map_robot.theta);
+}
+
+/// What Python sees of it, to be pickled.
+nb::tuple estimateState(const Estimate& e) {
+  return nb::make_tuple(poseTuple(e), covarianceArray(e), e.agreement, e.is_known, e.was_corrected);
+}
+
+void restoreEstimate(Estimate& self, const nb::tuple& state) {
+  Estimate e;
+  e.T_map_robot = readPose(state[0], "pose");
+  readNumbers(nb::object(state[1]).attr("ravel")(), "covariance", "(3, 3)", 9, e.covariance.data());
+  e.agreement = nb::cast<double>(state[2]);
+  e.is_known = nb::cast<bool>(state[3]);
+  e.was_corrected = nb::cast<bool>(state[4]);
+  new (&self) Estimate(e);
+}
+
 void addEstimate(nb::module_& module) {
   nb::class_<Estimate>(module, "Estimate", "Where a scan was taken, as `Mapper.step` believes.")
-      .def_prop_ro(
-          "pose",
-          [](const Estimate& e) {
-            return nb::make_tuple(e.T_map_robot.x, e.T_map_robot.y, e.T_map_robot.theta);
-          },
-          nb::sig("def pose(self) -> tuple[float, float, float]"),
-          "(x, y, theta) of the robot in the map frame; m, m, rad.")
-      .def_prop_ro(
-          "covariance",
-          [](const Estimate& e) {
-            auto numbers = std::make_unique<double[]>(9);
-            std::copy_n(e.covariance.data(), 9, numbers.get());
-            return ownedArray(std::move(numbers), 3, 3);
-          },
-          nb::sig("def covariance(self) -> numpy.typing.NDArray[numpy.float64]"),
-          "(3, 3) of (x, y, theta) in the map's axes; 0 where nobody knows it.")
+      .def_prop_ro("pose", &poseTuple, nb::sig("def pose(self) -> tuple[float, float, float]"),
+                   "(x, y, theta) of the robot in the map frame; m, m, rad.")
+      .def_prop_ro("covariance", &covarianceArray,
+                   nb::sig("def covariance(self) -> numpy.typing.NDArray[numpy.float64]"),
+                   "(3, 3) of (x, y, theta) in the map's axes; 0 where nobody knows it.")
       .def_ro("agreement", &Estimate::agreement, "Of the scan with what was seen before, [0, 1].")
       .def_ro("is_placed", &Estimate::is_known, "Whether its place in the map is known.")
       .def_ro("was_corrected", &Estimate::was_corrected,
               "Whether the poses of the past, and with them the map, have changed with it.")
+      .def("__getstate__", &estimateState,
+           nb::sig("def __getstate__(self) -> tuple[typing.Any, ...]"))
+      .def("__setstate__", &restoreEstimate, nb::arg("state"),
+           nb::sig("def __setstate__(self, state: tuple[typing.Any, ...]) -> None"))
       .def("__repr__", [](const Estimate& e) {
         const nb::str text =
             nb::str("Estimate(x={:.3f}, y={:.3f}, theta={:.4f}, agreement={:.3f})")

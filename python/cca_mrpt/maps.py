@@ -9,7 +9,7 @@ import os
 import sys
 from collections import abc
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Dict, Iterable, List, NamedTuple, Optional, Sequence, Tuple, Union, cast
+from typing import TYPE_CHECKING, Any, Dict, Iterable, List, NamedTuple, NoReturn, Optional, Sequence, Tuple, Union, cast
 
 import numpy as np
 from numpy.typing import NDArray
@@ -266,6 +266,9 @@ class Mapper:
     def finish(self) -> Map:
         """The last pass over the whole drive, and the map of what it says. No scan can follow."""
         return Map(*self._session.result(True))
+
+    def __getstate__(self) -> NoReturn:  # copies, too: two would drive one session
+        self._session.__getstate__()
 
     def __len__(self) -> int:
         return self._session.scans()

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The one pipeline, from Python: the same map as the program's, whoever brings the scans."""
+import copy
 import json
 import pickle
 import shutil
@@ -67,8 +68,22 @@ def test_a_map_comes_back_from_its_folder(drive, tmp_path):
     back.save(tmp_path / "again")
     for name in names:
         assert (tmp_path / "again" / name).read_bytes() == (tmp_path / "map" / name).read_bytes(), name
-    same = pickle.loads(pickle.dumps(made))
-    assert np.array_equal(same.lines, made.lines) and repr(same) == repr(made)
+
+
+@pytest.mark.parametrize("again", [copy.copy, copy.deepcopy, lambda held: pickle.loads(pickle.dumps(held))])
+@pytest.mark.parametrize("is_loaded", [False, True])
+def test_a_copied_or_pickled_map_is_the_same_map(again, is_loaded, drive, tmp_path):
+    made = cca_mrpt.map(drive[0])
+    names = made.save(tmp_path / "map")
+    made = cca_mrpt.load(tmp_path / "map") if is_loaded else made
+    same = again(made)
+    assert np.array_equal(same.lines, made.lines) and np.array_equal(same.trajectory, made.trajectory)
+    assert repr(same) == repr(made) and same.summary == made.summary
+    assert np.array_equal(same.grid.cells, made.grid.cells) and same.grid[1:] == made.grid[1:]
+    assert str(same.floor_plan()) == str(made.floor_plan()) and same.floor_plan().to_geojson() == made.floor_plan().to_geojson()
+    same.save(tmp_path / "same" / "map")
+    for name in names:
+        assert (tmp_path / "same" / "map" / name).read_bytes() == (tmp_path / "map" / name).read_bytes(), name
 
 
 def test_maps_are_not_overwritten_unasked(log, tmp_path):

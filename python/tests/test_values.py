@@ -93,6 +93,11 @@ def test_values_survive_pickling(line_map, ranges):
     same = pickle.loads(pickle.dumps(pose))
     assert same.pose == pose.pose and np.array_equal(same.covariance, pose.covariance)
     assert (same.agreement, same.version, same.is_lost) == (pose.agreement, pose.version, pose.is_lost)
+    mapper = cca_mrpt.Mapper(pose="odometry")
+    estimate = mapper.step(cca_mrpt.LogRecord(ranges, **FULL_TURN, odometry=(1, 2, 0.5)))
+    for same in pickle.loads(pickle.dumps(estimate)), copy.copy(estimate), copy.deepcopy(estimate):
+        assert same.pose == estimate.pose and np.array_equal(same.covariance, estimate.covariance)
+        assert (same.agreement, same.is_placed, same.was_corrected) == (estimate.agreement, estimate.is_placed, estimate.was_corrected)
     ransac = cca_mrpt.baselines["ransac"]
     assert pickle.loads(pickle.dumps(ransac)).paper == ransac.paper
     lines = line_map.lines()
@@ -162,3 +167,10 @@ def test_what_cannot_be_pickled_says_why_and_what_can(make, told):
     for protocol in range(2, pickle.HIGHEST_PROTOCOL + 1):
         with pytest.raises(TypeError, match=told):
             pickle.dumps(make(), protocol)
+
+
+@pytest.mark.parametrize("copied", [copy.copy, copy.deepcopy])
+@pytest.mark.parametrize("make", [cca_mrpt.Slam, cca_mrpt.Explorer, cca_mrpt.Mapper])
+def test_a_drive_has_no_copies(make, copied):
+    with pytest.raises(TypeError, match="in the middle of a drive"):
+        copied(make())
