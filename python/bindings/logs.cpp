@@ -35,7 +35,9 @@ std::optional<Triple> triple(const std::optional<Pose2>& pose) {
 void open(Log* self, const std::string& path) {
   try {
     const nb::gil_scoped_release others_may_run;
-    auto log = openTextLog(path, fileHead(path, kLogHead));
+    const std::string head = fileHead(path, kLogHead);
+    if (head.empty()) throw std::runtime_error(path + ": is empty, or a damaged compressed file");
+    auto log = openTextLog(path, head);
     if (!log) {
       throw std::runtime_error(path + ": not a log of a known kind (" + kTextLogKinds +
                                ", ROS bags; MRPT's logs are read by the program)");

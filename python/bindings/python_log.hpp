@@ -21,6 +21,8 @@ class PythonLog : public LogReader {
   std::optional<LogRecord> next() override {
     const nb::gil_scoped_acquire turn;
     if (ended_) return std::nullopt;
+    // What reads logs is no Python code: nobody else asks whether Ctrl-C was pressed meanwhile.
+    if (PyErr_CheckSignals() != 0) throw nb::python_error();
     const nb::object record = nb::steal(PyIter_Next(iterator_.ptr()));
     if (record.is_valid()) {
       const LogRecord* taken = nullptr;

@@ -19,8 +19,8 @@ from .maps import map as map_log
 from .replays import replay_page
 
 FELL_SHORT = 3
-STATUSES = """exit status: 0 done; 1 failed; 2 no such command or option, or a value that is not allowed; 3 done, but the
-result falls short, as the last message says (scans that contradict the map, a robot that was localised nowhere)"""
+STATUSES = """exit status: 0 done; 1 failed, or interrupted; 2 no such command or option, or a value that is not allowed; 3 done,
+but the result falls short, as the last message says (scans that contradict the map, a robot that was localised nowhere)"""
 
 
 class Shortcoming(Exception):
@@ -171,7 +171,7 @@ def add_batch(commands: Any) -> None:
     command = commands.add_parser("batch", help="many logs or worlds, on all cores or a Dask cluster")
     command.add_argument("what", choices=["map", "explore"])
     command.add_argument("jobs", metavar="LOG|WORLD", nargs="+")
-    command.add_argument("--out", required=True, help="folder to write to, one folder a job in it")
+    command.add_argument("--out", type=parse_folder, required=True, help="folder to write to, one folder a job in it")
     command.add_argument("--workers", type=int, help="processes on this machine (default: one a core)")
     command.add_argument("--scheduler", help="address of a cluster's scheduler, e.g. tcp://HOST:8786")
     command.add_argument("--seeds", type=int, nargs="+", default=[1], help="explore: FIRST [LAST]")
@@ -181,6 +181,13 @@ def add_batch(commands: Any) -> None:
 
 class Usage(Exception):
     """A value that is not allowed."""
+
+
+def in_words(error: Exception) -> str:
+    """An error as the program tells it: the file first."""
+    if isinstance(error, OSError) and error.filename and error.strerror:
+        return f"{error.filename}: {error.strerror}"
+    return str(error).replace("(force=True overwrites it)", "(--force overwrites it)")
 
 
 def told(work: Callable[[], str]) -> int:
@@ -196,7 +203,10 @@ def told(work: Callable[[], str]) -> int:
         print(f"cca_mrpt: {error}", file=sys.stderr)
         return FELL_SHORT
     except (OSError, ValueError, RuntimeError, ImportError) as error:
-        print(f"cca_mrpt: {error}", file=sys.stderr)
+        print(f"cca_mrpt: {in_words(error)}", file=sys.stderr)
+        return 1
+    except KeyboardInterrupt:
+        print("cca_mrpt: interrupted; each file that was written is whole", file=sys.stderr)
         return 1
     return 0
 
@@ -208,6 +218,13 @@ def parse_start(text: str) -> Tuple[float, float, float]:
     except ValueError:
         raise argparse.ArgumentTypeError(f"{text!r}: X,Y,DEG is needed") from None
     return x, y, math.radians(degrees)
+
+
+def parse_folder(text: str) -> Path:
+    """An empty one would be the folder that one is in: a shell variable that was never set."""
+    if not text:
+        raise argparse.ArgumentTypeError("is empty")
+    return Path(text)
 
 
 def parse_port(text: str) -> int:
@@ -231,7 +248,7 @@ def add_log(command: argparse.ArgumentParser, many: bool = False) -> None:
 
 
 def add_output(command: argparse.ArgumentParser, required: bool, what: str) -> None:
-    command.add_argument("--out", type=Path, required=required, help=f"folder to write {what} to"
+    command.add_argument("--out", type=parse_folder, required=required, help=f"folder to write {what} to"
                          + ("" if required else " (default: out/NAME_OF_LOG)"))
     command.add_argument("--force", action="store_true", help="overwrite what is there")
     command.add_argument("--quiet", action="store_true", help="print nothing but errors")
@@ -262,7 +279,7 @@ def add_commands(commands: Any) -> None:
     add_output(command, True, "the map")
     command = commands.add_parser("plan", help="floor plan of a finished map: rooms with areas, walls, doors, furniture")
     command.add_argument("map", metavar="DIR", help="folder that map, explore or merge left")
-    command.add_argument("--out", type=Path, help="folder to write the plan to (default: DIR)")
+    command.add_argument("--out", type=parse_folder, help="folder to write the plan to (default: DIR)")
     command.add_argument("--labels", metavar="FILE", help="CSV with columns x, y (m, map frame) and name: names the rooms")
     command.add_argument("--force", action="store_true", help="overwrite a plan that is there")
     command.add_argument("--quiet", action="store_true", help="print nothing but errors")
@@ -270,7 +287,7 @@ def add_commands(commands: Any) -> None:
     command.add_argument("run", metavar="DIR", help="folder of a run, or its page")
     command.add_argument("--html", action="store_true", help="as the program calls it; there is nothing else here")
     command.add_argument("--beside", metavar="DIR", help="folder of a second run, to be seen beside it")
-    command.add_argument("--out", type=Path, help="page to write (default: the folder's replay.html)")
+    command.add_argument("--out", type=parse_folder, help="page to write (default: the folder's replay.html)")
     add_batch(commands)
 
 

@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ._core import LogRecord, localize_records, write_files_into
+from .folders import kept_for_one_run
 from .grids import read_map_yaml
 from .logs import Log, read_log
 
@@ -40,16 +41,14 @@ class Localisation:
 
         Raises:
             FileExistsError: one of them is there already, and `force` is not given.
-            RuntimeError: it cannot be written; names the file and the reason.
+            RuntimeError: it cannot be written, or another run is writing there; names the file and the reason.
         """
         where = Path(folder)
         names = [*self._files, "summary.json"]
-        taken = [name for name in names if (where / name).exists()]
-        if taken and not force:
-            raise FileExistsError(f"{where / taken[0]}: is there already (force=True overwrites it)")
-        (where / "summary.json").unlink(missing_ok=True)  # it says that all is there
-        write_files_into(os.fspath(where), self._files)
-        write_files_into(os.fspath(where), {"summary.json": (json.dumps(self.summary, indent=2) + "\n").encode()})
+        with kept_for_one_run(where, names, force):
+            (where / "summary.json").unlink(missing_ok=True)  # it says that all is there
+            write_files_into(os.fspath(where), self._files)
+            write_files_into(os.fspath(where), {"summary.json": (json.dumps(self.summary, indent=2) + "\n").encode()})
         return names
 
     def __len__(self) -> int:

@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ._core import MAP_LINE, Estimate, LogRecord, MappingSession, PolyLine, map_logs, merge_maps, pictures_of_map, read_chains, write_files_into
+from .folders import kept_for_one_run
 from .grids import Grid, read_grid
 from .logs import Log, read_log
 from .plotting import plot
@@ -93,21 +94,18 @@ class Map:
 
         Raises:
             FileExistsError: one of them is there already.
-            RuntimeError: it cannot be written; names the file and the reason.
+            RuntimeError: it cannot be written, or another run is writing there; names the file and the reason.
         """
         where, contents = Path(folder), dict(self._files)
         if self._replay:
             contents.update(self._pictures(self.summary.get("title") or where.resolve().name))
         names = [*contents, "summary.json"]
-        taken = [name for name in names if (where / name).exists()]
-        if taken and not force:
-            raise FileExistsError(f"{where / taken[0]}: is there already (force=True overwrites it)")
-        if (where / "summary.json").exists():  # it says that all is there
-            (where / "summary.json").unlink()
-        write_files_into(os.fspath(where), contents)
-        for name in set(FILES) - set(contents):  # what an earlier run left would be taken for this one's
-            (where / name).unlink(missing_ok=True)
-        write_files_into(os.fspath(where), {"summary.json": (json.dumps(self.summary, indent=1) + "\n").encode()})
+        with kept_for_one_run(where, names, force):
+            (where / "summary.json").unlink(missing_ok=True)  # it says that all is there
+            write_files_into(os.fspath(where), contents)
+            for name in set(FILES) - set(contents):  # what an earlier run left would be taken for this one's
+                (where / name).unlink(missing_ok=True)
+            write_files_into(os.fspath(where), {"summary.json": (json.dumps(self.summary, indent=1) + "\n").encode()})
         return names
 
     def _pictures(self, title: str) -> Dict[str, bytes]:

@@ -1,9 +1,14 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """merge, localize and render: the program's, from Python and by its commands."""
+import contextlib
+import fcntl
 import gzip
+import itertools
 import json
+import operator
 import os
 import shutil
+import signal
 import subprocess
 import sys
 
@@ -322,3 +327,68 @@ def test_nothing_is_overwritten_unasked(log, plan, tmp_path, capsys):
         assert "is there already (--force overwrites it)" in capsys.readouterr().err
     assert (plan / "lines.csv").read_bytes() == before and (tmp_path / "poses" / "poses.csv").read_text() == "mine"
     shutil.rmtree(tmp_path / "poses")
+
+
+class Stopped(Exception):
+    pass
+
+
+def test_ctrl_c_ends_what_reads_a_log(two_drives):
+    scans = itertools.repeat(two_drives[0][0], 20000)  # more than a minute of work, without a line of Python
+
+    def stop(*_):
+        raise Stopped
+
+    before = signal.signal(signal.SIGALRM, stop)
+    signal.setitimer(signal.ITIMER_REAL, 0.3)
+    try:
+        with pytest.raises(Stopped):
+            cca_mrpt.map(scans)
+    finally:
+        signal.setitimer(signal.ITIMER_REAL, 0)
+        signal.signal(signal.SIGALRM, before)
+    assert operator.length_hint(scans) > 0
+
+
+def test_an_interrupted_command_says_so(monkeypatch, capsys, tmp_path, two_logs):
+    def interrupted(*_, **__):
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr("cca_mrpt.__main__.map_log", interrupted)
+    assert main(["map", str(two_logs[0]), "--out", str(tmp_path / "out")]) == 1
+    assert "cca_mrpt: interrupted" in capsys.readouterr().err and not (tmp_path / "out").exists()
+
+
+def test_two_runs_do_not_mix_their_files(two_maps, two_logs, tmp_path):
+    held = os.open(two_maps[0], os.O_RDONLY)
+    fcntl.flock(held, fcntl.LOCK_EX)
+    found = cca_mrpt.localize(two_logs[0], two_maps[0])
+    for result in cca_mrpt.load(two_maps[0]), found:
+        with pytest.raises(RuntimeError, match="map0: another run is writing there"):
+            result.save(two_maps[0], force=True)
+    os.close(held)
+    assert (two_maps[0] / "summary.json").exists()
+    found.save(two_maps[0], force=True)
+
+
+@pytest.mark.parametrize("status, told, words", [
+    (2, "argument --out: is empty", ["map", "LOG", "--out", ""]),
+    (2, "argument --out: is empty", ["plan", "MAP", "--out", ""]),
+    (1, "labels.csv: No such file or directory", ["plan", "MAP", "--out", "plan", "--labels", "labels.csv"]),
+    (1, "nowhere: No such file or directory", ["render", "nowhere", "--out", "page.html"]),
+    (1, "empty.log: is empty", ["map", "empty.log", "--out", "out"]),
+    (1, "map/lines.csv: is there already (--force overwrites it)", ["map", "LOG", "--out", "map"]),
+])
+def test_what_is_wrong_is_named(status, told, words, two_maps, two_logs, tmp_path, monkeypatch, capsys):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "empty.log").touch()
+    shutil.copytree(two_maps[0], "map")
+    with contextlib.ExitStack() as stack:
+        got = None
+        if status == 2:
+            ends = stack.enter_context(pytest.raises(SystemExit))
+        got = main([{"LOG": str(two_logs[0]), "MAP": "map"}.get(word, word) for word in words])
+    assert status == (ends.value.code if status == 2 else got)
+    said = capsys.readouterr().err
+    assert told in said and "Errno" not in said
+    assert not (tmp_path / "out").exists()
