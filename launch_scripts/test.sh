@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Installs what is missing, builds, and runs the tests. Ends non-zero if any test failed or any part did
-# not run.
+# not run; but the Python package's is passed over, and that is said, where pip can fetch nothing.
 #
 #   launch_scripts/test.sh               what a change can break: checks of the sources and the pages,
 #                                        unit, command-line, exploration and node tests

@@ -6,7 +6,7 @@
 namespace cca {
 
 /// A part of the algorithm that can be left out, one at a time, to see what it is worth: by nobody
-/// else than benchmarks/scripts/ablation.sh (docs/ablation.md).
+/// else than benchmarks (docs/ablation.md).
 enum class Part : std::uint8_t {
   kOrientation,      ///< mu_1; it counts as 1, as the other four do
   kOffset,           ///< mu_2

@@ -68,10 +68,11 @@ struct PointNoise {
 /// Along a straight wall the inverse range q is harmonic in the bearing,
 /// q(i-1) + q(i+1) = 2 cos(dphi) q(i), whatever the distance and the incidence. Hence
 /// e(i) = r(i)^2 (q(i-1) - 2 cos(dphi) q(i) + q(i+1)) is noise alone, of variance near 6 sigma^2,
-/// and sigma = 1.4826 median|e| / sqrt 6: corners and depth jumps are the minority that the median
-/// ignores. It is floored at the standard deviation of rounding to the scan's range quantum.
-/// The bearing noise is that of a beam somewhere within a quarter of its sector, dphi / 4 sqrt 12.
-/// Deviation: plain second differences of the ranges take the curvature r(phi) of a wall for noise.
+/// and sigma = 1.4826 median|e| / sqrt 6, over the half of the beams where the ranges slope least:
+/// corners and depth jumps are the minority that the median ignores. It is floored at the standard
+/// deviation of rounding to the scan's range quantum. The bearing noise is that of a beam somewhere
+/// within a quarter of its sector, dphi / 4 sqrt 12. Deviation: plain second differences of the
+/// ranges take the curvature r(phi) of a wall for noise.
 ///
 /// @return  sigma of at least kFinestSigma; that floor where no three neighbours have returns.
 /// Cost: O(N).

@@ -165,6 +165,8 @@ const NodeDescription kNode{
     "  autostart [true] false: waits for the service ~start\n"
     "  out [cca_map] folder for the map\n"
     "  save_at_end [true], exit_at_end [false]\n"
+    "  labels [] CSV of x, y and name: names of rooms\n"
+    "  record [] bag to write\n"
     "  map_frame [map], odom_frame [odom], base_frame [base_link], laser_frame [laser]\n"
     "  serve [false] shows the run in browsers, and obeys them; serve_port [8048] 0: any free;\n"
     "    serve_address [127.0.0.1] others: who asks must know a random token\n"
@@ -189,8 +191,7 @@ const NodeDescription kNode{
         laserModelNames() +
         "\n"
         "  scan_rate [10, or the laser's own] Hz\n"
-        "  seed [1] of all that is random\n"
-        "  record [] bag to write",
+        "  seed [1] of all that is random",
     {"mapping", "exploration", "robot", "laser", "odometry"}};
 
 }  // namespace

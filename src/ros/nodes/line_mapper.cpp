@@ -268,7 +268,9 @@ const NodeDescription kNode{
     "  config [] .ini file, read first\n"
     "  out [cca_map] folder for the map\n"
     "  save_at_end [false]\n"
-    "  record [] bag to write of scans, tf, odom and cmd_vel\n"
+    "  resume [] slam: folder of an earlier map to go on with\n"
+    "  labels [] CSV of x, y and name: names of rooms\n"
+    "  record [] bag to write of scans, tf, odom, cmd_vel and corrected_path\n"
     "  serve [false] shows the map in browsers as it grows; serve_port [8048] 0: any free;\n"
     "    serve_address [127.0.0.1] others: who asks must know a random token",
     {"mapping"}};
