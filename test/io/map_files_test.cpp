@@ -66,6 +66,39 @@ Scan wallAhead() {
   return scan;
 }
 
+/// Two kilometres of floor, known to the left of the middle and to the right of it from below only.
+TEST(MapPicture, ShowsAMapOfMoreCellsThanAnImageHolds) {
+  MapProducts products = corner();
+  OccupancyRaster grid;
+  grid.columns = 40000;
+  grid.rows = 40;
+  grid.resolution = 0.05;
+  grid.origin = {-1000.0, -1.0};
+  grid.values.assign(40000 * 40, Occupancy::kUnknown);
+  for (int row = 0; row < 40; ++row) {
+    for (int column = 0; column < (row < 20 ? 40000 : 20000); ++column)
+      grid.values[static_cast<std::size_t>(row * 40000 + column)] = Occupancy::kFree;
+  }
+  products.grid = grid;
+  PictureOptions options;
+  options.view = Eigen::AlignedBox2d(Eigen::Vector2d(-1000, -1), Eigen::Vector2d(1000, 1));
+  options.caption = options.trajectory = false;
+  options.longest_side = kLargestPicture;
+  const TemporaryFolder folder;
+  writePicture(folder / "map.png", products, options);
+  const mrpt::img::CImage picture = mrpt::img::CImage::LoadFromFile(folder / "map.png");
+  ASSERT_EQ(picture.getWidth(), static_cast<std::size_t>(kLargestPicture));
+  const auto brightness = [&](unsigned column, unsigned row) {
+    return picture.at<std::uint8_t>(column, row, 0);
+  };
+  const auto rows = static_cast<unsigned>(picture.getHeight());
+  ASSERT_GT(rows, 12U);
+  const int free = brightness(7000, rows - 3), unknown = brightness(12000, 2);
+  EXPECT_GT(free, unknown + 10);
+  EXPECT_NEAR(brightness(7000, 2), free, 2);
+  EXPECT_NEAR(brightness(12000, rows - 3), free, 2);
+}
+
 TEST(LinesCsv, ReadsBackWhatItWrote) {
   const auto lines = corner().lines;
   const auto back = readLinesCsv(linesCsv(lines), "lines.csv");

@@ -37,6 +37,8 @@ constexpr std::array<Colour, 6> kPalette{{{0.00, 0.33, 0.64},
                                           {0.55, 0.40, 0.05},
                                           {0.10, 0.53, 0.75}}};
 
+constexpr int kLargestImage = 32767;  // pixels a side, of an image of cairo's
+
 std::uint32_t rgb(const Colour& c) {
   const auto byte = [](double v) { return static_cast<std::uint32_t>(std::lround(255.0 * v)); };
   return byte(c.red) << 16 | byte(c.green) << 8 | byte(c.blue);
@@ -53,15 +55,19 @@ void drawBackground(Canvas& canvas, const OccupancyRaster& grid, const Box& view
   const int right = std::clamp(last.x + 1, 0, grid.columns);
   const int low = std::clamp(first.y, 0, grid.rows);
   const int high = std::clamp(last.y + 1, 0, grid.rows);
-  const int columns = right - left, rows = high - low;
-  if (columns <= 0 || rows <= 0) return;
+  if (right <= left || high <= low) return;
+  // Of so many cells, all that a sheet of kLargestPicture can show are still there.
+  const int step = (std::max(right - left, high - low) - 1) / kLargestImage + 1;
+  const int columns = (right - left - 1) / step + 1, rows = (high - low - 1) / step + 1;
   std::vector<std::uint32_t> argb(static_cast<std::size_t>(columns) *
                                   static_cast<std::size_t>(rows));
   std::size_t at = 0;
-  for (int row = high - 1; row >= low; --row) {
-    for (int column = left; column < right; ++column) argb[at++] = cellColour(grid[{column, row}]);
+  for (int row = high - 1; row >= low; row -= step) {
+    for (int column = left; column < right; column += step)
+      argb[at++] = cellColour(grid[{column, row}]);
   }
-  canvas.image(argb, columns, rows, grid.inMetres({left, low}), grid.resolution);
+  canvas.image(argb, columns, rows, grid.inMetres({left, high - rows * step}),
+               step * grid.resolution);
 }
 
 /// So lightly that cells and lines are seen as before.
