@@ -227,6 +227,11 @@ touch map/.map.part-999999999-0.png
 check "map over a killed one" "$program" map room.log --out map --force --quiet
 [ ! -e map/.map.part-999999999-0.png ] || { echo "FAILED: a killed run's file is still there"; failed=1; }
 
+# A laser that sees nothing.
+awk '{ print } NR == 1 { exit }' room.log >blind.log
+for k in 1 2 3; do echo "FLASER 4 0 0 0 0 $k 0 0 $k 0 0 $k host $k"; done >>blind.log
+refuses 3 "no line was found" "$program" map blind.log --pose odometry --out blind --quiet
+
 # Names that lead nowhere.
 ln -s loop loop
 refuses 1 "loop: cannot be made a folder" "$program" map room.log --out loop

@@ -27,6 +27,8 @@ TEST(LoadSegments, GoesByTheNamesOfTheHeader) {
   ASSERT_EQ(segments.size(), 1U);
   EXPECT_EQ(segments[0].start, Eigen::Vector2d(1.0, 2.0));
   EXPECT_EQ(segments[0].end, Eigen::Vector2d(3.0, 4.0));
+  std::ofstream(path) << "\xEF\xBB\xBFx1,y1,x2,y2\r\n1,2,3,4\r\n";  // of a spreadsheet
+  EXPECT_EQ(loadSegments(path).size(), 1U);
   std::ofstream(path) << "x1,y1,x2,y2\n";
   EXPECT_TRUE(loadSegments(path).empty());
   for (const char* text :

@@ -76,6 +76,11 @@ TEST_F(TextLog, CsvNamesItsBeamsByTheirAngles) {
   EXPECT_EQ(warnings_, "");
 }
 
+TEST_F(TextLog, CsvOfASpreadsheetBeginsWithAMark) {
+  EXPECT_EQ(read("\xEF\xBB\xBFstamp,-90,0,90\r\n1,2,2.5,3\r\n2,2,2.5,3\r\n").size(), 2U);
+  EXPECT_EQ(read("\xEF\xBB\xBF# angle_min=-1 angle_max=1\nr0,r1,r2\n2,2.5,3\n").size(), 1U);
+}
+
 TEST_F(TextLog, CsvAnglesAreRadiansUnlessOneIsBeyondATurn) {
   const auto scan = read("-1.5;-0.5;0.5;1.5\n1;1;1;1\n")[0].scan;
   EXPECT_NEAR(scan.angle_min, -1.5, 1e-12);

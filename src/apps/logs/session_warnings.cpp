@@ -66,6 +66,7 @@ std::string sessionWarnings(const MappingSession& session, const Slam* slam, Pos
 }
 
 std::string shortcomingOf(const MappingSession& session, const Slam* slam) {
+  if (session.lineMap().lines().empty()) return "no line was found";
   const std::string by_lines = contradiction(session.agreement());
   return by_lines.empty() && slam ? contradiction(slam->review().agreement) : by_lines;
 }

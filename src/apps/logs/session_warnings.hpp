@@ -23,7 +23,8 @@ std::string sessionWarnings(const MappingSession& session, const Slam* slam, Pos
                             std::size_t unguided, const std::string& resumed,
                             const Eigen::Vector2d& origin);
 
-/// Why the scans contradict the map, or visits of one place one another; empty where they agree.
+/// That there is no line, or why the scans contradict the map, or visits of one place one another;
+/// empty where all is well.
 std::string shortcomingOf(const MappingSession& session, const Slam* slam);
 
 }  // namespace cca::apps

@@ -13,6 +13,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include "io/files/byte_order_mark.hpp"
+
 namespace cca {
 namespace {
 
@@ -68,7 +70,7 @@ std::vector<Segment2> loadSegments(const std::string& csv_path) {
   bool is_first = true;
   std::string line;
   for (int number = 1; std::getline(file, line); ++number) {
-    const Row row = cellsOf(line);
+    const Row row = cellsOf(std::string(number == 1 ? withoutMark(line) : line));
     if (row.empty()) continue;
     const bool may_be_header = std::exchange(is_first, false);
     if (const auto segment = segmentOf(row, columns)) {

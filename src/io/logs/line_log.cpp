@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "cca_mrpt/sensing/missing_returns.hpp"
+#include "io/files/byte_order_mark.hpp"
 #include "io/files/gzip_lines.hpp"
 
 namespace cca {
@@ -57,8 +58,8 @@ class LineLog : public LogReader {
  private:
   /// The next scan; nothing at the end. @throws MalformedLine
   std::optional<LogRecord> read() {
-    while (const auto line = lines_.next()) {
-      ++number_;
+    while (auto line = lines_.next()) {
+      if (++number_ == 1) *line = withoutMark(*line);
       if (auto record = format_->parse(*line)) {
         missing_.judge(record->scan);
         return record;

@@ -3,6 +3,7 @@
 
 #include "carmen_line.hpp"
 #include "carmen_reader.hpp"
+#include "io/files/byte_order_mark.hpp"
 #include "text_formats.hpp"
 
 namespace cca {
@@ -19,7 +20,8 @@ bool looksLikeCarmen(std::string_view head) {
 
 }  // namespace
 
-std::unique_ptr<LogReader> openTextLog(const std::string& path, const std::string& head) {
+std::unique_ptr<LogReader> openTextLog(const std::string& path, const std::string& bytes) {
+  const std::string head(withoutMark(bytes));
   if (looksLikeCsm(head)) return openLineLog(path, csmLines());
   if (looksLikeCoreSlam(head)) return openLineLog(path, coreSlamLines());
   // A comment of a CSV looks like one of CARMEN's.

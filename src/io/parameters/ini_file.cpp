@@ -11,6 +11,8 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "io/files/byte_order_mark.hpp"
+
 namespace cca {
 namespace {
 
@@ -24,7 +26,7 @@ std::string readText(const std::string& path) {
   const std::string bytes{std::istreambuf_iterator<char>(file), {}};
   if (!file) throw std::runtime_error(path + ": cannot be read");
   std::string text;
-  for (std::size_t i = bytes.rfind("\xEF\xBB\xBF", 0) == 0 ? 3 : 0; i < bytes.size(); ++i) {
+  for (std::size_t i = bytes.size() - withoutMark(bytes).size(); i < bytes.size(); ++i) {
     const bool ends_with_the_next = bytes[i] == '\r' && bytes[i + 1] == '\n';
     if (!ends_with_the_next) text += bytes[i] == '\r' ? '\n' : bytes[i];
   }

@@ -3,18 +3,16 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
-#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
 #include <stdexcept>
 
+#include "io/files/byte_order_mark.hpp"
 #include "io/plans/plan_formats.hpp"
 
 namespace cca {
 namespace {
-
-constexpr const char* kByteOrderMark = "\xEF\xBB\xBF";  // spreadsheets begin their UTF-8 with it
 
 /// A field that other programs read back: in quotes, those inside doubled.
 std::string quoted(const std::string& text) {
@@ -82,8 +80,7 @@ RoomLabels readRoomLabels(const std::string& text, const std::string& file) {
   std::istringstream rows(text);
   std::string row;
   std::getline(rows, row);
-  if (row.rfind(kByteOrderMark, 0) == 0) row.erase(0, std::strlen(kByteOrderMark));
-  const std::vector<std::string> header = fieldsOf(row);
+  const std::vector<std::string> header = fieldsOf(std::string(withoutMark(row)));
   std::size_t column[3];
   const char* const names[3] = {"x", "y", "name"};
   for (int k = 0; k < 3; ++k) {
