@@ -76,6 +76,21 @@ TEST_F(TextLog, CsvNamesItsBeamsByTheirAngles) {
   EXPECT_EQ(warnings_, "");
 }
 
+TEST_F(TextLog, PosesInMillimetresAreWarnedOf) {
+  const auto drive = [](double unit) {
+    std::ostringstream text;
+    text << "time,x,y,theta,-90,0,90\n";
+    for (int k = 0; k < 10; ++k)
+      text << 0.1 * k << "," << unit * 0.04 * k << ",0,0,2.1," << 9.0 - 0.04 * k << ",3\n";
+    return text.str();
+  };
+  read(drive(1.0));
+  EXPECT_EQ(warnings_, "");
+  read(drive(1000.0));
+  EXPECT_THAT(warnings_, testing::HasSubstr("poses look like millimetres (the robot would drive at "
+                                            "400 m/s), and must be metres"));
+}
+
 TEST_F(TextLog, CsvOfASpreadsheetBeginsWithAMark) {
   EXPECT_EQ(read("\xEF\xBB\xBFstamp,-90,0,90\r\n1,2,2.5,3\r\n2,2,2.5,3\r\n").size(), 2U);
   EXPECT_EQ(read("\xEF\xBB\xBF# angle_min=-1 angle_max=1\nr0,r1,r2\n2,2.5,3\n").size(), 1U);

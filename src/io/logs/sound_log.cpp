@@ -12,6 +12,9 @@
 namespace cca {
 namespace {
 
+/// m/s; no robot with a 2-D laser drives so fast. In millimetres it does at a crawl, at 3 cm/s.
+constexpr double kFastest = 30.0;
+
 /// Of the laser at a record's place on the robot. @param record  that tells where the robot was.
 std::optional<SensorReading> readingOf(const LogRecord& record, const Pose2& T_robot_sensor) {
   const auto& pose = record.odometry ? record.odometry : record.corrected;
@@ -32,6 +35,7 @@ class SoundLog : public LogReader {
     if (!ahead_) return std::nullopt;
     LogRecord record = std::move(*ahead_);
     ahead_ = nextSound();
+    if (ahead_) judgeSpeed(record, *ahead_);
     if (record.motion.middle) return record;
     record.motion.middle = readingOf(record, record.T_robot_sensor);
     if (ahead_) record.motion.after = readingOf(*ahead_, record.T_robot_sensor);
@@ -43,12 +47,17 @@ class SoundLog : public LogReader {
     char long_ranges[120];
     std::snprintf(long_ranges, sizeof long_ranges,
                   "ranges look like millimetres (median %g), and must be metres", median_);
+    char far_poses[140];
+    std::snprintf(far_poses, sizeof far_poses,
+                  "poses look like millimetres (the robot would drive at %.0f m/s), and must be "
+                  "metres",
+                  speed_);
     for (const std::string& told :
          {toldOf(repeated_,
                  "equal to the one before, though the wheels went on (the driver hangs); the "
                  "first is number " +
                      std::to_string(first_repeated_)),
-          toldOf(long_, long_ranges)}) {
+          toldOf(long_, long_ranges), std::string(2 * fast_ > steps_ ? far_poses : "")}) {
       text += (text.empty() || told.empty() ? "" : "; ") + told;
     }
     return text;
@@ -56,6 +65,15 @@ class SoundLog : public LogReader {
   double progress() const override { return log_->progress(); }
 
  private:
+  void judgeSpeed(const LogRecord& before, const LogRecord& after) {
+    const auto from = readingOf(before, {}), to = readingOf(after, {});
+    if (!from || !to || !(to->time > from->time)) return;
+    const double way = (to->T_odom_sensor.position() - from->T_odom_sensor.position()).norm();
+    const double speed = way / (to->time - from->time);
+    ++steps_;
+    if (speed > kFastest && fast_++ == 0) speed_ = speed;
+  }
+
   /// The next scan that is evidence of anything.
   std::optional<LogRecord> nextSound() {
     while (auto record = log_->next()) {
@@ -72,7 +90,9 @@ class SoundLog : public LogReader {
   std::unique_ptr<LogReader> log_;
   std::map<LaserPlace, ScanFaults> faults_;
   std::size_t read_ = 0, repeated_ = 0, first_repeated_ = 0, long_ = 0;
-  double median_ = 0.0;  ///< m, of the first scan that looks like millimetres
+  std::size_t steps_ = 0, fast_ = 0;  ///< from scan to scan; those that no robot drives
+  double median_ = 0.0;               ///< m, of the first scan that looks like millimetres
+  double speed_ = 0.0;                ///< m/s, of the first step that no robot drives
   std::optional<LogRecord> ahead_;
 };
 
