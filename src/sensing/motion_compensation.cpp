@@ -63,24 +63,25 @@ Scan MotionCompensation::undistort(const Scan& scan, const SweepMotion& motion) 
   if (motion.before && follows(*motion.before, *now)) readings = {*motion.before, *now};
   if (motion.after && follows(*now, *motion.after)) readings.push_back(*motion.after);
   const double half = 0.5 * std::abs(duration_);
-  before_ = meanTwist(readings, now->time - half, now->time);
-  after_ = meanTwist(readings, now->time, now->time + half);
-  if (isBent(swept, before_, after_)) {
-    const Eigen::Vector2d way = half * (before_.linear + after_.linear);
+  const Twist before = meanTwist(readings, now->time - half, now->time);
+  const Twist after = meanTwist(readings, now->time, now->time + half);
+  if (isBent(swept, before, after)) {
+    const auto moved = [half](const Twist& twist) {
+      return Pose2{half * twist.linear.x(), half * twist.linear.y(), half * twist.angular};
+    };
     const bool is_clockwise = (duration_ < 0.0) != (scan.angle_increment < 0.0);
-    undone_ = {{way.x(), way.y(), half * (before_.angular + after_.angular)},
-               is_clockwise ? -1.0 : 1.0};
+    undone_ = {{moved(before), moved(after)}, is_clockwise ? -1.0 : 1.0};
     swept_ = swept;
   }
-  return cca::undistort(swept, before_, after_);
+  return cca::undistort(swept, before, after);
 }
 
-Scan MotionCompensation::undistortBy(const Pose2& motion) const {
-  const double duration = std::abs(swept_.sweep_duration);
-  const Eigen::Vector2d linear = (motion.position() - undone_->motion.position()) / duration;
-  const double angular = (motion.theta - undone_->motion.theta) / duration;
-  return cca::undistort(swept_, {before_.linear + linear, before_.angular + angular},
-                        {after_.linear + linear, after_.angular + angular});
+Scan MotionCompensation::undistortBy(const SweepHalves& motion) const {
+  const double half = 0.5 * std::abs(swept_.sweep_duration);
+  const auto twist = [half](const Pose2& way) {
+    return Twist{way.position() / half, way.theta / half};
+  };
+  return cca::undistort(swept_, twist(motion.before), twist(motion.after));
 }
 
 void MotionCompensation::amend(const Pose2& T_odom_sensor) {

@@ -35,8 +35,8 @@ class MotionCompensation {
   Scan undistort(const Scan& scan, const SweepMotion& motion);
   /// How the last scan was undistorted; nothing where there was nothing to undo.
   const std::optional<SweptScan>& undone() const { return undone_; }
-  /// The last scan by another motion, as far as the mean of the sweep goes. @pre  undone().
-  Scan undistortBy(const Pose2& motion) const;
+  /// The last scan by another motion. @pre  undone().
+  Scan undistortBy(const SweepHalves& motion) const;
   /// The middle of the last sweep as it has become known since.
   void amend(const Pose2& T_odom_sensor);
 
@@ -69,7 +69,6 @@ class MotionCompensation {
   double duration_ = 0.0;
   std::deque<Taken> taken_;  ///< the last three
   Scan swept_;               ///< the last one
-  Twist before_, after_;     ///< of the sensor, by which it was undistorted
   std::optional<SweptScan> undone_;
   std::deque<double> periods_;  ///< s, the last ones between scans
   SweepIdentification identification_;

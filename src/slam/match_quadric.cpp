@@ -210,19 +210,24 @@ MatchQuadric matchQuadric(const ScanSurface& query, const Pose2& T_map_query,
   return sumPairs(pairs, references, scale, [](std::size_t) { return 1.0F; });
 }
 
-SweepQuadric sweepQuadric(const PackedPoints& query, const std::vector<float>& times,
+SweepQuadric sweepQuadric(const PackedPoints& query, const SweepShares& shares,
                           const Pose2& T_map_query, const std::vector<PlacedSurface>& references,
                           const MatchScale& scale) {
   PairsOfAll pairs(query, T_map_query, references, scale.reach);
-  const MatchQuadric of_pose = sumPairs(pairs, references, scale, [](std::size_t) { return 1.0F; });
-  const MatchQuadric mixed =
-      sumPairs(pairs, references, scale, [&](std::size_t k) { return times[k]; });
-  const MatchQuadric of_motion =
-      sumPairs(pairs, references, scale, [&](std::size_t k) { return times[k] * times[k]; });
+  const std::vector<float> whole(query.size(), 1.0F);
+  const std::array<const std::vector<float>*, 3> parts{&whole, &shares.before, &shares.after};
   SweepQuadric quadric;
-  quadric.H << of_pose.H, mixed.H, mixed.H, of_motion.H;
-  quadric.g << of_pose.g, mixed.g;
-  quadric.paired = of_pose.paired;
+  for (Eigen::Index i = 0; i < 3; ++i) {
+    for (Eigen::Index j = i; j < 3; ++j) {
+      const std::vector<float>&a = *parts[static_cast<std::size_t>(i)],
+            &b = *parts[static_cast<std::size_t>(j)];
+      const MatchQuadric mixed =
+          sumPairs(pairs, references, scale, [&](std::size_t k) { return a[k] * b[k]; });
+      quadric.H.block<3, 3>(3 * i, 3 * j) = quadric.H.block<3, 3>(3 * j, 3 * i) = mixed.H;
+      if (i == 0) quadric.g.segment<3>(3 * j) = mixed.g;
+    }
+  }
+  quadric.paired = pairs.paired() * scale.stride;
   return quadric;
 }
 

@@ -25,6 +25,10 @@ constexpr double kRandomWay = 0.02;
 constexpr double kVaries = 0.04;
 /// m; of a shorter way a match says too little.
 constexpr double kLeastWay = 0.05;
+/// Sweeps that the first guess of the change within one stands for.
+constexpr double kBelieved = 10.0;
+/// Squared deviations: three. One wild step does not undo what hundred have taught.
+constexpr double kWild = 9.0;
 constexpr double kForgetAfter = 100.0;  // steps: half of what is known is of the last 70
 /// Of the first guess's variance: wheels that err by a hundredth of the way, and by a third.
 constexpr double kLeastScale = 0.02, kMostScale = 10.0;
@@ -80,8 +84,7 @@ void MotionPrior::learn(const std::optional<Pose2>& step, const MotionBelief& be
   const double shift_sq = 0.5 * (matched.position() - predicted.position()).squaredNorm();
   weight_ = std::min(weight_ + 1.0, kForgetAfter);
   const auto follow = [&](double& scale, double found_sq, double unit) {
-    // One wild step does not undo what hundred have taught.
-    const double seen = std::min(found_sq / unit, 9.0 * scale + 1.0);
+    const double seen = std::min(found_sq / unit, kWild * scale + 1.0);
     scale += (seen - scale) / (weight_ + 5.0);
     scale = std::clamp(scale, kLeastScale, kMostScale);
   };
@@ -97,6 +100,16 @@ void MotionPrior::learn(const std::optional<Pose2>& step, const MotionBelief& be
     turns_ += gain * (whole_turn_error - turns_.dot(x));
     turns_covariance_ -= gain * known.transpose();
   }
+}
+
+void MotionPrior::learnChange(double error, double expected) {
+  if (!(expected > 0.0)) return;
+  if (change_weight_ == 0.0) change_weight_ = kBelieved * expected;
+  change_weight_ += expected - change_weight_ / kForgetAfter;
+  const double bound = kWild * change_share_ + 1.0;
+  const double seen = std::clamp(error / expected, -bound, bound);
+  change_share_ += (seen - change_share_) * expected / change_weight_;
+  change_share_ = std::clamp(change_share_, kLeastScale, kMostScale);
 }
 
 void MotionPrior::learnWay(double way, double matched, double variance) {

@@ -41,6 +41,12 @@ class MotionPrior {
   /// @param variance  m^2, of that match.
   void learnWay(double way, double matched, double variance);
 
+  /// @param error, expected  see SweepFit, of the wheels' change of motion within a sweep.
+  void learnChange(double error, double expected);
+  /// The variance of the change of motion within a sweep that the wheels tell, as a share of what
+  /// predict() has of a step like it: wheels that err by slip, not by noise, tell it well.
+  double changeShare() const { return change_share_; }
+
   /// A way is longer than the wheels tell by this share of it, as predict() has it.
   double longer() const { return longer_; }
 
@@ -55,7 +61,8 @@ class MotionPrior {
   double longer_ = 0.0, longer_variance_ = kSystematic * kSystematic;
   double scale_ = 1.0,
          turn_scale_ = 1.0;  ///< of the random part's variances, over their first guess
-  double weight_ = 0.0;      ///< of what the scales have been learned from, bounded
+  double change_share_ = 1.0, change_weight_ = 0.0;
+  double weight_ = 0.0;  ///< of what the scales have been learned from, bounded
   Pose2 last_step_;
 };
 

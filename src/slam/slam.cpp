@@ -67,17 +67,18 @@ SlamPose Slam::State::step(const AnalysedScan& analysed, const Pose2& T_robot_se
   return poseNow(T_robot_sensor, tracked.found.agreement);
 }
 
-std::optional<Pose2> Slam::State::sweepMotion(const AnalysedScan& analysed, const SweptScan& sweep,
-                                              const Pose2& T_robot_sensor,
-                                              const std::optional<Pose2>& T_odom_robot) const {
+std::optional<SweepHalves> Slam::State::sweepMotion(const AnalysedScan& analysed,
+                                                    const SweptScan& sweep,
+                                                    const Pose2& T_robot_sensor,
+                                                    const std::optional<Pose2>& T_odom_robot) {
   if (!map_.hasDriven(frames_.graph) || starts_anywhere_) return std::nullopt;
   const auto odometry_step = odometry_.stepTo(sensorOf(T_odom_robot, T_robot_sensor));
   const PoseBelief prior = predict(motion_.predict(odometry_step));
-  const MotionBelief within =
-      motion_.predict(odometry_step ? std::optional(sweep.motion) : std::nullopt);
-  const SweepBelief belief{odometry_step ? within.T_before_after : sweep.motion,
-                           within.covariance.inverse()};
-  return tracker_.sweepMotion(frames_, scanSurface(analysed), sweep, prior, belief);
+  const SweepBelief belief = sweepBelief(sweep.motion, motion_, odometry_step.has_value());
+  const auto fit = tracker_.sweepMotion(frames_, scanSurface(analysed), sweep, prior, belief);
+  if (!fit) return std::nullopt;
+  if (odometry_step) motion_.learnChange(fit->change_error, fit->expected_change_error);
+  return fit->motion;
 }
 
 SlamPose Slam::State::beginPart(const Scan& scan, const Pose2& T_robot_sensor,
@@ -256,9 +257,9 @@ SlamPose Slam::step(const AnalysedScan& analysed, const Pose2& T_robot_sensor,
                     const std::optional<Pose2>& T_odom_robot) {
   return state_->step(analysed, T_robot_sensor, T_odom_robot);
 }
-std::optional<Pose2> Slam::sweepMotion(const AnalysedScan& analysed, const SweptScan& sweep,
-                                       const Pose2& T_robot_sensor,
-                                       const std::optional<Pose2>& T_odom_robot) const {
+std::optional<SweepHalves> Slam::sweepMotion(const AnalysedScan& analysed, const SweptScan& sweep,
+                                             const Pose2& T_robot_sensor,
+                                             const std::optional<Pose2>& T_odom_robot) {
   return state_->sweepMotion(analysed, sweep, T_robot_sensor, T_odom_robot);
 }
 SlamPose Slam::step(const Scan& scan, const Pose2& T_robot_sensor,

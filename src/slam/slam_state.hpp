@@ -27,9 +27,9 @@ class Slam::State {
   SlamPose step(const AnalysedScan& analysed, const Pose2& T_robot_sensor,
                 const std::optional<Pose2>& T_odom_robot);
 
-  std::optional<Pose2> sweepMotion(const AnalysedScan& analysed, const SweptScan& sweep,
-                                   const Pose2& T_robot_sensor,
-                                   const std::optional<Pose2>& T_odom_robot) const;
+  std::optional<SweepHalves> sweepMotion(const AnalysedScan& analysed, const SweptScan& sweep,
+                                         const Pose2& T_robot_sensor,
+                                         const std::optional<Pose2>& T_odom_robot);
 
   void remember(const SlamMemory& memory);
   void startAnywhere() { starts_anywhere_ = map_.hasDriven(frames_.graph); }

@@ -76,16 +76,21 @@ MatchQuadric matchQuadric(const ScanSurface& query, const Pose2& T_map_query,
 inline constexpr double kIndependent = 0.1;
 
 /// The same of a scan that was swept: of its pose in the middle of the sweep, and of the sensor's
-/// motion from the first beam to the last, beyond the one that was undone: (dx, dy, dtheta) each.
+/// motion in the halves before and after that, beyond the one that was undone: (dx, dy, dtheta)
+/// each.
 struct SweepQuadric {
-  Eigen::Matrix<double, 6, 6> H = Eigen::Matrix<double, 6, 6>::Zero();
-  Eigen::Matrix<double, 6, 1> g = Eigen::Matrix<double, 6, 1>::Zero();
+  Eigen::Matrix<double, 9, 9> H = Eigen::Matrix<double, 9, 9>::Zero();
+  Eigen::Matrix<double, 9, 1> g = Eigen::Matrix<double, 9, 1>::Zero();
   int paired = 0;
 };
 
-/// @param times  of each return, as a share of the sweep: -1/2 for the first one in time, 1/2 for
-///               the last.
-SweepQuadric sweepQuadric(const PackedPoints& query, const std::vector<float>& times,
+/// By how much of the motion in either half of a sweep each return was seen from elsewhere than
+/// from the middle. Constant acceleration.
+struct SweepShares {
+  std::vector<float> before, after;
+};
+
+SweepQuadric sweepQuadric(const PackedPoints& query, const SweepShares& shares,
                           const Pose2& T_map_query, const std::vector<PlacedSurface>& references,
                           const MatchScale& scale);
 

@@ -145,14 +145,14 @@ LocalMatch ScanTracker::localise(const KeyFrames& frames, const ScanSurface& sur
   return matchLocally(frames, surface, prior, start, kFirstMatchReach);
 }
 
-std::optional<Pose2> ScanTracker::sweepMotion(const KeyFrames& frames, const ScanSurface& surface,
-                                              const SweptScan& sweep, const PoseBelief& prior,
-                                              const SweepBelief& belief) const {
+std::optional<SweepFit> ScanTracker::sweepMotion(const KeyFrames& frames,
+                                                 const ScanSurface& surface, const SweptScan& sweep,
+                                                 const PoseBelief& prior,
+                                                 const SweepBelief& belief) const {
   const LocalMatch found =
       matchLocally(frames, surface, prior, prior.mean, std::min(kFirstMatchReach, spanOf(prior)));
   if (found.agreement < kGoodAgreement) return std::nullopt;
-  return matchSweep(surface, sweep.sense, sweep.motion, found.match.T_map_query, prior, belief,
-                    nearest(frames));
+  return matchSweep(surface, sweep, found.match.T_map_query, prior, belief, nearest(frames));
 }
 
 LocalMatch ScanTracker::searchAllDirections(const KeyFrames& frames, const ScanSurface& surface,

@@ -57,9 +57,9 @@ class ScanTracker {
 
   /// The motion within the sweep of a scan by what is around it; see matchSweep(). Nothing where
   /// the scan does not agree with its surroundings.
-  std::optional<Pose2> sweepMotion(const KeyFrames& frames, const ScanSurface& surface,
-                                   const SweptScan& sweep, const PoseBelief& prior,
-                                   const SweepBelief& belief) const;
+  std::optional<SweepFit> sweepMotion(const KeyFrames& frames, const ScanSurface& surface,
+                                      const SweptScan& sweep, const PoseBelief& prior,
+                                      const SweepBelief& belief) const;
 
   /// Matches a scan after a search in all directions, a metre around the prior's mean.
   LocalMatch searchAllDirections(const KeyFrames& frames, const ScanSurface& surface,

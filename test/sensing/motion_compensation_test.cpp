@@ -194,9 +194,13 @@ TEST(MotionCompensation, UndoesTheLastScanByAnotherMotion) {
     const Scan wrong = compensation.undistort(scanAt(0.1), {half(0.1)});
     ASSERT_TRUE(compensation.undone().has_value());
     EXPECT_EQ(compensation.undone()->sense, sweep > 0.0 ? 1.0 : -1.0);
-    EXPECT_NEAR(compensation.undone()->motion.x, 0.01, 1e-3);
-    EXPECT_NEAR(compensation.undone()->motion.theta, 0.05, 1e-9);
-    const Scan right = compensation.undistortBy({0.02, 0.0, 0.1});
+    for (const Pose2& way :
+         {compensation.undone()->motion.before, compensation.undone()->motion.after}) {
+      EXPECT_NEAR(way.x, 0.005, 5e-4);
+      EXPECT_NEAR(way.theta, 0.025, 1e-9);
+    }
+    const Pose2 way{0.01, 0.0, 0.05};
+    const Scan right = compensation.undistortBy({way, way});
     const Scan truth = room.sweep(kFullTurn, moveBy(twist, 0.1), twist, 0.0);
     double off_wrong = 0.0, off_right = 0.0;
     for (std::size_t k = 0; k < truth.size(); ++k) {

@@ -26,7 +26,7 @@ class SweepMatching : public testing::Test {
     world_.addBox(1.5, -2.0, 2.2, -1.4);
     prior_.mean = kMiddle;
     prior_.information.diagonal() << 1e3, 1e3, 1e3;
-    belief_.information.diagonal() << 1e4, 1e4, 1e3;
+    belief_.information.diagonal() << 2e4, 2e4, 2e3;
     reference_ = scanSurface(world_.scan(kBefore, kBeams, kFieldOfView, kNoise));
   }
 
@@ -46,15 +46,25 @@ class SweepMatching : public testing::Test {
     return scan;
   }
 
-  static Pose2 motionOf(const Twist& twist) {
-    return {twist.linear.x() * kSweep, twist.linear.y() * kSweep, twist.angular * kSweep};
+  /// By half of a sweep.
+  static Pose2 motionOf(const Twist& twist) { return moved(twist, 0.5 * kSweep); }
+  static Pose2 moved(const Twist& twist, double time) {
+    return {twist.linear.x() * time, twist.linear.y() * time, twist.angular * time};
+  }
+  static Pose2 wholeOf(const SweepHalves& motion) {
+    const auto& [before, after] = motion;
+    return {before.x + after.x, before.y + after.y, before.theta + after.theta};
   }
 
+  std::optional<SweepFit> matched(double duration, const Twist& before, const Twist& after) {
+    belief_.motion = {motionOf(before), motionOf(after)};
+    const ScanSurface query = scanSurface(undistort(swept(duration), before, after));
+    return matchSweep(query, {belief_.motion, duration > 0.0 ? 1.0 : -1.0}, kMiddle, prior_,
+                      belief_, {{&reference_, kBefore}});
+  }
   std::optional<Pose2> matched(double duration, const Twist& believed) {
-    belief_.step = motionOf(believed);
-    const ScanSurface query = scanSurface(undistort(swept(duration), believed));
-    return matchSweep(query, duration > 0.0 ? 1.0 : -1.0, belief_.step, kMiddle, prior_, belief_,
-                      {{&reference_, kBefore}});
+    const auto fit = matched(duration, believed, believed);
+    return fit ? std::optional(wholeOf(fit->motion)) : std::nullopt;
   }
 
   test::WalledWorld world_;
@@ -64,7 +74,7 @@ class SweepMatching : public testing::Test {
 };
 
 TEST_F(SweepMatching, FindsByHowMuchTheOdometryErrsWithinASweep) {
-  const double error = 0.016, truth = motionOf(kTrue).theta;  // rad
+  const double error = 0.016, truth = moved(kTrue, kSweep).theta;  // rad
   double left = 0.0;
   for (const double duration : {kSweep, -kSweep}) {
     for (const double turn : {-error, error}) {
@@ -76,10 +86,26 @@ TEST_F(SweepMatching, FindsByHowMuchTheOdometryErrsWithinASweep) {
   EXPECT_LT(left, 0.25 * error);
 }
 
+// Of a change that is none the robot's heading would be wrong: both walls of a corridor are seen
+// a quarter of the sweep from its middle.
+TEST_F(SweepMatching, FindsThatTheVelocityDidNotChangeAsTheOdometrySays) {
+  const double error = 0.008;  // rad, of either half
+  double left = 0.0;
+  for (const double turn : {-error, error}) {
+    const double rate = turn / (0.5 * kSweep);
+    const auto fit =
+        matched(kSweep, {kTrue.linear, kTrue.angular - rate}, {kTrue.linear, kTrue.angular + rate});
+    ASSERT_TRUE(fit.has_value());
+    left += 0.5 * std::abs(fit->motion.after.theta - fit->motion.before.theta);
+    EXPECT_GT(fit->change_error, 0.0);  // the wheels tell a change, and the scan does not show it
+  }
+  EXPECT_LT(left, 0.25 * 2.0 * error);
+}
+
 TEST_F(SweepMatching, LeavesWhatIsRightAsItIs) {
   const auto motion = matched(kSweep, kTrue);
   ASSERT_TRUE(motion.has_value());
-  const Pose2 truth = motionOf(kTrue);
+  const Pose2 truth = moved(kTrue, kSweep);
   EXPECT_NEAR(motion->theta, truth.theta, 0.002);
   EXPECT_LT((motion->position() - truth.position()).norm(), 0.005);
 }
@@ -89,13 +115,13 @@ TEST_F(SweepMatching, HoldsToWhatIsSureOfTheMotion) {
   const Twist wrong{kTrue.linear, kTrue.angular + 0.1};
   const auto motion = matched(kSweep, wrong);
   ASSERT_TRUE(motion.has_value());
-  EXPECT_NEAR(motion->theta, motionOf(wrong).theta, 1e-5);
+  EXPECT_NEAR(motion->theta, moved(wrong, kSweep).theta, 1e-5);
 }
 
 TEST_F(SweepMatching, SaysNothingOfAScanThatSeesNothingOfItsSurroundings) {
   const ScanSurface query = scanSurface(undistort(swept(kSweep), kTrue));
   const ScanSurface nothing = scanSurface(world_.scan({500.0, 0.0, 0.0}, kBeams, kFieldOfView));
-  EXPECT_FALSE(matchSweep(query, 1.0, {}, kMiddle, prior_, belief_, {{&nothing, kBefore}}));
+  EXPECT_FALSE(matchSweep(query, {}, kMiddle, prior_, belief_, {{&nothing, kBefore}}));
 }
 
 }  // namespace

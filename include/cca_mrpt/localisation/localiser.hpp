@@ -58,9 +58,9 @@ class Localiser {
   /// The sensor's motion within the sweep of the next scan, as the scan itself shows it, bent by
   /// what was undone wrongly; nothing where it shows nothing. To be asked before update(), to which
   /// the scan goes undone by that.
-  virtual std::optional<Pose2> sweepMotion(const Measurement& /*measurement*/,
-                                           const AnalysedScan& /*analysed*/,
-                                           const SweptScan& /*sweep*/) const {
+  virtual std::optional<SweepHalves> sweepMotion(const Measurement& /*measurement*/,
+                                                 const AnalysedScan& /*analysed*/,
+                                                 const SweptScan& /*sweep*/) {
     return std::nullopt;
   }
 

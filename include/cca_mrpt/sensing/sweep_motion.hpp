@@ -22,10 +22,15 @@ struct SweepMotion {
   std::optional<SensorReading> before = {}, after = {};
 };
 
+/// The motion of a sensor during a sweep, of constant acceleration: from the first beam in time to
+/// the middle and from there to the last, both in its frame in the middle and by its mean velocity.
+struct SweepHalves {
+  Pose2 before, after;
+};
+
 /// A sweep as it was undone.
 struct SweptScan {
-  /// Of the sensor from the first beam to the last in time, in its frame in the middle.
-  Pose2 motion;
+  SweepHalves motion;
   double sense = 1.0;  ///< 1: beams followed one another counter-clockwise; -1: clockwise
 };
 

@@ -78,9 +78,9 @@ class Slam {
   /// by what the scan, bent by the error of it, shows of what was seen before. To be asked before
   /// step(), to which the scan goes undone anew. Nothing where the scan says nothing of it. Cost:
   /// some four matches.
-  std::optional<Pose2> sweepMotion(const AnalysedScan& analysed, const SweptScan& sweep,
-                                   const Pose2& T_robot_sensor,
-                                   const std::optional<Pose2>& T_odom_robot) const;
+  std::optional<SweepHalves> sweepMotion(const AnalysedScan& analysed, const SweptScan& sweep,
+                                         const Pose2& T_robot_sensor,
+                                         const std::optional<Pose2>& T_odom_robot);
 
   /// Takes what was left by earlier drives, each a part of its own, before the first scan. The
   /// robot may be anywhere in it or elsewhere: its own drive is the map, until it has found itself

@@ -11,8 +11,9 @@ class SlamLocaliser : public Localiser {
  public:
   Estimate update(const Measurement& measurement, const AnalysedScan& analysed,
                   const PastScans& past) override;
-  std::optional<Pose2> sweepMotion(const Measurement& measurement, const AnalysedScan& analysed,
-                                   const SweptScan& sweep) const override {
+  std::optional<SweepHalves> sweepMotion(const Measurement& measurement,
+                                         const AnalysedScan& analysed,
+                                         const SweptScan& sweep) override {
     return slam_.sweepMotion(analysed, sweep, measurement.T_robot_sensor, measurement.T_odom_robot);
   }
   bool correctsPast() const override { return true; }
