@@ -30,11 +30,14 @@ std::vector<Passage> candidatePassages(const Structure& structure, const Raster<
   for (const Passage& gap : gapsBetweenEnds(structure.solid, ends)) gaps.push_back(gap);
   for (const Passage& gap : gapsAtCorners(structure.solid, lines)) gaps.push_back(gap);
   std::vector<Passage> narrow = narrowings(structure.solid, clearance, ends);
-  for (Passage& gap : gaps) gap = centred(structure.solid, gap);
-  for (Passage& gap : narrow) gap = centred(structure.solid, gap);
-  std::vector<Passage> passages = joinPassages(std::move(gaps), narrow);
-  for (Passage& passage : passages) passage.support = wallSupport(passage, lines);
-  return passages;
+  for (std::vector<Passage>* found : {&gaps, &narrow}) {
+    for (Passage& passage : *found) {
+      // In the line that it was found in: beside furniture its middle lies off the wall.
+      passage.support = wallSupport(passage, lines);
+      passage = centred(structure.solid, passage);
+    }
+  }
+  return joinPassages(std::move(gaps), narrow);
 }
 
 /// Cells that no beam reached, and no line crosses.

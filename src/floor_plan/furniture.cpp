@@ -28,7 +28,7 @@ bool isStep(const Polygon& outline, std::size_t k, const FurnitureTuning& tuning
     way[i] /= length[i];
   }
   if (std::min(length[0], length[4]) < tuning.wall_beside) return false;
-  if (length[2] < tuning.least_width || length[2] > tuning.most_width) return false;
+  if (length[2] > tuning.most_width) return false;
   for (const std::size_t side : {1, 3}) {
     if (length[side] < tuning.least_depth || length[side] > tuning.most_depth) return false;
     if (std::abs(way[side].dot(way[0])) > kSquareSide) return false;

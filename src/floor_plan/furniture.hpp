@@ -9,10 +9,10 @@ namespace cca {
 
 struct FurnitureTuning {
   double least_depth = 0.12, most_depth = 1.0;  ///< m; of what leans on a wall
-  double least_width = 0.25, most_width = 4.5;  ///< m along the wall
-  double wall_beside = 0.2;                     ///< m of the wall on both sides of it
-  double in_line = 0.08;                        ///< m from one of these to the other's line
-  double smallest = 0.0075;                     ///< m^2, three cells of 5 cm: less is noise
+  double most_width = 4.5;   ///< m along the wall; beyond it the wall itself stands forward
+  double wall_beside = 0.2;  ///< m of the wall on both sides of it
+  double in_line = 0.08;     ///< m from one of these to the other's line
+  double smallest = 0.0075;  ///< m^2, three cells of 5 cm: less is noise
 };
 
 /// What stands free: the outlines of the islands of the mask, straightened.

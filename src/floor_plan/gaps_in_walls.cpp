@@ -4,13 +4,15 @@
 #include <optional>
 
 #include "floor_plan/passages.hpp"
+#include "floor_plan/walls.hpp"
 #include "geometry/cross.hpp"
 
 namespace cca {
 namespace {
 
 constexpr double kStep = 0.25;  // cells: a ray misses no more than the corner of one
-constexpr double kWall = 0.6;
+// m; a line of no more than a wall's thickness may be the end of one, and lead nowhere.
+constexpr double kWall = PlanWallTuning{}.thickest;
 
 /// Follows a ray from inside a wall's end over open cells to the next solid one.
 std::optional<Passage> openStretch(const Mask& solid, const Eigen::Vector2d& from,
@@ -77,6 +79,7 @@ std::vector<Passage> joinPassages(std::vector<Passage> gaps, const std::vector<P
   });
   std::vector<Passage> kept;
   for (const Passage& gap : gaps) {
+    if (gap.width() < tuning.narrowest) continue;  // it may be, in the middle of the wall
     const Eigen::Vector2d way = (gap.b - gap.a).normalized();
     const bool is_known = std::any_of(kept.begin(), kept.end(), [&](const Passage& other) {
       const Eigen::Vector2d other_way = (other.b - other.a).normalized();

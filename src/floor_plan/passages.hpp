@@ -73,7 +73,8 @@ Passage centred(const Mask& solid, const Passage& passage, const PassageTuning& 
 std::vector<Passage> narrowings(const Mask& solid, const Raster<float>& clearance,
                                 const std::vector<WallEnd>& ends, const PassageTuning& tuning = {});
 
-/// Gaps, and those narrowings that are none of them. Cost: O(n^2).
+/// Gaps, and those narrowings that are none of them; what is below `narrowest` is left out.
+/// Cost: O(n^2).
 std::vector<Passage> joinPassages(std::vector<Passage> gaps, const std::vector<Passage>& narrowings,
                                   const PassageTuning& tuning = {});
 

@@ -12,7 +12,8 @@
 namespace cca {
 namespace {
 
-constexpr double kNiche = 1.001;  // excess
+// Excess, just above 1: a niche joins after all that is too wide.
+constexpr double kNiche = 1.001;
 
 constexpr double kNearest = 0.35,
                  kFarthest = 1.0;  // m from a passage: past the wall, before the next

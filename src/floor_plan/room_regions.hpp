@@ -31,7 +31,8 @@ struct RoomTuning {
   double widest_front = 0.6;      ///< the same between two wall ends
   double shallowest_mouth = 0.6;  ///< its width over the depth of the other side: no crossing
   double mouth_area = 2.5;        ///< squares of its width that a corridor has at least: no niche
-  double smallest_room = 1.0;     ///< m^2
+  /// m^2; a toilet has .9 by 1.2 m at least, of which the cells on its walls take half a cell each.
+  double smallest_room = 1.0;
   double least_clearance = 0.15;  ///< m to the next wall; with less a gap is none to pass through
 };
 
