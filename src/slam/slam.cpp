@@ -108,14 +108,17 @@ Slam::State::Tracked Slam::State::track(const ScanSurface& surface,
   const PoseBelief prior = predict(motion);
   const Tracked ahead{odometry_step, motion, prior, tracker_.localise(frames_, surface, prior)};
   if (ahead.found.agreement >= kGoodAgreement || !odometry_step || jump_.isOpen()) return ahead;
-  // Some encoders count alike forwards and backwards.
+  // Some encoders count alike forwards and backwards. Odometry that begins anew jumps: what it says
+  // of this step is nothing.
   const Pose2 reversed{-odometry_step->x, -odometry_step->y, odometry_step->theta};
-  const MotionBelief motion_back = motion_.predict(reversed);
-  const PoseBelief behind = predict(motion_back);
-  const LocalMatch found =
-      tracker_.matchLocally(frames_, surface, behind, behind.mean, kFirstMatchReach);
-  if (!monitor_.isClearlyBetter(found, ahead.found)) return ahead;
-  return {reversed, motion_back, behind, found};
+  for (const std::optional<Pose2>& other : {std::optional(reversed), std::optional<Pose2>()}) {
+    const MotionBelief motion_so = motion_.predict(other);
+    const PoseBelief there = predict(motion_so);
+    const LocalMatch found =
+        tracker_.matchLocally(frames_, surface, there, there.mean, kFirstMatchReach);
+    if (monitor_.isClearlyBetter(found, ahead.found)) return {other, motion_so, there, found};
+  }
+  return ahead;
 }
 
 /// The robot has been at the other pose since the first scan that suggested it.
