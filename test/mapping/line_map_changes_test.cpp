@@ -45,7 +45,7 @@ TEST(LineMap, NothingIsLeftOfMoversAndNoWallIsLost) {
   EXPECT_GT(recall(room(), map.lines(), 0.02), 0.99);
 }
 
-/// A partition that returns no beam parts a room; the robot is on one side of it, then on the other.
+/// A partition that returns no beam parts a room; the robot is on one side, then on the other.
 TEST(LineMap, WhatStandsBehindADarkSurfaceStays) {
   const SegmentWorld lit = room();
   SegmentWorld dark;
