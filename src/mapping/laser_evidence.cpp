@@ -57,8 +57,8 @@ Rays raysOf(const Scan& scan, const std::vector<Eigen::Vector2d>& beams, const M
   Rays rays{scan.T_map_sensor.position(), std::max(kClear, kGates * noise.lateralSigma()), {}};
   rays.reach.reserve(scan.size());
   for (std::size_t beam = 0; beam < scan.size(); ++beam) {
-    const double reach = scan.freeRange(beam);
-    const bool tells = reach > 2.0 * rays.clear && beams[beam].allFinite();
+    const double reach = scan.ranges[beam];
+    const bool tells = isReturn(reach) && reach > 2.0 * rays.clear && beams[beam].allFinite();
     rays.reach.push_back(tells ? std::min(reach, kLongestRay) : 0.0);
   }
   return rays;

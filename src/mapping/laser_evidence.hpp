@@ -39,8 +39,8 @@ void depositReturns(const Scan& scan, const std::vector<Eigen::Vector2d>& beams,
                     std::vector<Eigen::Vector2d>* loose = nullptr);
 
 /// Counts each ray against the bins of the walls that it went clearly through: further behind them
-/// than noise and pose error could feign. A ray without return counts up to
-/// scan.free_range_without_return.
+/// than noise and pose error could feign. A ray without return counts against no wall: before a
+/// dark surface it reads as into the open, and would refute all that stands behind that.
 ///
 /// Cost: O(beams + cells of the rectangle that the rays span + beams towards each wall in them),
 /// whatever the size of the map.

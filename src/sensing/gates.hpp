@@ -19,4 +19,7 @@ constexpr double kGrazing = 4.0 * M_PI / 180.0;
 /// Deviation of what lies anywhere within a width, as a share of it: 1 / sqrt(12).
 constexpr double kUniformToSigma = 0.28867513459481287;
 
+/// m/s, rad/s; twice what indoor robots do. What is faster has not driven: a pose has leapt.
+constexpr double kFastest = 3.0, kFastestTurn = 6.0;
+
 }  // namespace cca

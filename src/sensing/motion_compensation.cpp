@@ -5,6 +5,8 @@
 #include <cmath>
 #include <vector>
 
+#include "sensing/gates.hpp"
+
 namespace cca {
 namespace {
 
@@ -17,12 +19,16 @@ constexpr double kLongest = 1.1;    // of the period: above, likewise; periods w
 constexpr double kSlowestLaser = 1.0;  // s; no sweep lasts longer
 constexpr double kOther = 0.1;  // of a duration: another one is another question to identification
 
-bool follows(const SensorReading& before, const SensorReading& after) {
-  return after.time > before.time && after.time - before.time <= kLongestGap;
-}
-
 Twist twistBetween(const SensorReading& before, const SensorReading& after) {
   return twistBetween(before.T_odom_sensor, after.T_odom_sensor, after.time - before.time);
+}
+
+/// Whether the sensor has moved from one to the other: soon, and as a robot drives. Odometry that
+/// begins anew leaps.
+bool follows(const SensorReading& before, const SensorReading& after) {
+  if (!(after.time > before.time) || after.time - before.time > kLongestGap) return false;
+  const Twist twist = twistBetween(before, after);
+  return twist.linear.norm() < kFastest && std::abs(twist.angular) < kFastestTurn;
 }
 
 /// The mean twist from one time to another, by the last three readings: constant acceleration; none

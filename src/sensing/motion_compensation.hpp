@@ -21,7 +21,8 @@ namespace cca {
 ///
 /// The motion is that of the odometry, of constant acceleration through readings before, in and
 /// after the middle of the sweep. Where nobody tells those around, it goes on as at the last scans.
-/// Without odometry, or where readings are more than half a second apart, nothing is undone.
+/// Without odometry, or where readings are more than half a second apart or further than a robot
+/// can have driven, nothing is undone.
 class MotionCompensation {
  public:
   MotionCompensation() = default;

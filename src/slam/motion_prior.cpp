@@ -113,13 +113,13 @@ void MotionPrior::learnChange(double error, double expected) {
 }
 
 void MotionPrior::learnWay(double way, double matched, double variance) {
+  if (way < kLeastWay || std::abs(matched - way) > kSlip * way) return;
   const double error = matched - way * (1.0 + longer_);
-  const double random = squared(kRandomWay * way) + variance;
   const double systematic = way * way * longer_variance_;
-  if (way < kLeastWay || std::abs(matched - way) > kSlip * way ||
-      squared(error) > 9.0 * (systematic + random)) {
-    return;
-  }
+  double random = squared(kRandomWay * way) + variance;
+  // What errs by more than three sigmas counts the less, as by Huber. Did it not count, a first way
+  // that erred would never be unlearned: all the right ones would contradict it.
+  random *= std::max(1.0, squared(error) / (9.0 * (systematic + random)));
   const double gain = way * longer_variance_ / (systematic + random);
   longer_ += gain * error;
   longer_variance_ -= gain * way * longer_variance_;

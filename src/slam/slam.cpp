@@ -109,14 +109,27 @@ Slam::State::Tracked Slam::State::track(const ScanSurface& surface,
   const PoseBelief prior = predict(motion);
   const Tracked ahead{odometry_step, motion, prior, tracker_.localise(frames_, surface, prior)};
   if (ahead.found.agreement >= kGoodAgreement || !odometry_step || jump_.isOpen()) return ahead;
+  const auto is_better = [&](const Tracked& other) {
+    return monitor_.isClearlyBetter(other.found, ahead.found);
+  };
   // Some encoders count alike forwards and backwards.
   const Pose2 reversed{-odometry_step->x, -odometry_step->y, odometry_step->theta};
-  const MotionBelief motion_back = motion_.predict(reversed);
-  const PoseBelief behind = predict(motion_back);
-  const LocalMatch found =
-      tracker_.matchLocally(frames_, surface, behind, behind.mean, kFirstMatchReach);
-  if (!monitor_.isClearlyBetter(found, ahead.found)) return ahead;
-  return {reversed, motion_back, behind, found};
+  if (const Tracked behind = trackNear(surface, reversed); is_better(behind)) return behind;
+  // Odometry that begins anew leaps further than a search around it reaches.
+  const Pose2 leap = motion.T_before_after.inverse() * motion_.predict({}).T_before_after;
+  if (leap.position().norm() > kWidestWindowHere || std::abs(leap.theta) > kWidestTurn) {
+    if (const Tracked goes_on = trackNear(surface, {}); is_better(goes_on)) return goes_on;
+  }
+  return ahead;
+}
+
+/// By another step than the wheels tell, or none, without a search.
+Slam::State::Tracked Slam::State::trackNear(const ScanSurface& surface,
+                                            const std::optional<Pose2>& step) const {
+  const MotionBelief motion = motion_.predict(step);
+  const PoseBelief prior = predict(motion);
+  return {step, motion, prior,
+          tracker_.matchLocally(frames_, surface, prior, prior.mean, kFirstMatchReach)};
 }
 
 /// The robot has been at the other pose since the first scan that suggested it.

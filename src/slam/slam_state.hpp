@@ -69,6 +69,7 @@ class Slam::State {
   SlamPose beginPart(const Scan& scan, const Pose2& T_robot_sensor, ScanSurface surface);
   PoseBelief predict(const MotionBelief& motion) const;
   Tracked track(const ScanSurface& surface, const std::optional<Pose2>& odometry_step) const;
+  Tracked trackNear(const ScanSurface& surface, const std::optional<Pose2>& step) const;
   void jump();
   bool takePose(const Tracked& tracked, std::size_t returns);
   int newFrame(const Scan& scan, const Pose2& T_robot_sensor, ScanSurface surface);

@@ -23,8 +23,6 @@ constexpr double kCellAllRound = 0.1;
 /// Coarsest cells of 0.4 m for a window of one metre. All round of 1.6 m, which nearly spans the
 /// window: one bound a direction.
 constexpr int kSearchLevels = 3, kLevelsAllRound = 4;
-/// m, rad; a wider window finds the next door as well, which is for loop closing to tell apart.
-constexpr double kWidestWindowHere = 1.0, kWidestTurn = 1.0;
 /// m, rad; a narrower window is what a match reaches by itself.
 constexpr double kLeastSearch = 0.2, kLeastTurn = 0.2;
 /// Share of the prior's information that is left where it is not to decide: a scan that sees

@@ -21,6 +21,10 @@ struct LocalMatch {
   double in_common = 0.0;  ///< returns of which these key frames say something
 };
 
+/// m, rad; of a search around a prediction. A wider one finds the next door as well, which is for
+/// loop closing to tell apart.
+inline constexpr double kWidestWindowHere = 1.0, kWidestTurn = 1.0;
+
 /// Agreement above which Gauss-Newton from the prediction suffices; no correlative search.
 inline constexpr double kGoodAgreement = 0.9;
 

@@ -45,6 +45,28 @@ TEST(LineMap, NothingIsLeftOfMoversAndNoWallIsLost) {
   EXPECT_GT(recall(room(), map.lines(), 0.02), 0.99);
 }
 
+/// A partition that returns no beam parts a room; the robot is on one side, then on the other.
+TEST(LineMap, WhatStandsBehindADarkSurfaceStays) {
+  const SegmentWorld lit = room();
+  SegmentWorld dark;
+  dark.walls.push_back({{0.0, -3.0}, {0.0, 3.0}});
+  LineMap map;
+  std::mt19937 random(6);
+  for (int i = 0; i < 120; ++i) {
+    const Pose2 pose{(i < 40 ? 2.0 : -2.0) + 0.01 * i, -0.5, 0.1 * i};
+    Scan scan = lit.scan(pose, 0.01, random);
+    for (std::size_t beam = 0; beam < scan.size(); ++beam) {
+      const double angle = pose.theta + scan.bearing(beam);
+      const Eigen::Vector2d ray(std::cos(angle), std::sin(angle));
+      if (std::isfinite(dark.range(pose.position(), ray, scan.ranges[beam]))) {
+        scan.ranges[beam] = std::numeric_limits<double>::infinity();
+      }
+    }
+    map.insert(scan);
+  }
+  EXPECT_GT(recall(lit, map.lines(), 0.03), 0.99);
+}
+
 /// A robot sees free floor for thirty scans, and a crate on it for ten.
 TEST(LineMap, InHindsightRaysRefuteWhatCameAfterThem) {
   SegmentWorld with_crate = room();

@@ -212,6 +212,22 @@ TEST(MotionCompensation, UndoesTheLastScanByAnotherMotion) {
   }
 }
 
+TEST(MotionCompensation, OdometryThatBeginsAnewIsNoMotion) {
+  const SweptRoom room;
+  MotionCompensation compensation(0.1);
+  const Twist twist{{0.2, 0.0}, 0.0};
+  for (int k = 0; k < 8; ++k) {
+    const bool has_begun_anew = k >= 4;
+    const Pose2 T_odom_sensor{has_begun_anew ? 0.02 * k : 9.0 + 0.02 * k, 0.0, 0.0};
+    const Scan scan = room.sweep(kFullTurn, moveBy(twist, 0.1 * k), twist, 0.1);
+    const Scan still = compensation.undistort(scan, {SensorReading{T_odom_sensor, 0.1 * k}});
+    if (k == 4) {
+      EXPECT_EQ(still.ranges, scan.ranges);
+    }
+    EXPECT_EQ(compensation.undone().has_value(), k % 4 != 0) << k;
+  }
+}
+
 TEST(MotionCompensation, ARobotThatStandsLeavesNothingToUndo) {
   const SweptRoom room;
   MotionCompensation compensation(0.1);

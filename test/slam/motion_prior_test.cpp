@@ -33,6 +33,14 @@ TEST(MotionPrior, LearnsThatTheWheelsTellTooLongAWay) {
   EXPECT_NEAR(prior.predict(Pose2{told, 0.0, 0.0}).T_before_after.x, way, 0.002);
 }
 
+TEST(MotionPrior, UnlearnsAFirstWayThatErred) {
+  MotionPrior prior;
+  const double told_late = 0.476, driven = 0.552;  // m, of a robot that speeds up
+  prior.learnWay(told_late, driven, 0.002 * 0.002);
+  for (int k = 0; k < 20; ++k) prior.learnWay(0.56, 0.56, 0.003 * 0.003);
+  EXPECT_NEAR(prior.longer(), 0.0, 0.01);
+}
+
 TEST(MotionPrior, LearnsNothingOfAWayThatIsHardlyKnown) {
   MotionPrior prior;
   for (int k = 0; k < 20; ++k) prior.learnWay(0.5, 0.45, 1.0);

@@ -391,6 +391,20 @@ TEST(Slam, WheelsThatCountAlikeForwardsAndBackwardsAreSeenThrough) {
   EXPECT_LT(worstError(slam.trajectory(), truth), 0.2);
 }
 
+TEST(Slam, OdometryThatBeginsAnewMovesNothing) {
+  Drive drive;
+  for (const std::size_t restart : {drive.way.size() / 3, drive.way.size() / 2}) {
+    EXPECT_GT(drive.wheels[restart - 1].position().norm(), 5.0) << "else nothing is shown";
+    Slam slam(drive.way.front());
+    for (std::size_t k = 0; k < drive.way.size(); ++k) {
+      const Pose2 begun = k < restart ? Pose2{} : drive.wheels[restart];
+      slam.step(drive.scans[k], {}, begun.inverse() * drive.wheels[k]);
+    }
+    slam.finish();
+    EXPECT_LT(worstError(slam.trajectory(), drive.way), 0.15) << restart;
+  }
+}
+
 /// Goes on with the part of a drive from `first` on, on wheels that know nothing of where that is.
 void goOn(Slam& slam, const Drive& drive, std::size_t first) {
   for (std::size_t k = first; k < drive.way.size(); ++k) {

@@ -3,13 +3,14 @@
 
 #include <cmath>
 
+#include "sensing/gates.hpp"
+
 namespace cca {
 namespace {
 
-// Twice what indoor robots do, plus what a localisation corrects in one step.
-constexpr double kFastest = 3.0, kFastestTurn = 6.0;        // m/s, rad/s
-constexpr double kCorrection = 0.5, kCorrectionTurn = 0.5;  // m, rad
-constexpr double kSettled = 1.0;                            // s
+constexpr double kCorrection = 0.5,
+                 kCorrectionTurn = 0.5;  // m, rad; what a localisation corrects in one step
+constexpr double kSettled = 1.0;         // s
 
 }  // namespace
 
