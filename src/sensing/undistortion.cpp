@@ -78,7 +78,7 @@ bool areOfOneSurface(const Moved& here, const Moved& beside, const Moved& beyond
 }
 
 /// m, the range at a bearing of the surface that beam i saw: between it and the beam on that side,
-/// or on from the beam on the other one.
+/// or on from two beams, which are close to each other where the sweep overlaps itself.
 double rangeBeside(const std::vector<Moved>& moved, std::size_t i, double bearing, bool closed) {
   const std::size_t n = moved.size();
   const Moved& here = moved[i];
@@ -93,7 +93,8 @@ double rangeBeside(const std::vector<Moved>& moved, std::size_t i, double bearin
   if (angle == 0.0) return here.range;
   const double range =
       1.0 / (1.0 / here.range + (1.0 / other->range - 1.0 / here.range) / angle * off);
-  if (other == away && std::abs(range - here.range) > kBeyond) return kInvalid;
+  const bool is_between = other == toward && off / angle >= 0.0 && off / angle <= 1.0;
+  if (!is_between && !(std::abs(range - here.range) <= kBeyond)) return kInvalid;
   return range;
 }
 

@@ -20,6 +20,18 @@ Scan scanOf(double field_of_view_deg, double heading_deg) {
   return scan;
 }
 
+// All views would promise what lies between 3 and 20 m.
+TEST(WorldModel, DoesNotTakeOneFarReturnForTheRangeOfTheLaser) {
+  WorldModel world;
+  Scan scan = scanOf(360.0, 0.0);
+  scan.ranges[70] = 20.0;
+  world.observe(scan, {0.0, 0.0});
+  EXPECT_DOUBLE_EQ(world.laserRange(), 3.0);
+  scan.ranges[71] = 19.0;
+  world.observe(scan, {0.0, 0.0});
+  EXPECT_DOUBLE_EQ(world.laserRange(), 19.0);
+}
+
 TEST(ScannedPlaces, AFullTurnIsAllDirectionsAtOnce) {
   ScannedPlaces places;
   places.add({5, 5}, scanOf(360.0, 17.0));

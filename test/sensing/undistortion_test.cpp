@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <random>
 
 #include "swept_room.hpp"
 
@@ -154,6 +155,29 @@ TEST(Undistortion, MovesNoReturnFarBeyondWhereItsSurfaceEnds) {
           still.ranges[i] * Eigen::Vector2d(std::cos(still.bearing(i)), std::sin(still.bearing(i)));
       if (p.x() > 9.5) continue;
       EXPECT_LT(p.norm(), std::hypot(7.12, 1.0) + 0.1) << turning << " " << i;
+    }
+  }
+}
+
+// While it turns by the spacing of its beams the last one comes to lie on the first one, and noise
+// decides in which direction the two point.
+TEST(Undistortion, ShowsNoReturnOffTheWallsWhereTheSweepMeetsItself) {
+  constexpr double kSpacing = 0.8 * M_PI / 180.0, kSweep = 0.1;
+  const SweptRoom room;
+  std::mt19937 random(1);
+  for (const double sense : {-1.0, 1.0}) {
+    for (int k = -200; k <= 200; ++k) {
+      const Twist twist{{0.0, 0.0}, sense * kSpacing / kSweep * (1.0 + 1e-4 * k)};
+      Scan scan = room.sweep({-M_PI, kSpacing, 450}, {}, twist, kSweep);
+      for (double& range : scan.ranges) range += 0.03 * (random() / 4294967295.0 - 0.5);
+      const Scan still = undistort(scan, twist);
+      for (std::size_t i = 0; i < still.size(); ++i) {
+        if (!isReturn(still.ranges[i])) continue;
+        const double bearing = still.bearing(i);
+        const Eigen::Vector2d p =
+            still.ranges[i] * Eigen::Vector2d(std::cos(bearing), std::sin(bearing));
+        EXPECT_LT(room.distance(p), 0.15) << "beam " << i << ", rate " << k;
+      }
     }
   }
 }

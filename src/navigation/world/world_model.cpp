@@ -30,9 +30,11 @@ void WorldModel::observe(const Scan& scan, const Eigen::Vector2d& robot_map, dou
 }
 
 void WorldModel::learnRange(const Scan& scan) {
-  for (std::size_t beam = 0; beam < scan.size(); ++beam) {
-    const double seen = scan.freeRange(beam);
-    if (isReturn(seen)) laser_range_ = std::max(laser_range_, seen);
+  for (std::size_t beam = 0; beam + 1 < scan.size(); ++beam) {
+    const double seen = scan.freeRange(beam), beside = scan.freeRange(beam + 1);
+    if (isReturn(seen) && isReturn(beside)) {
+      laser_range_ = std::max(laser_range_, std::min(seen, beside));
+    }
   }
 }
 

@@ -74,7 +74,8 @@ class WorldModel {
   const ScannedPlaces& scanned() const { return scanned_; }
   /// m, map frame: where the robot was at the last scan.
   const std::optional<Eigen::Vector2d>& lastPlace() const { return last_place_; }
-  /// m, the longest that a beam was seen to be free; 1 at least.
+  /// m, the longest that two neighbouring beams were seen to be free; 1 at least. A false return
+  /// beyond the range of the laser lies alone.
   double laserRange() const { return laser_range_; }
 
  private:
