@@ -91,6 +91,21 @@ TEST_F(TextLog, PosesInMillimetresAreWarnedOf) {
                                             "400 m/s), and must be metres"));
 }
 
+TEST_F(TextLog, OdometryThatScansHaveHeldIsAsOfEachScan) {
+  std::ostringstream text;
+  text << "time,x,y,theta,-90,0,90\n";
+  for (int k = 0; k < 80; ++k) {
+    const int shown = k / 4 * 4;
+    text << 0.025 * k << "," << 0.01 * shown << ",0,0,2.1," << 9.0 - 0.01 * k << ",3\n";
+  }
+  const auto records = read(text.str());
+  ASSERT_EQ(records.size(), 80U);
+  for (std::size_t k = 0; k < 76; ++k) {
+    EXPECT_NEAR(records[k].odometry->x, 0.01 * static_cast<double>(k), 1e-9);
+    EXPECT_NEAR(records[k].motion.middle->T_odom_sensor.x, 0.01 * static_cast<double>(k), 1e-9);
+  }
+}
+
 TEST_F(TextLog, CsvOfASpreadsheetBeginsWithAMark) {
   EXPECT_EQ(read("\xEF\xBB\xBFstamp,-90,0,90\r\n1,2,2.5,3\r\n2,2,2.5,3\r\n").size(), 2U);
   EXPECT_EQ(read("\xEF\xBB\xBF# angle_min=-1 angle_max=1\nr0,r1,r2\n2,2.5,3\n").size(), 1U);

@@ -11,6 +11,7 @@
 #include "carmen_line.hpp"
 #include "cca_mrpt/sensing/missing_returns.hpp"
 #include "io/files/gzip_lines.hpp"
+#include "io/poses/pose_between.hpp"
 
 namespace cca {
 namespace {
@@ -235,8 +236,7 @@ class CarmenReader : public LogReader {
       return from;
     const double t =
         std::clamp((record.time - *earlier_->time) / (*later_->time - *earlier_->time), 0.0, 1.0);
-    return {from.x + t * (to.x - from.x), from.y + t * (to.y - from.y),
-            wrapAngle(from.theta + t * wrapAngle(to.theta - from.theta))};
+    return poseBetween(from, to, t);
   }
 
   LogRecord unplaced(const CarmenScan& logged) const {

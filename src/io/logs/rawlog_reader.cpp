@@ -57,11 +57,6 @@ std::optional<double> actionTime(const CActionCollection& actions) {
   return actions.size() > 0 ? seconds((*actions.begin())->timestamp) : std::nullopt;
 }
 
-Pose2 interpolate(const Pose2& a, const Pose2& b, double t) {
-  return {a.x + t * (b.x - a.x), a.y + t * (b.y - a.y),
-          wrapAngle(a.theta + t * wrapAngle(b.theta - a.theta))};
-}
-
 class RawlogReader : public LogReader {
  public:
   explicit RawlogReader(const std::string& path) : objects_(path) {}
@@ -161,7 +156,7 @@ class RawlogReader : public LogReader {
   Pose2 odometryAt(const LogRecord& record) const {
     if (!earlier_ || !record.has_time || !(later_->time > earlier_->time)) return later_->pose;
     const double t = (record.time - earlier_->time) / (later_->time - earlier_->time);
-    return interpolate(earlier_->pose, later_->pose, std::clamp(t, 0.0, 1.0));
+    return poseBetween(earlier_->pose, later_->pose, std::clamp(t, 0.0, 1.0));
   }
 
   struct Stamped {

@@ -6,6 +6,7 @@
 #include <string>
 #include <utility>
 
+#include "held_odometry.hpp"
 #include "laser_place.hpp"
 #include "sensing/scan_faults.hpp"
 
@@ -13,7 +14,7 @@ namespace cca {
 namespace {
 
 /// m/s; no robot with a 2-D laser drives so fast. In millimetres it does at a crawl, at 3 cm/s.
-constexpr double kFastest = 30.0;
+constexpr double kFastestDriven = 30.0;
 
 /// Of the laser at a record's place on the robot. @param record  that tells where the robot was.
 std::optional<SensorReading> readingOf(const LogRecord& record, const Pose2& T_robot_sensor) {
@@ -71,7 +72,7 @@ class SoundLog : public LogReader {
     const double way = (to->T_odom_sensor.position() - from->T_odom_sensor.position()).norm();
     const double speed = way / (to->time - from->time);
     ++steps_;
-    if (speed > kFastest && fast_++ == 0) speed_ = speed;
+    if (speed > kFastestDriven && fast_++ == 0) speed_ = speed;
   }
 
   /// The next scan that is evidence of anything.
@@ -99,7 +100,7 @@ class SoundLog : public LogReader {
 }  // namespace
 
 std::unique_ptr<LogReader> soundScansOf(std::unique_ptr<LogReader> log) {
-  return std::make_unique<SoundLog>(std::move(log));
+  return std::make_unique<SoundLog>(withoutHeldOdometry(std::move(log)));
 }
 
 }  // namespace cca

@@ -9,7 +9,8 @@ namespace cca {
 
 /// A log without the scans that are no evidence (see ScanFaults), of which it warns, and of poses
 /// that no robot drives through, as millimetres that are taken for metres are. Of the motion
-/// during a sweep, it adds what the log's poses tell, those of the next scan included.
+/// during a sweep, it adds what the log's poses tell, those of the next scan included; odometry
+/// that scans have held is as of each scan first, see withoutHeldOdometry().
 std::unique_ptr<LogReader> soundScansOf(std::unique_ptr<LogReader> log);
 
 }  // namespace cca

@@ -7,6 +7,8 @@
 #include <fstream>
 #include <sstream>
 
+#include "pose_between.hpp"
+
 namespace cca {
 namespace {
 
@@ -69,8 +71,7 @@ class LogWithTruth : public LogReader {
     if (after == rows_.begin()) return std::nullopt;
     const Row &a = *std::prev(after), &b = *after;
     const double t = (key - a.key) / (b.key - a.key);
-    return Pose2{a.pose.x + t * (b.pose.x - a.pose.x), a.pose.y + t * (b.pose.y - a.pose.y),
-                 wrapAngle(a.pose.theta + t * wrapAngle(b.pose.theta - a.pose.theta))};
+    return poseBetween(a.pose, b.pose, t);
   }
 
   std::unique_ptr<LogReader> log_;
