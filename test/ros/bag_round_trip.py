@@ -166,9 +166,11 @@ class BagRoundTrip(OwnMaster):
         for word in ("/scan", "sensor_msgs/LaserScan", "/tf_static", "/odom"):
             self.assertIn(word, told)
         explored, offline = read_segments(os.path.join(self.out, "lines.csv")), self.check(bag)
-        # The explorer had ranges of 64 bits, the bag has 32.
-        self.assertLess(distance_to(explored, samples(offline)).max(), 0.01)
-        self.assertLess(distance_to(offline, samples(explored)).max(), 0.01)
+        # The explorer knew its wheels in the middle of each sweep, the bag has them ten times a second: the walls are
+        # the same, but at a door one may end a beam earlier, of 0.8 degrees at 4 m.
+        for distances in (distance_to(explored, samples(offline)), distance_to(offline, samples(explored))):
+            self.assertLess(numpy.quantile(distances, 0.95), 0.01)
+            self.assertLess(distances.max(), 0.056)
 
     def test_so_does_a_bag_whose_scans_and_poses_do_not_fit_each_other(self):
         bag = os.path.join(self.home.name, "awkward.bag")
