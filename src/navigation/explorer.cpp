@@ -14,7 +14,7 @@
 namespace cca {
 namespace {
 
-constexpr double kHome = 0.3;  // m
+constexpr double kHome = 0.3;  // m; the robot, as wide, stands on the place where it began
 // s; who stands in the only path for a moment may leave, and so may the trace of who passed.
 constexpr double kPathLost = 10.0;
 constexpr int kMostHeld = 2;  // times on one errand: the first may have been somebody who passed

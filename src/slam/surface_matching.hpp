@@ -73,6 +73,8 @@ int coarseStride(const ScanSurface& query);
 /// Cost: O(returns x references).
 MatchQuadric matchQuadric(const ScanSurface& query, const Pose2& T_map_query,
                           const std::vector<PlacedSurface>& references, const MatchScale& scale);
+/// Some ten neighbours lie on one piece of wall, and share its roughness and the error of its
+/// normal.
 inline constexpr double kIndependent = 0.1;
 
 /// The same of a scan that was swept: of its pose in the middle of the sweep, and of the sensor's

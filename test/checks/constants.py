@@ -2,14 +2,13 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Each named constant of the algorithm layers has its unit and its reason beside it.
 
-usage: constants.py [--count | --shrink]
+usage: constants.py [--count]
 
 A constant is `constexpr ... kName = ...`, and a number that a field of a `struct ...Tuning` begins with. Its reason is
 the comment on its lines, below them in the same column, or right above: five words at least. What follows from other
 constants alone (`2.0 * M_PI / kSectors`, an infinity, names) needs none.
 
-Those of constants_without_reason.txt (`layer name`) may still lack one; exit status 1 where any other does. --shrink
-takes off that list what has its reason by now, --count prints for each layer how many there are, and how many lack one.
+Exit status 1 where one lacks it. --count prints for each layer how many there are.
 """
 import collections
 import pathlib
@@ -19,7 +18,6 @@ import sys
 LAYERS = "geometry motion sensing localisation mapping slam known_map navigation session floor_plan".split()
 FEWEST_WORDS = 5
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-LIST = pathlib.Path(__file__).with_name("constants_without_reason.txt")
 CONSTANT = re.compile(r"\bconstexpr\b[^(;]*?\b(k[A-Z]\w*)\s*(?:\[\w*\])?\s*[={]")
 FIELD = re.compile(r"^\s+(?:int|float|double|unsigned|std::size_t)\s+(\w+)\s*[={]\s*-?[\d.]")
 FOLLOWS = re.compile(r"\bk[A-Z]\w*|\bM_PI\b|numeric_limits|\"")
@@ -75,29 +73,19 @@ def constants(path):
 
 
 def main():
-    allowed = set(LIST.read_text().splitlines()) if LIST.exists() else set()
-    counts, without, new = collections.Counter(), collections.Counter(), []
-    lacking = set()
+    counts, lacking = collections.Counter(), []
     for layer in LAYERS:
         for folder in "include/cca_mrpt", "src":
             for path in sorted((ROOT / folder / layer).rglob("*.[ch]pp")):
                 for line, name, has_reason in constants(path):
                     counts[layer] += 1
-                    if has_reason:
-                        continue
-                    without[layer] += 1
-                    lacking.add(f"{layer} {name}")
-                    if f"{layer} {name}" not in allowed:
-                        new.append(f"{path.relative_to(ROOT)}:{line}: {name} has no unit and reason beside it")
-    if "--shrink" in sys.argv:
-        LIST.write_text("".join(line + "\n" for line in sorted(allowed & lacking)))
+                    if not has_reason:
+                        lacking.append(f"{path.relative_to(ROOT)}:{line}: {name} has no unit and reason beside it")
     if "--count" in sys.argv:
         for layer in LAYERS:
-            print(f"{layer}: {counts[layer]}, without a reason {without[layer]}")
-    print("\n".join(new) if new else f"constants: {sum(counts.values())}, {sum(without.values())} without a reason yet")
-    if allowed - lacking and "--shrink" not in sys.argv:
-        print(f"constants: {len(allowed - lacking)} of the list have theirs now: constants.py --shrink")
-    return 1 if new else 0
+            print(f"{layer}: {counts[layer]}")
+    print("\n".join(lacking) if lacking else f"constants: {sum(counts.values())}, each with its reason")
+    return 1 if lacking else 0
 
 
 sys.exit(main())

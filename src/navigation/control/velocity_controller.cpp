@@ -16,8 +16,8 @@ namespace {
 constexpr double kWalkingSpeed = 1.0;  // m/s, of what moves, in any direction
 constexpr double kAmongMovers = 0.45;  // m/s, where somebody may come around the corner
 constexpr std::array<double, 3> kLookAhead{-0.2, 0.0, 0.2};  // rad: a disc of 25 cm, 1.2 m ahead
-constexpr std::size_t kLately = 5;                           // scans, half a second
-constexpr double kPreciseSigma = 0.006;                      // m; the clearance allows for as much
+constexpr std::size_t kLately = 5;  // scans; by the last one alone crowded places are seen to .95
+constexpr double kPreciseSigma = 0.006;  // m; the clearance allows for as much
 // m, beside the robot. Ways are planned around obstacle points that are thinned; from a corner that
 // this leaves out, the robot keeps no more than what may hide between two beams. What one scan
 // reads too far the next one corrects, but not where commands act late.
