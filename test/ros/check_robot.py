@@ -58,7 +58,7 @@ class CheckRobot(OwnMaster):
 
     def test_stamps_that_are_behind_wheels_that_count_too_much_and_a_slow_laser(self):
         self.robot("--turning-laser", "--bend", "0", "--stretch", "1.1", "--late", "0.1")
-        status, output = self.check("_seconds:=20")
+        status, output = self.check("_seconds:=26")  # it has to drive a metre, on a busy machine too
         self.assertEqual(status, 1, output)
         late = re.search(r"move the driver's stamps by (\S+) s", output)
         self.assertTrue(late, output)
