@@ -15,8 +15,9 @@ namespace {
 
 constexpr double kAlike = 2e-3;        // of the value: the codes of one SICK lie so far apart
 constexpr double kClearlyLess = 0.96;  // of the value: such a reading is from another surface
-/// Different readings that stand for no return: two are known of one laser (81.91 and 81.83 m). What
-/// is read with noise in five places differs more, even by a laser that tells whole centimetres.
+/// Different readings that stand for no return: two are known of one laser (81.91 and 81.83 m).
+/// What is read with noise in five places differs more, even by a laser that tells whole
+/// centimetres.
 constexpr std::size_t kMostCodes = 2;
 constexpr double kSameCode = 1e-5;  // of the value: what a way through floats leaves of it
 constexpr std::size_t kPlaces = 4;  // as many as the like corners of a room, seen from its middle
