@@ -40,6 +40,14 @@ nb::dict bytesOf(const NamedFiles& files) {
   return contents;
 }
 
+NamedFiles allFilesOf(const FloorPlan& plan, const std::string& title) {
+#ifdef CCA_CAIRO
+  return planFiles(plan, title);
+#else
+  return planTexts(plan, title);
+#endif
+}
+
 /// A plan, and the labels that lie in none of its rooms.
 struct NamedPlan {
   FloorPlan plan;
@@ -84,11 +92,7 @@ nb::dict filesOfPlan(const std::string& lines_csv, const Cells& cells, double re
   try {
     const nb::gil_scoped_release others_may_run;
     const FloorPlan plan = planOf(lines_csv, grid, "map.yaml", labels, "labels").plan;
-#ifdef CCA_CAIRO
-    files = planFiles(plan, title);
-#else
-    files = planTexts(plan, title);
-#endif
+    files = allFilesOf(plan, title);
   } catch (const std::runtime_error& error) {
     throw nb::value_error(error.what());
   }
@@ -117,16 +121,18 @@ MapProducts productsOf(const std::string& title, const std::string& lines_csv, c
   return seenFrom(p_frame, std::move(products));
 }
 
-/// map.png, where it can be drawn, and replay.html, where there is a run.
+/// The floor plan's files, map.png, where it can be drawn, and replay.html, where there is a run.
 /// @param grid  in the map frame, as it is written.
 NamedFiles picturesOf(MapProducts products, OccupancyRaster grid, const std::string& lines_csv,
                       const std::string& packed) {
+  NamedFiles files;
   std::vector<PlanRoom> rooms;
   try {
-    rooms = seenFrom(products.origin, floorPlan(grid, readLinesCsv(lines_csv, "lines.csv")).rooms);
+    const FloorPlan plan = floorPlan(grid, readLinesCsv(lines_csv, "lines.csv"));
+    rooms = seenFrom(products.origin, plan.rooms);
+    if (!grid.values.empty()) files = allFilesOf(plan, products.title);
   } catch (const std::exception&) {  // a map is a map without a plan, too
   }
-  NamedFiles files;
 #ifdef CCA_CAIRO
   grid.origin -= products.origin;
   if (!grid.values.empty()) products.grid = std::move(grid);
