@@ -258,7 +258,7 @@ INSTANTIATE_TEST_SUITE_P(
     At, LineSigmas,
     ::testing::Values(Case{0.01, 0.16, false, 0.5, 0.8}, Case{0.03, 0.16, false, 0.6, 0.8},
                       Case{0.1, 0.5, false, 0.5, 0.85}, Case{0.01, 0.16, true, 0.45, 0.8},
-                      Case{0.03, 0.16, true, 0.6, 0.8}, Case{0.1, 0.5, true, 0.5, 0.8}));
+                      Case{0.03, 0.16, true, 0.6, 0.8}, Case{0.1, 0.5, true, 0.45, 0.8}));
 
 }  // namespace
 }  // namespace cca
