@@ -22,6 +22,7 @@
 #include "raster.hpp"
 #ifdef CCA_CAIRO
 #include "io/maps/map_picture.hpp"
+#include "io/maps/occupancy_files.hpp"
 #endif
 
 namespace cca::python {
@@ -135,7 +136,9 @@ NamedFiles picturesOf(MapProducts products, OccupancyRaster grid, const std::str
   }
 #ifdef CCA_CAIRO
   grid.origin -= products.origin;
-  if (!grid.values.empty()) products.grid = std::move(grid);
+  if (!grid.values.empty()) {
+    products.grid = asWritten(std::move(grid), Eigen::Vector2d::Zero());
+  }
   PictureOptions options;
   options.rooms = rooms;
   files.emplace_back("map.png", picturePng(products, options));

@@ -141,10 +141,8 @@ void writeMapFolder(const std::string& folder, const MapProducts& products) {
   PictureOptions picture;
   if (plan) picture.rooms = seenFrom(products.origin, plan->rooms);
   MapProducts drawn = products;
-  if (drawn.grid) {  // as who reads the files draws it, to the last bit
-    drawn.grid = asWritten(std::move(*drawn.grid), products.origin);
-    drawn.grid->origin -= products.origin;
-  }
+  // As who reads the files draws it, wherever the frame lies.
+  if (drawn.grid) drawn.grid = asWritten(std::move(*drawn.grid), Eigen::Vector2d::Zero());
   writePicture(inFolder(folder, "map.png"), drawn, picture);
   writeScene(inFolder(folder, "scene.3Dscene"), products);
   if (!map.times.empty()) {
