@@ -110,6 +110,23 @@ TEST_F(SweepMatching, LeavesWhatIsRightAsItIs) {
   EXPECT_LT((motion->position() - truth.position()).norm(), 0.005);
 }
 
+TEST_F(SweepMatching, BendsASurfaceAsTheOtherMotionWouldHaveUndoneIt) {
+  const Twist wrong{kTrue.linear, kTrue.angular + 0.1};
+  for (const double duration : {kSweep, -kSweep}) {
+    const Scan scan = swept(duration);
+    const SweptScan sweep{{motionOf(wrong), motionOf(wrong)}, duration > 0.0 ? 1.0 : -1.0};
+    ScanSurface surface = scanSurface(undistort(scan, wrong));
+    const ScanSurface right = scanSurface(undistort(scan, kTrue));
+    const auto apart = [&right](const ScanSurface& bent) {
+      const MatchQuadric pairs = matchQuadric(bent, {}, {{&right, Pose2()}}, {0.1, 0.025, 1});
+      return std::sqrt(pairs.sum_sq / pairs.sum_weights);
+    };
+    const double before = apart(surface);
+    bendBy({motionOf(kTrue), motionOf(kTrue)}, sweep, surface);
+    EXPECT_LT(apart(surface), 0.25 * before);
+  }
+}
+
 TEST_F(SweepMatching, HoldsToWhatIsSureOfTheMotion) {
   belief_.information = 1e12 * Eigen::Matrix3d::Identity();
   const Twist wrong{kTrue.linear, kTrue.angular + 0.1};
