@@ -83,10 +83,15 @@ std::string inRadians(double value) {
   return written.c_str();
 }
 
+/// @throws nb::value_error where this is no bearing in radians.
+void requireBearing(double angle, const char* argument) {
+  if (std::abs(angle) > kFarthestBearing)
+    refuse(argument, inRadians(angle) + " is more than two turns; are these degrees?");
+}
+
 /// @throws nb::value_error where these are no radians.
 void requireRadians(double angle_min, double angle_increment, std::size_t beams) {
-  if (std::abs(angle_min) > kFarthestBearing)
-    refuse("angle_min", inRadians(angle_min) + " is more than two turns; are these degrees?");
+  requireBearing(angle_min, "angle_min");
   const double step = std::abs(angle_increment);
   const double field_of_view = step * static_cast<double>(beams > 0 ? beams - 1 : 0);
   // A whole turn may end where it began, or a step further.
@@ -166,6 +171,12 @@ Pose2 readPose(nb::handle from, const char* argument) {
   double numbers[3];
   readNumbers(from, argument, "(x, y, theta)", 3, numbers);
   return {numbers[0], numbers[1], numbers[2]};
+}
+
+Pose2 readSensorPose(nb::handle from) {
+  const Pose2 pose = readPose(from, "sensor_pose");
+  requireBearing(pose.theta, "sensor_pose");
+  return pose;
 }
 
 }  // namespace cca::python

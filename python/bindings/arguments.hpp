@@ -34,5 +34,8 @@ void readNumbers(nb::handle from, const char* argument, const char* expected, in
 
 /// A pose from (x, y, theta). @throws nb::value_error naming the argument.
 Pose2 readPose(nb::handle from, const char* argument);
+/// The same of a laser on its robot. @throws nb::value_error where its heading looks like degrees,
+/// too.
+Pose2 readSensorPose(nb::handle from);
 
 }  // namespace cca::python

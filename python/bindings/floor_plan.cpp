@@ -22,6 +22,7 @@
 #include "raster.hpp"
 #ifdef CCA_CAIRO
 #include "io/maps/map_picture.hpp"
+#include "io/maps/occupancy_files.hpp"
 #endif
 
 namespace cca::python {
@@ -38,6 +39,14 @@ nb::dict bytesOf(const NamedFiles& files) {
   for (const auto& [name, content] : files)
     contents[name.c_str()] = nb::bytes(content.data(), content.size());
   return contents;
+}
+
+NamedFiles allFilesOf(const FloorPlan& plan, const std::string& title) {
+#ifdef CCA_CAIRO
+  return planFiles(plan, title);
+#else
+  return planTexts(plan, title);
+#endif
 }
 
 /// A plan, and the labels that lie in none of its rooms.
@@ -84,11 +93,7 @@ nb::dict filesOfPlan(const std::string& lines_csv, const Cells& cells, double re
   try {
     const nb::gil_scoped_release others_may_run;
     const FloorPlan plan = planOf(lines_csv, grid, "map.yaml", labels, "labels").plan;
-#ifdef CCA_CAIRO
-    files = planFiles(plan, title);
-#else
-    files = planTexts(plan, title);
-#endif
+    files = allFilesOf(plan, title);
   } catch (const std::runtime_error& error) {
     throw nb::value_error(error.what());
   }
@@ -117,19 +122,23 @@ MapProducts productsOf(const std::string& title, const std::string& lines_csv, c
   return seenFrom(p_frame, std::move(products));
 }
 
-/// map.png, where it can be drawn, and replay.html, where there is a run.
+/// The floor plan's files, map.png, where it can be drawn, and replay.html, where there is a run.
 /// @param grid  in the map frame, as it is written.
 NamedFiles picturesOf(MapProducts products, OccupancyRaster grid, const std::string& lines_csv,
                       const std::string& packed) {
+  NamedFiles files;
   std::vector<PlanRoom> rooms;
   try {
-    rooms = seenFrom(products.origin, floorPlan(grid, readLinesCsv(lines_csv, "lines.csv")).rooms);
+    const FloorPlan plan = floorPlan(grid, readLinesCsv(lines_csv, "lines.csv"));
+    rooms = seenFrom(products.origin, plan.rooms);
+    if (!grid.values.empty()) files = allFilesOf(plan, products.title);
   } catch (const std::exception&) {  // a map is a map without a plan, too
   }
-  NamedFiles files;
 #ifdef CCA_CAIRO
   grid.origin -= products.origin;
-  if (!grid.values.empty()) products.grid = std::move(grid);
+  if (!grid.values.empty()) {
+    products.grid = asWritten(std::move(grid), Eigen::Vector2d::Zero());
+  }
   PictureOptions options;
   options.rooms = rooms;
   files.emplace_back("map.png", picturePng(products, options));

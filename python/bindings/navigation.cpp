@@ -187,6 +187,29 @@ void addAction(nb::module_& module) {
           "status", [](const Action& a) { return nameOf(a.status); },
           "'exploring', 'returning', 'paused' or 'finished'.")
       .def_ro("reason", &Action::reason, "Why it drives there, or why it has finished.")
+      .def(
+          "__getstate__",
+          [](const Action& a) {
+            const auto goal =
+                a.goal ? std::optional<Pair>(Pair{a.goal->x(), a.goal->y()}) : std::nullopt;
+            return nb::make_tuple(Pair{a.velocity.linear, a.velocity.angular}, goal,
+                                  static_cast<int>(a.status), a.reason, a.goal_heading);
+          },
+          nb::sig("def __getstate__(self) -> tuple[typing.Any, ...]"))
+      .def(
+          "__setstate__",
+          [](Action& self, const nb::tuple& state) {
+            Action a;
+            std::tie(a.velocity.linear, a.velocity.angular) = nb::cast<Pair>(state[0]);
+            if (const auto goal = nb::cast<std::optional<Pair>>(state[1]))
+              a.goal = {goal->first, goal->second};
+            a.status = static_cast<ExplorationStatus>(nb::cast<int>(state[2]));
+            a.reason = nb::cast<std::string>(state[3]);
+            a.goal_heading = nb::cast<double>(state[4]);
+            new (&self) Action(std::move(a));
+          },
+          nb::arg("state"),
+          nb::sig("def __setstate__(self, state: tuple[typing.Any, ...]) -> None"))
       .def("__repr__", [](const Action& a) {
         const nb::str text =
             nb::str("Action({}, {:.3f} m/s, {:.3f} rad/s, {!r})")
@@ -202,7 +225,7 @@ Action explore(SharedExplorer& explorer, nb::handle ranges, double angle_min,
   readScan(ranges, angle_min, angle_increment, observation.scan);
   readPlace(pose, free_range_without_return, observation.scan);
   observation.T_map_robot = observation.scan.T_map_sensor;
-  observation.scan.T_map_sensor = observation.T_map_robot * readPose(sensor_pose, "sensor_pose");
+  observation.scan.T_map_sensor = observation.T_map_robot * readSensorPose(sensor_pose);
   double measured[2];
   readNumbers(velocity, "velocity", "(m/s, rad/s)", 2, measured);
   observation.velocity = {measured[0], measured[1]};

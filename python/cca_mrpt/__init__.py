@@ -33,14 +33,8 @@ from .maps import Map, MapArc, Mapper, load, map, merge
 from .plotting import plot
 from .replays import replay_page
 
-_no_simulation = ""
 if TYPE_CHECKING:
-    from ._simulation import Simulation
-else:
-    try:
-        from ._simulation import Simulation
-    except ImportError as error:  # built, or installed, where MRPT is not
-        _no_simulation = str(error)
+    from ._simulation import Simulation as Simulation
 
 baselines: Dict[str, Baseline] = {baseline.name: baseline for baseline in all_baselines()}
 """The classical line extractors, by their names."""
@@ -75,7 +69,6 @@ __all__ = [
     "Opening",
     "PolyLine",
     "Room",
-    "Simulation",
     "Slam",
     "SlamPose",
     "Wall",
@@ -92,11 +85,11 @@ __all__ = [
 ]
 
 
-if "Simulation" not in globals():
-    __all__.remove("Simulation")
-
-
 def __getattr__(name: str) -> object:
-    if name == "Simulation":
-        raise AttributeError(f"cca_mrpt.Simulation needs MRPT, here and where it was built ({_no_simulation})")
+    if name == "Simulation":  # loads MRPT, which takes longer than all else here: only for those who ask
+        try:
+            from ._simulation import Simulation
+        except ImportError as error:  # built, or installed, where MRPT is not
+            raise AttributeError(f"cca_mrpt.Simulation needs MRPT, here and where it was built ({error})") from None
+        return Simulation
     raise AttributeError(f"module 'cca_mrpt' has no attribute {name!r}")

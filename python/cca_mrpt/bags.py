@@ -17,6 +17,7 @@ from typing import Any, Dict, Iterator, List, NamedTuple, Optional, Sequence, Tu
 import numpy as np
 
 from ._core import LogRecord, MissingReturns
+from .clouds import CLOUD, NoRing, scan_of
 from .robot_frames import OdometryFrames, RobotFrames, find_frames
 from .transforms import PlanarPose, Pose, Transform, Transforms, Unplanar, frame_name, planar, seconds, wrap_angle
 
@@ -320,7 +321,7 @@ class BagScans:
             self._read += 1
             try:
                 record = self._record(message)
-            except (Malformed, Unplanar) as fault:
+            except (Malformed, NoRing, Unplanar) as fault:
                 rule = getattr(fault, "rule", str(fault))
                 count, first = self._left_out.get(rule, (0, str(fault)))
                 self._left_out[rule] = (count + 1, first)
@@ -329,11 +330,13 @@ class BagScans:
                 return record
 
     def _choose(self, asked: Optional[str]) -> Topic:
-        topics = self._recording.of_type(SCAN, ECHOES)
+        # Clouds may be a camera's: they are read where nothing else is, or where asked for.
+        clouds = self._recording.of_type(CLOUD)
+        topics = self._recording.of_type(SCAN, ECHOES) or clouds
         if not topics:
             raise ValueError(f"{self.path}: holds no scan of a 2-D laser (topics: {listed(self._recording.topics)})")
         if asked is not None:
-            for topic in topics:
+            for topic in [*topics, *clouds]:
                 if frame_name(topic.name) == frame_name(asked):
                     return topic
             raise ValueError(f"{self.path}: topic '{asked}' holds no laser scans; these do: {listed(topics)}")
@@ -382,6 +385,8 @@ class BagScans:
         return laser
 
     def _record(self, message: Any) -> Optional[LogRecord]:
+        if self.topic.type == CLOUD:
+            message = scan_of(message)
         ranges = ranges_of(message)
         check_header(message, ranges)
         beams = len(ranges)

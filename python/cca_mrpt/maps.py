@@ -31,7 +31,8 @@ Source = Union[str, "os.PathLike[str]", Iterable[LogRecord]]  # of scans
 POSES = ("auto", "log", "odometry", "slam")
 # What a map's folder holds that Python keeps as it is; the program writes more.
 FILES = ("lines.csv", "arcs.csv", "lines.geojson", "lines.svg", "lines.dxf", "map.pgm", "map.yaml", "map.png", "poses.csv",
-         "poses.tum", "graph.g2o", "map.slam", "replay.html")
+         "poses.tum", "graph.g2o", "map.slam", "replay.html", "plan.geojson", "plan.svg", "plan.dxf", "plan.pdf", "rooms.csv",
+         "rooms.png")
 
 
 class MapArc(NamedTuple):
@@ -90,7 +91,7 @@ class Map:
         Returns:
             The files' names: lines.csv, arcs.csv, lines.geojson, .svg, .dxf, map.pgm and .yaml, map.png (where the
             package was built beside Cairo), poses.csv, poses.tum, of SLAM graph.g2o and map.slam, of `map`
-            replay.html; summary.json comes last.
+            replay.html and the floor plan's (see `FloorPlan.save`); summary.json comes last.
 
         Raises:
             FileExistsError: one of them is there already.

@@ -31,7 +31,7 @@ class Drive:
     def __init__(self, store, **change):
         self.types, self.store = store.types, store
         self.change = {"base": "base_link", "odom": "odom", "laser": "laser", "static": True, "tf": True, "odometry": False,
-                       "upside_down": False, "echoes": False, "topic": "/scan", **change}
+                       "upside_down": False, "echoes": False, "rings": (), "lost": (), "topic": "/scan", **change}
 
     def make(self, name, *values):
         return self.types[name](*values)
@@ -59,12 +59,24 @@ class Drive:
         if self.change["upside_down"]:  # the same walls, the other way round
             ranges = ranges_in(ROOM, sensor, -BEAMS["angle_min"], -BEAMS["angle_increment"], BEAMS["beams"])
         first, step = BEAMS["angle_min"], BEAMS["angle_increment"]
+        if self.change["rings"]:
+            return "sensor_msgs/msg/PointCloud2", self.cloud(stamp, ranges)
         common = (self.header(stamp, self.change["laser"]), first, first + 150 * step, step, 0.0, PERIOD, 0.05, 30.0)
         if self.change["echoes"]:
             echo = [self.make("sensor_msgs/msg/LaserEcho", np.array([r, r + 1], np.float32)) for r in ranges]
             return "sensor_msgs/msg/MultiEchoLaserScan", self.make("sensor_msgs/msg/MultiEchoLaserScan", *common, echo, [])
         return "sensor_msgs/msg/LaserScan", self.make("sensor_msgs/msg/LaserScan", *common, ranges.astype(np.float32),
                                                       np.zeros(0, np.float32))
+
+    def cloud(self, stamp, ranges):
+        bearings = BEAMS["angle_min"] + BEAMS["angle_increment"] * np.arange(len(ranges))
+        seen = np.delete(np.arange(len(ranges)), self.change["lost"])
+        points = [np.stack([np.full(len(seen), 7), (ranges * np.cos(bearings))[seen], (ranges * np.sin(bearings))[seen],
+                            ranges[seen] * math.tan(elevation)], axis=-1) for elevation in self.change["rings"]]
+        data = np.concatenate(points).astype(np.float32)
+        fields = [self.make("sensor_msgs/msg/PointField", name, 4 * k, 7, 1) for k, name in enumerate(("intensity", *"xyz"))]
+        return self.make("sensor_msgs/msg/PointCloud2", self.header(stamp, self.change["laser"]), 1, len(data), fields, False,
+                         16, 16 * len(data), np.frombuffer(data.tobytes(), np.uint8), True)
 
     def odometry(self, stamp, pose):
         point = self.make("geometry_msgs/msg/Point", pose[0], pose[1], 0.0)
@@ -180,9 +192,19 @@ def test_every_kind_holds_the_same(kind, tmp_path):
     dict(tf=False, odometry=True, base="trunk"),  # the odometry's child frame
     dict(echoes=True),
     dict(topic="/robot/front/scan"),
+    dict(rings=(0.0,)),  # a point cloud
 ])
 def test_frames_are_found_however_they_are_named(change, tmp_path):
     check_drive(list(cca_mrpt.read_log(ros1(tmp_path / "a.bag", **change))))
+
+
+def test_a_cloud_is_a_scan_where_it_is_of_one_ring(tmp_path):
+    lost = [0, 40, 41, 150]
+    for scan in cca_mrpt.read_log(ros2(tmp_path / "a", "MCAP", rings=(0.02,), lost=lost)):
+        assert scan.angle_min == pytest.approx(BEAMS["angle_min"] + 0.02, abs=1e-6) and len(scan) == 149
+        assert list(np.flatnonzero(np.isnan(scan.ranges))) == [39, 40]  # of lost beams nothing is known
+    with pytest.raises(ValueError, match="12 impossible scan.* must be of one ring .elevations of 0.0 to 1.7 degrees"):
+        cca_mrpt.read_log(ros2(tmp_path / "b", "MCAP", rings=(0.0, 0.03)))
 
 
 def test_a_laser_upside_down_sweeps_the_other_way(tmp_path):

@@ -143,8 +143,9 @@ def both(program, log, pose, tmp_path):
         if "built without ROS" in done.stderr:
             pytest.skip("the program was built without ROS")
         assert done.returncode in (0, 3), done.stderr  # 3: the program says that these poses contradict the map
-    names = ["lines.csv", "arcs.csv", "lines.geojson", "lines.svg", "lines.dxf", "map.pgm", "map.yaml", "poses.csv", "replay.html"]
-    names += ["map.png"] if (tmp_path / "python" / "map.png").exists() else []
+    names = ["lines.csv", "arcs.csv", "lines.geojson", "lines.svg", "lines.dxf", "map.pgm", "map.yaml", "poses.csv", "replay.html",
+             "plan.geojson", "plan.svg", "plan.dxf", "rooms.csv"]
+    names += ["map.png", "plan.pdf", "rooms.png"] if (tmp_path / "python" / "map.png").exists() else []
     names += ["graph.g2o", "map.slam"] if pose == "slam" else []
     for name in names:
         yield name, (tmp_path / "program" / name).read_bytes(), (tmp_path / "python" / name).read_bytes()
@@ -160,7 +161,7 @@ def test_the_program_makes_the_same_bytes(log, pose, tmp_path):
 @pytest.mark.skipif(not (installed_program() and SHARED.exists()), reason="needs the program and the shared data")
 @pytest.mark.parametrize("pose", ["log", "slam"])
 @pytest.mark.parametrize("name", ["logs/fhw-corrected.log.gz", "logs/orebro-corrected.log.gz", "bags/intel.bag",
-                                  "field/03_turning_lidar_7Hz.bag", "field/03_turning_lidar_7Hz.log.gz",
+                                  "field/03_turning_lidar_7Hz.bag", "field/03_turning_lidar_7Hz.log.gz", "field/03_same_without_skew.log.gz",
                                   "field/05_laser_freezes.bag", "field/09_namespaced_frames.bag"])
 def test_the_program_makes_the_same_bytes_of_real_logs(name, pose, tmp_path):
     for file, of_program, of_python in both(installed_program(), SHARED / name, pose, tmp_path):

@@ -2,6 +2,8 @@
 """What is no scan is refused with its values; what is one behaves as Python's values do."""
 import copy
 import pickle
+import subprocess
+import sys
 
 import numpy as np
 import pytest
@@ -51,6 +53,17 @@ def test_degrees_are_told_from_radians(ranges, change, told):
         cca_mrpt.extract_lines(ranges, **{**FULL_TURN, **change})
 
 
+def test_a_laser_turned_by_degrees_is_refused(ranges):
+    with pytest.raises(ValueError, match="sensor_pose: 90 rad is more than two turns; are these degrees?"):
+        cca_mrpt.LogRecord(ranges, **FULL_TURN, sensor_pose=(0.1, 0, 90))
+    cca_mrpt.LogRecord(ranges, **FULL_TURN, odometry=(0, 0, 90))  # a robot may count its turns
+
+
+def test_mrpt_is_loaded_only_for_the_simulator():
+    loaded = "import sys, cca_mrpt; print('cca_mrpt._simulation' in sys.modules)"
+    assert subprocess.run([sys.executable, "-c", loaded], capture_output=True, text=True).stdout == "False\n"
+
+
 def test_millimetres_are_told_from_metres(ranges):
     with pytest.raises(ValueError, match=r"ranges: 360 of 360 returns lie beyond 200 m, the nearest at 2000 m; are"):
         cca_mrpt.extract_lines(1000 * ranges, **FULL_TURN)
@@ -98,6 +111,9 @@ def test_values_survive_pickling(line_map, ranges):
     for same in pickle.loads(pickle.dumps(estimate)), copy.copy(estimate), copy.deepcopy(estimate):
         assert same.pose == estimate.pose and np.array_equal(same.covariance, estimate.covariance)
         assert (same.agreement, same.is_placed, same.was_corrected) == (estimate.agreement, estimate.is_placed, estimate.was_corrected)
+    action = cca_mrpt.Explorer().step(ranges, pose=(0, 0, 0), time=0.0, **FULL_TURN)
+    for same in pickle.loads(pickle.dumps(action)), copy.copy(action):
+        assert (same.velocity, same.goal, same.status, same.reason) == (action.velocity, action.goal, action.status, action.reason)
     ransac = cca_mrpt.baselines["ransac"]
     assert pickle.loads(pickle.dumps(ransac)).paper == ransac.paper
     lines = line_map.lines()

@@ -31,6 +31,11 @@ Eigen::Vector3d difference(const Pose2& b, const Pose2& a) {
   return {b.x - a.x, b.y - a.y, wrapAngle(b.theta - a.theta)};
 }
 
+Pose2 poseBetween(const Pose2& a, const Pose2& b, double share) {
+  const Eigen::Vector3d step = share * difference(b, a);
+  return {a.x + step.x(), a.y + step.y(), wrapAngle(a.theta + step.z())};
+}
+
 Eigen::Vector2d operator*(const Pose2& T_a_b, const Eigen::Vector2d& p_b) {
   const double c = std::cos(T_a_b.theta), s = std::sin(T_a_b.theta);
   return {T_a_b.x + c * p_b.x() - s * p_b.y(), T_a_b.y + s * p_b.x() + c * p_b.y()};

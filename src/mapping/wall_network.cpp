@@ -23,6 +23,10 @@ constexpr double kFewestReturns = 0.5;
 /// Where nothing else does, this holds poses and walls: to a hundred metres and as many radians.
 constexpr double kVague = 1e-4;
 
+/// Deviations at which a sighting counts by half (Cauchy's weight): where errors are normal, 95 %
+/// as efficient as least squares [Holland & Welsch 1977].
+constexpr double kHalfBelieved = 2.385;
+
 /// m^2, rad^2, of a wall that nothing ties to the others: no pose errs by more, or it is lost.
 const Eigen::Vector2d kLeastKnown(0.09, 0.01);
 
@@ -42,9 +46,10 @@ struct Patches {
   int number;
 };
 
-/// A sighting of a patch: e = by_patch (offset, angle) - by_pose (x, y, angle), of its unknowns.
+/// A sighting of a patch: seen = by_patch (offset, angle) + by_pose (x, y, angle), of its unknowns.
 struct Equation {
   int patch;
+  Eigen::Vector2d seen;  ///< offset [m] and direction [rad] against the map's line
   Eigen::Matrix2d information, by_patch;
   Eigen::Matrix<double, 2, 3> by_pose;
 };
@@ -98,19 +103,12 @@ class WallNetwork::Adjustment {
 
   void add(const Station& station, bool is_held);
   bool isEmpty() const { return patches_.empty(); }
-  /// How much less offsets and directions are known than the ranges allow, as factors of their
-  /// variances: what the poses scatter by against the walls over what the best ones would. (Scan
-  /// matching weighs returns as it must to hold in clutter.) The scatter itself is noise of single
-  /// scans, which averages out in part: it counts as a deviation, not as a variance.
-  Eigen::Vector2d inefficiency() const {
-    if (equations_ == 0) return Eigen::Vector2d::Ones();
-    const Eigen::Vector2d seen(noise_.ownOffsetVariance(), noise_.ownAngleVariance());
-    return (seen * equations_).cwiseQuotient(scatter_).cwiseSqrt().cwiseMax(1.0);
-  }
   /// False where the equations cannot be solved.
   bool solve();
   /// Covariance of two patches' unknowns; zero where nothing ties them.
   Eigen::Matrix2d covariance(int a, int b) const;
+  /// How far off the map the adjusted patch lies: offset [m], direction [rad].
+  Eigen::Vector2d correction(int patch) const { return corrections_.segment<2>(2 * patch); }
   /// The number of each wall's patches that are sighted.
   const std::map<std::pair<Walls::Slot, int>, int>& patches() const { return patches_; }
 
@@ -124,19 +122,22 @@ class WallNetwork::Adjustment {
     at->second += block;
   }
 
+  Eigen::Vector2d& rightSide(const Equation& e) {
+    return right_side_[static_cast<std::size_t>(e.patch)];
+  }
+
   const Walls& walls_;
   const MapNoise& noise_;
   std::map<std::pair<Walls::Slot, int>, int> patches_;
   std::unordered_map<std::int64_t, Eigen::Matrix2d> normal_;  ///< lower blocks
-  /// m^2, rad^2, sums over all sightings, of the poses if they were the best.
-  Eigen::Vector2d scatter_ = Eigen::Vector2d::Constant(1e-30);
-  int equations_ = 0;
+  std::vector<Eigen::Vector2d> right_side_;                   ///< of each patch
+  Eigen::VectorXd corrections_;
   Eigen::SparseMatrix<double> inverse_;
   Eigen::VectorXi place_;  ///< of each unknown in the order of elimination
 };
 
 /// The returns of a sighting are spread evenly over the angle that it is seen under: far patches
-/// have few.
+/// have few. A line that lies off the map, merged or cut otherwise, tells less.
 void WallNetwork::Adjustment::addSighting(const Sighting& s, const Eigen::Vector2d& station,
                                           std::vector<Equation>* equations) {
   Walls::Slot slot = -1;
@@ -147,7 +148,9 @@ void WallNetwork::Adjustment::addSighting(const Sighting& s, const Eigen::Vector
   if (slot < 0) return;
   const Wall& wall = walls_[slot];
   const Eigen::Vector2d u = wall.fittedDirection();
-  const auto [from, to] = std::minmax({wall.toWall(s.start).x(), wall.toWall(s.end).x()});
+  const Eigen::Vector2d start = wall.toWall(s.start), end = wall.toWall(s.end);
+  const auto [from, to] = std::minmax({start.x(), end.x()});
+  const double slope = (end.y() - start.y()) / (end.x() - start.x());
   const auto angleOf = [&](double a, double b) {
     const Eigen::Vector2d v = wall.onLine(a) - station, w = wall.onLine(b) - station;
     return std::abs(std::atan2(cross(v, w), v.dot(w)));
@@ -163,11 +166,15 @@ void WallNetwork::Adjustment::addSighting(const Sighting& s, const Eigen::Vector
     if (returns < kFewestReturns) continue;
     const int next = static_cast<int>(patches_.size());
     const double t = 0.5 * (first + last), offset = noise_.rangeVariance() / returns;
+    const double off = start.y() + slope * (t - start.x()) - wall.fit.at(t);
     Equation e{patches_.try_emplace({slot, k}, next).first->second,
+               {off, std::atan(slope) - std::atan(wall.fit.slope)},
                Eigen::Matrix2d::Zero(),
                Eigen::Matrix2d::Identity(),
                {}};
-    e.information.diagonal() << 1.0 / offset, length * length / (12.0 * offset);
+    const Eigen::Array2d exact(1.0 / offset, length * length / (12.0 * offset));
+    const Eigen::Array2d squares = exact * e.seen.array().square();
+    e.information.diagonal() = exact / (1.0 + squares / (kHalfBelieved * kHalfBelieved));
     e.by_patch(0, 1) = t - patches.middle(k);
     e.by_pose << -u.y(), u.x(), u.dot(wall.onLine(t) - station), 0.0, 0.0, 1.0;
     equations->push_back(e);
@@ -177,21 +184,22 @@ void WallNetwork::Adjustment::addSighting(const Sighting& s, const Eigen::Vector
 void WallNetwork::Adjustment::add(const Station& station, bool is_held) {
   std::vector<Equation> equations;
   for (const Sighting& s : station.sightings) addSighting(s, station.position, &equations);
+  right_side_.resize(patches_.size(), Eigen::Vector2d::Zero());
   Eigen::Matrix3d own = kVague * Eigen::Matrix3d::Identity();
+  Eigen::Vector3d seen = Eigen::Vector3d::Zero();
   std::vector<Eigen::Matrix<double, 2, 3>> mixed;
   for (const Equation& e : equations) {
+    rightSide(e) += e.by_patch.transpose() * e.information * e.seen;
+    seen += e.by_pose.transpose() * e.information * e.seen;
     addBlock(e.patch, e.patch, e.by_patch.transpose() * e.information * e.by_patch);
     mixed.emplace_back(e.by_patch.transpose() * e.information * e.by_pose);
     own += e.by_pose.transpose() * e.information * e.by_pose;
   }
   if (is_held) return;
   const Eigen::Matrix3d covariance = own.inverse();
-  for (const Equation& e : equations) {
-    scatter_ += (e.by_pose * covariance * e.by_pose.transpose()).diagonal();
-    ++equations_;
-  }
   for (std::size_t i = 0; i < mixed.size(); ++i) {
     const Eigen::Matrix<double, 2, 3> through = -mixed[i] * covariance;
+    rightSide(equations[i]) += through * seen;
     for (std::size_t j = 0; j < mixed.size(); ++j) {
       addBlock(equations[i].patch, equations[j].patch, through * mixed[j].transpose());
     }
@@ -213,6 +221,7 @@ bool WallNetwork::Adjustment::solve() {
   normal.setFromTriplets(triplets.begin(), triplets.end());
   const SparseFactor factor(normal);
   if (factor.info() != Eigen::Success) return false;
+  corrections_ = factor.solve(Eigen::Map<const Eigen::VectorXd>(right_side_[0].data(), unknowns));
   inverse_ = selectedInverse(factor.matrixL());
   place_ = factor.permutationP().indices();
   return true;
@@ -244,7 +253,6 @@ void WallNetwork::settle(const MapNoise& noise, Walls& walls) const {
   for (const Station& station : stations_) adjustment.add(station, adjustment.isEmpty());
   if (adjustment.isEmpty() || !adjustment.solve()) return;
   const auto& patches = adjustment.patches();
-  const Eigen::Vector2d wider = adjustment.inefficiency().cwiseSqrt();
   Eigen::Vector2d worst = Eigen::Vector2d::Zero();
   for (auto first = patches.begin(); first != patches.end();) {
     const Walls::Slot slot = first->first.first;
@@ -270,13 +278,15 @@ void WallNetwork::settle(const MapNoise& noise, Walls& walls) const {
       return share;
     };
     wall.pose_covariance.setZero();
+    Eigen::Vector2d off = Eigen::Vector2d::Zero();
     for (auto a = first; a != last; ++a) {
+      off += shareOf(a) * adjustment.correction(a->second);
       for (auto b = first; b != last; ++b) {
         wall.pose_covariance +=
             shareOf(a) * adjustment.covariance(a->second, b->second) * shareOf(b).transpose();
       }
     }
-    wall.pose_covariance = (wider.asDiagonal() * wall.pose_covariance * wider.asDiagonal()).eval();
+    wall.pose_covariance += off * off.transpose();
     worst = worst.cwiseMax(wall.pose_covariance.diagonal()).cwiseMin(kLeastKnown);
     first = last;
   }

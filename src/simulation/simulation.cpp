@@ -102,11 +102,8 @@ Instant Simulation::instantAt(double time) const {
   }
   const Instant &a = std::prev(after)->instant, &b = after->instant;
   const double share = (time - a.time) / (b.time - a.time);
-  const auto between = [share](const Pose2& p, const Pose2& q) {
-    return Pose2{p.x + share * (q.x - p.x), p.y + share * (q.y - p.y),
-                 wrapAngle(p.theta + share * wrapAngle(q.theta - p.theta))};
-  };
-  return {time, between(a.T_map_robot, b.T_map_robot), between(a.T_odom_robot, b.T_odom_robot)};
+  return {time, poseBetween(a.T_map_robot, b.T_map_robot, share),
+          poseBetween(a.T_odom_robot, b.T_odom_robot, share)};
 }
 
 const std::vector<Body>& Simulation::bodiesAt(double time) const {

@@ -35,8 +35,6 @@ constexpr double kLeastScale = 0.02, kMostScale = 10.0;
 
 double squared(double x) { return x * x; }
 
-Eigen::Vector2d regressors(const Pose2& step) { return {step.position().norm(), step.theta}; }
-
 double wayVariance(const Pose2& step) {
   return squared(kStandingShift) + squared(kPerWay * step.position().norm()) +
          squared(kShiftPerTurn * step.theta);
@@ -59,14 +57,16 @@ MotionBelief MotionPrior::predict(const std::optional<Pose2>& step) const {
         squared(kBlindTurn) + squared(0.5 * last_step_.theta);
     return belief;
   }
-  const Eigen::Vector2d x = regressors(*step);
-  const double turn = turns_.dot(x);
+  const double told = step->position().norm();
+  // turn - step.theta = turns_ . (told, turn)
+  const double turn = (step->theta + turns_.x() * told) / (1.0 - turns_.y());
+  const Eigen::Vector2d x(told, turn);
   // The error of the heading builds up along the way: half of it turns the step.
-  const Pose2 half{0.0, 0.0, 0.5 * turn};
+  const Pose2 half{0.0, 0.0, 0.5 * (turn - step->theta)};
   const Eigen::Vector2d p = half * Eigen::Vector2d(step->position() * (1.0 + longer_));
-  belief.T_before_after = {p.x(), p.y(), wrapAngle(step->theta + turn)};
+  belief.T_before_after = {p.x(), p.y(), wrapAngle(turn)};
   const double way =
-      scale_ * wayVariance(*step) + squared(x.x()) * std::max(longer_variance_, squared(kVaries));
+      scale_ * wayVariance(*step) + squared(told) * std::max(longer_variance_, squared(kVaries));
   belief.covariance.diagonal() << way, way,
       turn_scale_ * turnVariance(*step) + x.dot(turns_covariance_ * x);
   return belief;
@@ -76,7 +76,9 @@ void MotionPrior::learn(const std::optional<Pose2>& step, const MotionBelief& be
                         const Pose2& matched, const Eigen::Matrix3d& covariance) {
   last_step_ = matched;
   if (!step) return;
-  const Eigen::Vector2d x = regressors(*step);
+  // By the turn that the match found: the wheels' own is noise where the robot drives straight on,
+  // and regressed on itself it would be taken for an error of each turn, whole.
+  const Eigen::Vector2d x(step->position().norm(), matched.theta);
   const Pose2& predicted = belief.T_before_after;
   // Of the random part: what the match found and what it leaves open (so that along a corridor,
   // where matches know nothing, nothing is learned).

@@ -55,7 +55,7 @@ class MotionPrior {
   /// turn.
   static constexpr double kSystematic = 0.1;
 
-  // Of the heading, by (way, turn): recursive least squares.
+  // Of the heading, by (way as told, turn as it was): recursive least squares.
   Eigen::Vector2d turns_ = Eigen::Vector2d::Zero();
   Eigen::Matrix2d turns_covariance_ = kSystematic * kSystematic * Eigen::Matrix2d::Identity();
   double longer_ = 0.0, longer_variance_ = kSystematic * kSystematic;

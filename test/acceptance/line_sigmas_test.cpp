@@ -208,22 +208,22 @@ Spread spreadOf(std::vector<double> errors) {
           static_cast<double>(errors.end() - inside) / static_cast<double>(errors.size())};
 }
 
-constexpr unsigned kDrives = 4, kOwnDrives = 8;  // all lines of one share its drift
+constexpr unsigned kDrives = 8;  // all lines of one share its drift
+constexpr double kMostBeyond =
+    0.02;  // of lines are off by more than three deviations; .003 is right
 
 struct Case {
   double sigma;      ///< m, of a range
   double thickness;  ///< m, of walls
   bool own_poses;
-  // What is reached, of offset and direction alike; .674 and .003 are right.
-  double least_median, most_median, most_beyond;
+  double least_median, most_median;  ///< of offset and direction alike; .674 is right
 };
 
 class LineSigmas : public ::testing::TestWithParam<Case> {};
 
 TEST_P(LineSigmas, AreThoseOfTheirErrors) {
   std::vector<double> offsets, angles;
-  const unsigned drives = GetParam().own_poses ? kOwnDrives : kDrives;
-  for (unsigned seed = 1; seed <= drives; ++seed) {
+  for (unsigned seed = 1; seed <= kDrives; ++seed) {
     std::mt19937 random(seed);
     const Building building(random, GetParam().thickness);
     std::unique_ptr<Localiser> localiser;
@@ -249,17 +249,16 @@ TEST_P(LineSigmas, AreThoseOfTheirErrors) {
   for (const Spread& spread : {offset, angle}) {
     EXPECT_GE(spread.median, GetParam().least_median);
     EXPECT_LE(spread.median, GetParam().most_median);
-    EXPECT_LE(spread.beyond, GetParam().most_beyond);
+    EXPECT_LE(spread.beyond, kMostBeyond);
   }
 }
 
-// With poses of its own a drive errs as a whole: one in some may be off by more than is told.
-INSTANTIATE_TEST_SUITE_P(At, LineSigmas,
-                         ::testing::Values(Case{0.01, 0.16, false, 0.5, 0.8, 0.025},
-                                           Case{0.03, 0.16, false, 0.5, 0.8, 0.025},
-                                           Case{0.1, 0.5, false, 0.5, 0.85, 0.025},
-                                           Case{0.01, 0.16, true, 0.3, 0.85, 0.04},
-                                           Case{0.03, 0.16, true, 0.3, 0.95, 0.12}));
+// At 10 cm lines are told to be less well known than they are.
+INSTANTIATE_TEST_SUITE_P(
+    At, LineSigmas,
+    ::testing::Values(Case{0.01, 0.16, false, 0.5, 0.8}, Case{0.03, 0.16, false, 0.6, 0.8},
+                      Case{0.1, 0.5, false, 0.5, 0.85}, Case{0.01, 0.16, true, 0.45, 0.8},
+                      Case{0.03, 0.16, true, 0.6, 0.8}, Case{0.1, 0.5, true, 0.45, 0.8}));
 
 }  // namespace
 }  // namespace cca

@@ -239,6 +239,33 @@ def test_small_run(browser, page, keep):
     check(abs(float(measured.split()[0]) - 5) < 0.05, f'3 and 4 m make {measured}')
     browser.press('Escape')
 
+    # Measuring snaps to ends of lines, and tells both ways.
+    browser.press('m')
+    for x, y in (0.1, 0.08), (7.93, 6.05):
+        browser.click(*place_of(browser, x, y))
+    measured = browser.run("document.getElementById('measured').textContent")
+    check(measured == '10.000 m, 36.9 deg, 8.000 m by 6.000 m', f'the room measures {measured}')
+    browser.press('Escape')
+
+    # A click chooses a wall, another one by its id; files hold what is chosen and seen.
+    text = lambda: browser.run("document.getElementById('selected').textContent")
+    is_hidden = lambda: browser.run("document.getElementById('selection').hidden")
+    check(is_hidden(), 'nothing is chosen at first')
+    browser.click(*place_of(browser, 8, 3))
+    for part in 'line 2', 'length 6.000 m', '100 returns', '1.20 mm', 'seen since 0:03':
+        check(part in text(), f'the chosen wall does not tell "{part}": {text()!r}')
+    rows = browser.run('player.selection.csv()').splitlines()
+    check(rows[1].startswith('108.0000,200.0000,108.0000,206.0000,2,100,6.0000,'), f'the table: {rows}')
+    drawing = browser.run('player.selection.svg()')
+    check(drawing.count('<line ') == 4 and drawing.count('stroke-width="5"') == 1, f'the drawing: {drawing}')
+    browser.run("(() => { const f = document.getElementById('find'); f.value = 99; f.dispatchEvent(new Event('change')); })()")
+    check(text() == 'no line 99 at this time', f'a line that is not there: {text()!r}')
+    browser.run("(() => { const f = document.getElementById('find'); f.value = 1; f.dispatchEvent(new Event('change')); })()")
+    check(text().startswith('line 1,'), f'found by its id: {text()!r}')
+    browser.press('Escape')
+    check(is_hidden(), 'escape chooses nothing')
+    browser.press('0')
+
     # Layers, by mouse and by key.
     browser.run("document.querySelector('#layers input[name=lines]').click()")
     check(not browser.run('player.maps[0].map.hasLayer(player.maps[0].layers.lines)'), 'lines are hidden')
@@ -333,13 +360,14 @@ def test_sizes(browser, page, keep):
     least = {'desk': 0.45 * 800, 'phone': 740 / 3, 'phone lying': 0.6 * 360}
     for name, (width, height) in SIZES.items():
         browser.open(page, width, height)
+        browser.run('player.selection.select(player.maps[0], 2)')
         if keep:
             browser.picture().save(os.path.join(keep, name.replace(' ', '_') + '.png'))
         page_width, page_height, map_height = browser.run('''[document.documentElement.scrollWidth,
             document.documentElement.scrollHeight, document.querySelector('.map').clientHeight]''')
         check(page_width <= width and page_height <= height, f'{name}: the page is {page_width} x {page_height}')
         check(map_height >= least[name], f'{name}: the map is {map_height} pixels high')
-        small = browser.run('''Array.from(document.querySelectorAll('button, select, #timeline, label, .leaflet-bar a'))
+        small = browser.run('''Array.from(document.querySelectorAll('button, select, #timeline, #find, label, .leaflet-bar a'))
             .map((e) => [e.id || e.textContent.trim(), e.getBoundingClientRect()])
             .filter(([, b]) => b.width < 44 || b.height < 44).map(([n, b]) => `${n} ${b.width} x ${b.height}`)''')
         check(not small, f'{name}: smaller than a finger: {small}')

@@ -30,6 +30,17 @@ TEST(Pose2, DifferenceIsAStepInTheCommonFrameAndTurnsTheShortWay) {
   EXPECT_EQ(difference(a, a), Eigen::Vector3d::Zero());
 }
 
+TEST(Pose2, TheWayBetweenTwoPosesIsEvenAndTurnsTheShortWay) {
+  const Pose2 a{1.0, 2.0, 3.0}, b{0.5, 4.0, -3.0};
+  const Pose2 between = poseBetween(a, b, 0.75);
+  EXPECT_NEAR(between.x, 0.625, 1e-12);
+  EXPECT_NEAR(between.y, 3.5, 1e-12);
+  EXPECT_NEAR(between.theta, 3.0 + 0.75 * (2.0 * M_PI - 6.0) - 2.0 * M_PI, 1e-12);
+  for (double share : {0.0, 1.0}) {
+    EXPECT_NEAR(difference(poseBetween(a, b, share), share == 0.0 ? a : b).norm(), 0.0, 1e-12);
+  }
+}
+
 TEST(WrapAngle, StaysWithinHalfATurnAndKeepsTheDirection) {
   for (double angle = -20.0; angle < 20.0; angle += 0.1) {
     EXPECT_LE(std::abs(wrapAngle(angle)), M_PI);

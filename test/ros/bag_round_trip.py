@@ -165,12 +165,12 @@ class BagRoundTrip(OwnMaster):
         told = self.ask("rosbag", "info", bag)
         for word in ("/scan", "sensor_msgs/LaserScan", "/tf_static", "/odom"):
             self.assertIn(word, told)
+        with rosbag.Bag(bag) as recorded:  # from the first sweep on, which began before the run did
+            self.assertEqual(self.map_offline(bag, "log")[1], recorded.get_message_count("/scan"))
         explored, offline = read_segments(os.path.join(self.out, "lines.csv")), self.check(bag)
-        # The explorer had ranges of 64 bits, the bag has 32, and tf each 20 ms. The walls are the same, but at a door one
-        # ends a beam (0.8 degrees at 4 m) earlier; which of these flips that beam is not known.
+        # The explorer had ranges of 64 bits, the bag has 32, and tf each 20 ms.
         for distances in (distance_to(explored, samples(offline)), distance_to(offline, samples(explored))):
-            self.assertLess(numpy.quantile(distances, 0.95), 0.01)
-            self.assertLess(distances.max(), 0.056)
+            self.assertLess(distances.max(), 0.01)
 
     def test_so_does_a_bag_whose_scans_and_poses_do_not_fit_each_other(self):
         bag = os.path.join(self.home.name, "awkward.bag")

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <random>
 
 namespace cca {
 namespace {
@@ -20,6 +21,17 @@ TEST(MotionPrior, LearnsThatTheWheelsTurnShort) {
     prior.learn(step, belief, {0.5, 0.0, step.theta + error}, kSure);
   }
   EXPECT_NEAR(prior.predict(wheels).T_before_after.theta, truth.theta, 0.003);
+}
+
+TEST(MotionPrior, TellsTurnsFromNoiseOnTheWayStraightOn) {
+  MotionPrior prior;
+  std::mt19937 generator(1);
+  std::normal_distribution<double> noise(0.0, 0.025), match(0.0, 0.002);
+  for (int k = 0; k < 400; ++k) {
+    const Pose2 step{0.5, 0.0, noise(generator)};
+    prior.learn(step, prior.predict(step), {0.5, 0.0, match(generator)}, kSure);
+  }
+  EXPECT_NEAR(prior.predict(Pose2{0.0, 0.0, 0.65}).T_before_after.theta, 0.65, 0.05);
 }
 
 TEST(MotionPrior, LearnsThatTheWheelsTellTooLongAWay) {

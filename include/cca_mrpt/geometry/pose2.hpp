@@ -28,6 +28,10 @@ Pose2 operator*(const Pose2& T_a_b, const Pose2& T_b_c);
 /// that takes a to b; dtheta in (-pi, pi].
 Eigen::Vector3d difference(const Pose2& b, const Pose2& a);
 
+/// Where a robot is that goes evenly from a to b: straight on, and turning the shorter way round.
+/// @param share  of the way, in [0, 1].
+Pose2 poseBetween(const Pose2& a, const Pose2& b, double share);
+
 /// A point of frame b in frame a.
 Eigen::Vector2d operator*(const Pose2& T_a_b, const Eigen::Vector2d& p_b);
 

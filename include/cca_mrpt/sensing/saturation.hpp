@@ -14,8 +14,10 @@ inline constexpr double kOfReach = 0.999;
 /// 32.767 m).
 ///
 /// A scan shows such a value if readings like its largest one lie in more than four places, or
-/// cover more than 15 degrees, among clearly nearer ones, and outnumber those a little smaller. No
-/// surface does that: a flat one leaves them within 3.6 degrees of its perpendicular. A largest
+/// cover more than 15 degrees, among clearly nearer ones, outnumber those a little smaller, and are
+/// two different numbers at the most. No surface does that: a flat one leaves them within 3.6
+/// degrees of its perpendicular, and what stands at the same distance here and there is read with
+/// noise. A largest
 /// reading that stands alone is a sign as well where it stays while the robot moves: ten such scans
 /// count as much as one of the others. A value that is exceeded as often as it is shown falls.
 class Saturation {

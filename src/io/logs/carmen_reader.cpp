@@ -11,7 +11,6 @@
 #include "carmen_line.hpp"
 #include "cca_mrpt/sensing/missing_returns.hpp"
 #include "io/files/gzip_lines.hpp"
-#include "io/poses/pose_between.hpp"
 
 namespace cca {
 namespace {

@@ -6,7 +6,6 @@
 #include <utility>
 #include <vector>
 
-#include "io/poses/pose_between.hpp"
 #include "laser_place.hpp"
 #include "sensing/gates.hpp"
 

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <stdexcept>
 #include <tuple>
+#include <utility>
 #include <vector>
 
 #include "io/files/atomic_file.hpp"
@@ -139,7 +140,10 @@ void writeMapFolder(const std::string& folder, const MapProducts& products) {
   if (plan) written.insert(written.end(), kPlanFiles.begin(), kPlanFiles.end());
   PictureOptions picture;
   if (plan) picture.rooms = seenFrom(products.origin, plan->rooms);
-  writePicture(inFolder(folder, "map.png"), products, picture);
+  MapProducts drawn = products;
+  // As who reads the files draws it, wherever the frame lies.
+  if (drawn.grid) drawn.grid = asWritten(std::move(*drawn.grid), Eigen::Vector2d::Zero());
+  writePicture(inFolder(folder, "map.png"), drawn, picture);
   writeScene(inFolder(folder, "scene.3Dscene"), products);
   if (!map.times.empty()) {
     const std::vector<StampedPose> poses = stampedPoses(map);

@@ -7,8 +7,6 @@
 #include <fstream>
 #include <sstream>
 
-#include "pose_between.hpp"
-
 namespace cca {
 namespace {
 

@@ -64,14 +64,17 @@ SimulatedRobot::SimulatedRobot(ros::NodeHandle& node, Simulation simulation,
   start_ = keeps_clock_ ? ros::Time(1.0) : ros::Time::now();
   if (keeps_clock_) clock_ = node.advertise<rosgraph_msgs::Clock>("/clock", 10);
   publishMount();
-  publishPose();
+  // The first sweep has begun before its end is now, and whoever places its beams asks for then.
+  const double sweep = std::abs(simulation_.parameters().laser.sweep);
+  if (sweep > 0.0) publishPose(now() - ros::Duration(sweep));
+  publishPose(now());
 }
 
 void SimulatedRobot::tick(const Velocity& command) {
   simulation_.drive(command, tick_);
   turned_ += std::abs(simulation_.velocity().angular) * tick_;
   ++ticks_;
-  publishPose();
+  publishPose(now());
 }
 
 void SimulatedRobot::publishMount() {
@@ -82,8 +85,7 @@ void SimulatedRobot::publishMount() {
   bag_.write("/tf_static", now(), message, true);
 }
 
-void SimulatedRobot::publishPose() {
-  const ros::Time stamp = now();
+void SimulatedRobot::publishPose(const ros::Time& stamp) {
   if (keeps_clock_) {
     rosgraph_msgs::Clock clock;
     clock.clock = stamp;

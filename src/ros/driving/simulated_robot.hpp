@@ -45,7 +45,7 @@ class SimulatedRobot {
   const Simulation& simulation() const { return simulation_; }
 
  private:
-  void publishPose();
+  void publishPose(const ros::Time& stamp);
   void publishMount();
 
   Simulation simulation_;

@@ -39,9 +39,7 @@ std::optional<Pose2> OdometryTrack::at(const ros::Time& time) const {
   if (b == poses_.begin()) return std::nullopt;
   const auto a = b - 1;
   const double t = (time - a->stamp).toSec() / (b->stamp - a->stamp).toSec();
-  const Pose2 &p = a->pose, &q = b->pose;
-  return Pose2{p.x + t * (q.x - p.x), p.y + t * (q.y - p.y),
-               wrapAngle(p.theta + t * wrapAngle(q.theta - p.theta))};
+  return poseBetween(a->pose, b->pose, t);
 }
 
 }  // namespace cca

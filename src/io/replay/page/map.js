@@ -13,6 +13,8 @@ const kHiddenAtFirst = ['believed path', 'true path'];
 
 function colour(name) { return getComputedStyle(document.documentElement).getPropertyValue('--' + name).trim(); }
 
+function clockOf(s) { return Math.floor(s / 60) + ':' + String(Math.floor(s % 60)).padStart(2, '0'); }
+
 const toPlace = ([x, y]) => [y, x];
 
 /** [from, to] m, without what a pose that has gone astray saw. */
@@ -132,6 +134,7 @@ class RunMap {
     this.goal = put('goal and way', L.circleMarker([0, 0], { ...above, radius: 6, weight: 3, fillOpacity: 0.2 }));
     this.robot = put('robot', L.polygon([], { ...above, weight: 2, fillOpacity: 0.6 }));
     this.drawn = new Map();  // id: polyline
+    this.chosen = new Set();  // ids
     this.now = new Map();    // id: index of the change that it was last drawn by
     this.stale = new Set();
     this.lineChanges = new Changes(run.lines.frame, (i) => {
@@ -225,13 +228,33 @@ class RunMap {
     this.goal.setStyle(fill('way'));
     this.robot.setStyle(fill('robot'));
     for (const room of this.rooms) room.setStyle(fill('room'));
-    for (const line of this.drawn.values()) line.setStyle({ color: colour('line') });
+    this.paintLines();
     this.floor.paint();
     if (this.moment >= 0) this.floor.show(this.moment);
     if (!this.run.world) return;
     this.layers['true world'].clearLayers();
     L.imageOverlay(worldPicture(this.run.world), this.worldBounds(), { pane: 'world', className: 'world', alt: 'true world' })
       .addTo(this.layers['true world']);
+  }
+
+  styleOf(id) {
+    return this.chosen.has(id) ? { color: colour('robot'), weight: 5 } : { color: colour('line'), weight: 2.5 };
+  }
+
+  paintLines() { for (const [id, line] of this.drawn) line.setStyle(this.styleOf(id)); }
+
+  /** The end of a line that is meant by a place so near it; else the place. */
+  snapped(place) {
+    if (!this.map.hasLayer(this.layers.lines)) return place;
+    const at = this.map.latLngToContainerPoint(place);
+    let nearest = kSnap, best = place;
+    for (const line of this.drawn.values()) {
+      for (const end of line.getLatLngs()) {
+        const distance = at.distanceTo(this.map.latLngToContainerPoint(end));
+        if (distance < nearest) [nearest, best] = [distance, end];
+      }
+    }
+    return best;
   }
 
   setVisible(name, isVisible) {
@@ -308,9 +331,10 @@ class RunMap {
         line.setLatLngs([[y1[i], x1[i]], [y2[i], x2[i]]]);
       } else if (isThere) {
         const fresh = L.polyline([[y1[i], x1[i]], [y2[i], x2[i]]],
-                                 { renderer: this.lineRenderer, color: colour('line'), weight: 2.5, bubblingMouseEvents: true });
-        fresh.bindTooltip(() => this.describe(id), { sticky: true });
-        fresh.on('mouseover', () => fresh.setStyle({ weight: 5 })).on('mouseout', () => fresh.setStyle({ weight: 2.5 }));
+                                 { renderer: this.lineRenderer, ...this.styleOf(id), bubblingMouseEvents: true });
+        fresh.on('click', () => { this.hit = id; });  // before the map hears of the click
+        fresh.bindTooltip(() => this.facts(id).join('<br>'), { sticky: true });
+        fresh.on('mouseover', () => fresh.setStyle({ weight: 5 })).on('mouseout', () => fresh.setStyle(this.styleOf(id)));
         this.drawn.set(id, fresh);
         this.layers.lines.addLayer(fresh);
       }
@@ -318,14 +342,21 @@ class RunMap {
     this.stale.clear();
   }
 
-  /** What is told of a line under the mouse. */
-  describe(id) {
+  lengthOf(id) {
+    const { x1, y1, x2, y2 } = this.run.lines, i = this.now.get(id);
+    return Math.hypot(x2[i] - x1[i], y2[i] - y1[i]);
+  }
+
+  /** What is told of a line under the mouse, and of one that was chosen. */
+  facts(id) {
     const l = this.run.lines, i = this.now.get(id), [ox, oy] = this.run.origin;
-    if (i === undefined) return '';
+    if (i === undefined) return [];
+    const at = (change) => clockOf(this.run.time[l.frame[change]] - this.run.begin);
     const end = (x, y) => (ox + x).toFixed(3) + ', ' + (oy + y).toFixed(3);
-    return [`line ${id}`, `length ${Math.hypot(l.x2[i] - l.x1[i], l.y2[i] - l.y1[i]).toFixed(3)} m`,
+    return [`line ${id}`, `length ${this.lengthOf(id).toFixed(3)} m`,
             `support ${l.support[i]} returns`,
             `sigma ${(1e3 * l.sigmaOffset[i]).toFixed(2)} mm, ${(l.sigmaAngle[i] * 180 / Math.PI).toFixed(3)} deg`,
-            `from ${end(l.x1[i], l.y1[i])}`, `to ${end(l.x2[i], l.y2[i])} m`].join('<br>');
+            `from ${end(l.x1[i], l.y1[i])}`, `to ${end(l.x2[i], l.y2[i])} m`,
+            `seen since ${at(l.id.indexOf(id))}, as it is since ${at(i)}`];
   }
 }

@@ -12,6 +12,7 @@ class Player {
     this.last = null;  // ms, when the last picture was drawn while playing; null: paused
     this.hidden = new Set(kHiddenAtFirst);
     this.measureFrom = null;
+    this.selection = new Selection(this);
     this.connect();
   }
 
@@ -32,8 +33,9 @@ class Player {
     Object.assign(view, { reason, numbers: title.querySelector('.numbers') });
     this.maps.push(view);
     new ResizeObserver(() => view.map.invalidateSize({ animate: false })).observe(map);
-    view.map.on('move', () => this.follow(view)).on('moveend', () => this.writeAddress()).on('click', (event) => this.live?.send(event.latlng) || this.measure(view, event.latlng))
-      .on('mousemove', (event) => this.drawMeasure(view, event.latlng));
+    view.map.on('move', () => this.follow(view)).on('moveend', () => this.writeAddress())
+      .on('click', (event) => this.live?.send(event.latlng) || this.click(view, event))
+      .on('mousemove', (event) => this.drawMeasure(view, view.snapped(event.latlng)));
     for (const name of this.hidden) view.setVisible(name, false);
     byId('timeline').max = this.duration;
     this.makeCharts();
@@ -115,8 +117,7 @@ class Player {
     }
     for (const chart of this.charts) chart.show(distances);
     byId('timeline').value = this.time;
-    const clock = (s) => Math.floor(s / 60) + ':' + String(Math.floor(s % 60)).padStart(2, '0');
-    byId('clock').textContent = clock(this.time) + ' / ' + clock(this.duration);
+    byId('clock').textContent = clockOf(this.time) + ' / ' + clockOf(this.duration);
     byId('timeline').setAttribute('aria-valuetext', byId('clock').textContent);
     this.writeAddress();
   }
@@ -198,8 +199,13 @@ class Player {
 
   get isMeasuring() { return byId('measure').getAttribute('aria-pressed') === 'true'; }
 
+  click(view, { latlng, originalEvent }) {
+    if (this.isMeasuring) this.measure(view, view.snapped(latlng));
+    else this.selection.select(view, view.hit, originalEvent.shiftKey);
+    view.hit = undefined;
+  }
+
   measure(view, place) {
-    if (!this.isMeasuring) return;
     if (this.measureFrom) {
       this.drawMeasure(view, place);
       this.measureFrom = null;
@@ -215,7 +221,8 @@ class Player {
     if (!this.measureFrom || this.measureFrom.view !== view) return;
     const from = this.measureFrom.place, dx = place.lng - from.lng, dy = place.lat - from.lat;
     this.ruler.setLatLngs([from, place]);
-    byId('measured').textContent = `${Math.hypot(dx, dy).toFixed(3)} m, ${(Math.atan2(dy, dx) * 180 / Math.PI).toFixed(1)} deg`;
+    byId('measured').textContent = `${Math.hypot(dx, dy).toFixed(3)} m, ${(Math.atan2(dy, dx) * 180 / Math.PI).toFixed(1)} deg, `
+                                   + `${Math.abs(dx).toFixed(3)} m by ${Math.abs(dy).toFixed(3)} m`;
   }
 
   async compare(file) {
@@ -258,6 +265,7 @@ class Player {
     if (event.ctrlKey || event.altKey || event.metaKey) return;
     const onMap = this.maps.find((view) => view.takesKeys && view.map.getContainer() === target);
     if (onMap && this.moveMap(onMap.map, key)) return event.preventDefault();
+    if (target.closest('input[type=number]')) return;  // a number is being written
     const isElsewhere = target.closest('a, select, button, input[type=checkbox], .button');
     const far = event.shiftKey ? 10 : 1;
     const keys = {
@@ -268,7 +276,7 @@ class Player {
     const anywhere = {
       '+': () => this.changeSpeed(1), '-': () => this.changeSpeed(-1), 0: () => this.maps.length && this.showWhole(),
       m: () => this.setMeasuring(!this.isMeasuring),
-      Escape: () => { this.setMeasuring(false); this.live?.setSending(false); },
+      Escape: () => { this.setMeasuring(false); this.maps.length && this.selection.select(this.maps[0]); this.live?.setSending(false); },
     };
     const layer = byId('layers').children[Number(key) - 1];
     const action = (!isElsewhere && keys[key]) || anywhere[key] || this.live?.actionOf(key) || (layer && (() => layer.firstChild.click()));
