@@ -5,11 +5,14 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <deque>
 #include <optional>
+#include <utility>
+#include <vector>
 
 #include "cca_mrpt/mapping/line_extraction.hpp"
 #include "known_map/global_localisation.hpp"
-#include "slam/motion_prior.hpp"
+#include "slam/sweep_matching.hpp"
 
 namespace cca {
 namespace {
@@ -25,6 +28,9 @@ constexpr double kLeastNews = 0.02;
 constexpr double kOfSweepError = 0.15, kScanSigma = 0.003, kScanTurnSigma = 0.001;
 
 constexpr double kLeastMatchReach = 0.15;  // m: coarser than the finest reach of a match by a round
+
+/// By which the sweep of the next one is undone: one and five of them give the same to 2 %.
+constexpr std::size_t kLastScans = 3;
 
 /// nats a beam, below which a scan is in doubt; and of what is usual here: where the plan explains
 /// nearly all, a scan of which it explains half is from elsewhere.
@@ -118,6 +124,12 @@ class KnownMap::State {
     std::vector<PieceSight> said;
     double evidence = 0.0;  ///< nats a beam
   };
+  /// Where the next scan was taken, by the motion since the last one alone.
+  struct Prediction {
+    Pose2 T_map_sensor;
+    Eigen::Matrix3d covariance;
+    PoseBelief belief() const { return {T_map_sensor, covariance.inverse()}; }
+  };
   /// What the beams said of a piece of the plan.
   struct PieceRecord {
     double explained = 0.0, through = 0.0;
@@ -125,6 +137,11 @@ class KnownMap::State {
   Fit fitAt(const ScanSurface& surface, const Pose2& start, const PoseBelief& prior, double reach,
             double share) const;
   double doubt() const;
+  static double likelihood(const Fit& fit, const PoseBelief& prior);
+  Prediction predict(const MotionBelief& motion) const;
+  void straighten(const SweptScan& undone, const MotionBelief& motion, bool by_wheels,
+                  ScanSurface& surface);
+  void keep(ScanSurface surface);
   void track(const ScanSurface& surface, const std::optional<Pose2>& wheel_step,
              const MotionBelief& motion);
   Fit fitAbout(const ScanSurface& surface, const PoseBelief& prior, double share) const;
@@ -147,6 +164,11 @@ class KnownMap::State {
   std::vector<PieceRecord> records_;
   std::vector<bool> is_open_;   ///< pieces that rays pass: doors
   std::vector<SightRay> rays_;  ///< of the scan at hand
+  struct Kept {
+    ScanSurface surface;
+    Pose2 T_map_sensor;
+  };
+  std::deque<Kept> last_;  ///< of a laser that sweeps: scans that were localised
   std::optional<Told> told_;
   std::optional<Pose2> last_odom_sensor_;
   Pose2 T_map_sensor_;
@@ -184,8 +206,7 @@ void KnownMap::State::place(const Pose2& T_map_robot, const Eigen::Matrix3d& cov
 }
 
 Estimate KnownMap::State::update(const Measurement& measurement, const AnalysedScan& analysed) {
-  const ScanSurface surface = scanSurface(analysed);
-  rays_ = sightRays(surface);
+  ScanSurface surface = scanSurface(analysed);
   std::optional<Pose2> odom_sensor, wheel_step;
   if (measurement.T_odom_robot && isFinite(*measurement.T_odom_robot)) {
     odom_sensor = *measurement.T_odom_robot * measurement.T_robot_sensor;
@@ -199,6 +220,11 @@ Estimate KnownMap::State::update(const Measurement& measurement, const AnalysedS
   scan_covariance_ = kOfSweepError * inMapAxes(motion.covariance, T_map_sensor_.theta);
   scan_covariance_.diagonal() +=
       Eigen::Vector3d(kScanSigma, kScanSigma, kScanTurnSigma).cwiseAbs2();
+  const bool is_followed = is_localised_ && !told_;
+  if (measurement.undone && is_followed) {
+    straighten(*measurement.undone, motion, wheel_step.has_value(), surface);
+  }
+  rays_ = sightRays(surface);
   if (told_) {
     takePlace(surface, measurement.T_robot_sensor);
   } else if (is_localised_) {
@@ -206,7 +232,35 @@ Estimate KnownMap::State::update(const Measurement& measurement, const AnalysedS
   } else {
     search(surface, motion);
   }
+  if (!is_followed) last_.clear();
+  if (measurement.undone && is_localised_ && doubtful_scans_ == 0) keep(std::move(surface));
   return estimate(measurement.T_robot_sensor);
+}
+
+KnownMap::State::Prediction KnownMap::State::predict(const MotionBelief& motion) const {
+  const Pose2 T_map_sensor = T_map_sensor_ * motion.T_before_after;
+  return {T_map_sensor, atArm(covariance_, T_map_sensor.position() - T_map_sensor_.position()) +
+                            inMapAxes(motion.covariance, T_map_sensor_.theta)};
+}
+
+/// By what the last scans saw around, not by the plan: what is off in that looks like a motion.
+void KnownMap::State::straighten(const SweptScan& undone, const MotionBelief& motion,
+                                 bool by_wheels, ScanSurface& surface) {
+  std::vector<PlacedSurface> references;
+  for (const Kept& kept : last_) references.push_back({&kept.surface, kept.T_map_sensor});
+  const PoseBelief prior = predict(motion).belief();
+  const auto fit = matchSweep(surface, undone, prior.mean, prior,
+                              sweepBelief(undone.motion, motion_, by_wheels), references);
+  if (!fit) return;
+  if (by_wheels) motion_.learnChange(fit->change_error, fit->expected_change_error);
+  bendBy(fit->motion, undone, surface);
+}
+
+/// Where it shows what the last one kept does not.
+void KnownMap::State::keep(ScanSurface surface) {
+  if (!last_.empty() && newsOf(last_.back().T_map_sensor.inverse() * T_map_sensor_) < 1.0) return;
+  last_.push_back({std::move(surface), T_map_sensor_});
+  if (last_.size() > kLastScans) last_.pop_front();
 }
 
 KnownMap::State::Fit KnownMap::State::fitAt(const ScanSurface& surface, const Pose2& start,
@@ -229,19 +283,39 @@ double KnownMap::State::doubt() const {
   return std::max(kDoubt, kDoubtOfUsual * sights_.evidence(sights_.usual()));
 }
 
-/// Downhill from the wheels' word; where that does not fit, from what fits best around.
+/// nats, of a pose by its scan and by what was believed of it without.
+double KnownMap::State::likelihood(const Fit& fit, const PoseBelief& prior) {
+  const Eigen::Vector3d off = difference(fit.match.T_map_sensor, prior.mean);
+  const double off_sq = off.dot(prior.information * off);
+  return fit.evidence * fit.seen.count() -
+         0.5 * (kPriorFreedom + 3.0) * std::log1p(off_sq / kPriorFreedom);
+}
+
+/// Downhill from the wheels' word; where they may err by more than a match reaches, or where that
+/// does not fit, from what fits best around.
 KnownMap::State::Fit KnownMap::State::fitAbout(const ScanSurface& surface, const PoseBelief& prior,
                                                double share) const {
   const Spread spread = spreadOf(prior.information.inverse());
-  const double reach = std::clamp(kPriorSigmas * (spread.position + kTurnArm * spread.turn),
-                                  kLeastMatchReach, PlanLines::kMostReach);
-  const Fit here = fitAt(surface, prior.mean, prior, reach, share);
+  const double span = kPriorSigmas * (spread.position + kTurnArm * spread.turn);
+  const double reach = std::clamp(span, kLeastMatchReach, PlanLines::kMostReach);
+  const auto bestWithin = [&](double half_width, double half_turn) {
+    SearchWindow window;
+    window.centre = prior.mean;
+    window.half_width = std::min(half_width, kSearchHalfWidth);
+    window.half_turn = half_turn;
+    return global_.bestIn(window, surface);
+  };
+  Fit here = fitAt(surface, prior.mean, prior, reach, share);
+  if (span > PlanLines::kMostReach) {
+    const double turn = std::min(kPriorSigmas * spread.turn, kSearchHalfTurn);
+    if (const auto elsewhere = bestWithin(kPriorSigmas * spread.position, turn)) {
+      Fit there = fitAt(surface, *elsewhere, prior, kFirstMatchReach, share);
+      if (likelihood(there, prior) > likelihood(here, prior)) here = std::move(there);
+    }
+  }
   if (here.evidence >= doubt() || here.seen.count() < kFewestRays) return here;
-  SearchWindow window;
-  window.centre = prior.mean;
-  window.half_width = kSearchHalfWidth;
-  window.half_turn = kSearchHalfTurn;
-  const auto elsewhere = global_.bestIn(window, surface);
+  // A scan that speaks against the place: wheels that slip lose any turn, and little way.
+  const auto elsewhere = bestWithin(kSearchHalfWidth, here.evidence < 0.0 ? M_PI : kSearchHalfTurn);
   if (!elsewhere) return here;
   PoseBelief vague = prior;
   vague.information *= 0.01;
@@ -252,22 +326,21 @@ KnownMap::State::Fit KnownMap::State::fitAbout(const ScanSurface& surface, const
 void KnownMap::State::track(const ScanSurface& surface, const std::optional<Pose2>& wheel_step,
                             const MotionBelief& motion) {
   const Pose2 before = T_map_sensor_;
-  PoseBelief prior;
-  prior.mean = before * motion.T_before_after;
-  const Eigen::Matrix3d predicted = atArm(covariance_, prior.mean.position() - before.position()) +
-                                    inMapAxes(motion.covariance, before.theta);
-  prior.information = predicted.inverse();
+  const Prediction predicted = predict(motion);
+  const PoseBelief prior = predicted.belief();
   const double share = is_fresh_ ? 1.0 : newsOf(motion.T_before_after);
   const Fit fit = fitAbout(surface, prior, share);
   const bool is_doubtful = fit.evidence < doubt() && fit.seen.count() >= kFewestRays;
-  const bool is_matched = fit.match.paired > 0.0 && !is_doubtful;
+  // Half of what is usual may still be the best that is known of where the robot is.
+  const bool is_refuted = is_doubtful && fit.evidence < kDoubt;
+  const bool is_matched = fit.match.paired > 0.0 && !is_refuted;
   T_map_sensor_ = is_matched ? fit.match.T_map_sensor : prior.mean;
-  covariance_ = is_matched ? fit.match.posterior.inverse().eval() : predicted;
+  covariance_ = is_matched ? fit.match.posterior.inverse().eval() : predicted.covariance;
   seen_ = fit.seen;
   residual_ = fit.match.sigma;
   followed_way_ += motion.T_before_after.position().norm();
-  if (is_matched) {
-    map_sigma_ = fit.match.map_sigma;
+  if (is_matched) map_sigma_ = fit.match.map_sigma;
+  if (is_matched && !is_doubtful) {
     if (followed_way_ > kTrustedAfter) {
       trusted_ = {T_map_sensor_ * T_wheels_sensor_.inverse(), wheels_way_, wheels_turn_};
     }

@@ -136,6 +136,16 @@ std::optional<SweepFit> matchSweep(const ScanSurface& query, const SweptScan& sw
   return fit;
 }
 
+void bendBy(const SweepHalves& motion, const SweptScan& sweep, ScanSurface& surface) {
+  const Eigen::Vector3d before = difference(motion.before, sweep.motion.before);
+  const Eigen::Vector3d after = difference(motion.after, sweep.motion.after);
+  const PackedPoints moved = bent(surface.packed, sharesOf(surface, sweep.sense), before, after);
+  for (std::size_t k = 0; k < moved.size(); ++k) {
+    surface.points[k].position = {moved.x[k], moved.y[k]};
+  }
+  surface.pack();
+}
+
 SweepBelief sweepBelief(const SweepHalves& undone_by, const MotionPrior& prior, bool by_wheels) {
   const auto& [before, after] = undone_by;
   const Pose2 whole = added(before, {after.x, after.y, after.theta});

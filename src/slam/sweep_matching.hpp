@@ -50,6 +50,10 @@ std::optional<SweepFit> matchSweep(const ScanSurface& query, const SweptScan& sw
                                    const SweepBelief& belief,
                                    const std::vector<PlacedSurface>& references);
 
+/// A surface that was undone by `sweep.motion`, as it is by another motion that differs little: to
+/// the first order of the difference.
+void bendBy(const SweepHalves& motion, const SweptScan& sweep, ScanSurface& surface);
+
 /// The same where somebody else knows the poses: among the last scans kept.
 /// @param analysed      of the next scan, undone by `sweep`.
 /// @param T_map_sensor  where it was taken, about as well as the others.

@@ -86,6 +86,7 @@ inline Drive explorationOf(const World& world, const Pose2& start, const std::st
     measurement.scan = robot.observe().scan;
     missing_returns.judge(measurement.scan);
     measurement.scan = compensation.undistort(measurement.scan, robot.sweepMotion());
+    measurement.undone = compensation.undone();
     const Instant& scanned = robot.scanned();
     measurement.T_odom_robot = scanned.T_odom_robot;
     measurement.time = scanned.time;

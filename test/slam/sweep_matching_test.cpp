@@ -110,6 +110,24 @@ TEST_F(SweepMatching, LeavesWhatIsRightAsItIs) {
   EXPECT_LT((motion->position() - truth.position()).norm(), 0.005);
 }
 
+TEST_F(SweepMatching, BendsASurfaceAsTheOtherMotionWouldHaveUndoneIt) {
+  const Twist wrong{kTrue.linear, kTrue.angular + 0.2};
+  for (const double duration : {kSweep, -kSweep}) {
+    const Scan scan = swept(duration);
+    const SweptScan sweep{{motionOf(wrong), motionOf(wrong)}, duration > 0.0 ? 1.0 : -1.0};
+    const ScanSurface exact = scanSurface(world_.scan(kMiddle, kBeams, kFieldOfView));
+    const auto off = [&exact](const ScanSurface& seen) {  // m rms
+      const MatchQuadric pairs = matchQuadric(seen, {}, {{&exact, Pose2()}}, {0.1, 0.025, 1});
+      return std::sqrt(pairs.sum_sq / pairs.sum_weights);
+    };
+    const ScanSurface undone = scanSurface(undistort(scan, kTrue));
+    ScanSurface surface = scanSurface(undistort(scan, wrong));
+    EXPECT_GT(off(surface), 1.5 * off(undone));
+    bendBy({motionOf(kTrue), motionOf(kTrue)}, sweep, surface);
+    EXPECT_LT(off(surface), 1.1 * off(undone));
+  }
+}
+
 TEST_F(SweepMatching, HoldsToWhatIsSureOfTheMotion) {
   belief_.information = 1e12 * Eigen::Matrix3d::Identity();
   const Twist wrong{kTrue.linear, kTrue.angular + 0.1};

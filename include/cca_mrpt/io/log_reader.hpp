@@ -18,10 +18,11 @@ struct LogRecord {
   double time = 0.0;     ///< s; 0 where the log does not tell
   bool has_time = true;  ///< whether the log tells the time of this scan
   Pose2 T_robot_sensor;  ///< identity where the log does not tell
-  std::optional<Pose2> corrected;  ///< T_map_robot as a SLAM system had stored it
-  std::optional<Pose2> odometry;   ///< T_odom_robot
-  std::optional<Pose2> truth;      ///< T_map_robot of a simulation
-  SweepMotion motion;              ///< as far as the log tells
+  std::optional<Pose2> corrected;   ///< T_map_robot as a SLAM system had stored it
+  std::optional<Pose2> odometry;    ///< T_odom_robot
+  std::optional<Pose2> truth;       ///< T_map_robot of a simulation
+  SweepMotion motion;               ///< as far as the log tells
+  std::optional<SweptScan> undone;  ///< see openUndistortedLog()
 };
 
 /// A log, scan by scan. The scans' number counts from 0 in the order that next() gives.

@@ -22,6 +22,9 @@ struct SightShares;
 /// robot whose beams go through lines has been carried, or has slipped: it is lost, says so, and is
 /// looked for in the whole plan (GlobalLocalisation), as one is that starts anywhere.
 ///
+/// Of a laser that sweeps, a scan is undone anew first, by what the last ones that were localised
+/// saw around (matchSweep()).
+///
 /// Deterministic. The memory is that of the plan; nothing grows with the drive.
 class KnownMap : public Localiser {
  public:
@@ -39,7 +42,7 @@ class KnownMap : public Localiser {
   ///          the covariance zero.
   Estimate update(const Measurement& measurement, const AnalysedScan& analysed,
                   const PastScans& past) override;
-  /// The same for a scan of one instant that nobody has analysed yet.
+  /// The same for a scan brought to one instant that nobody has analysed yet.
   Estimate localise(const Measurement& measurement);
 
   int timesLost() const;

@@ -30,6 +30,9 @@ struct Measurement {
   std::optional<Pose2> T_map_robot{};   ///< where somebody else knows it
   double time = 0.0;                    ///< s, of the poses, never falling; 0 where nobody tells
   SweepMotion motion{};                 ///< during the sweep, as far as it is known
+  /// How the scan was brought to one instant; nothing where there was nothing to undo, or as the
+  /// driver gives it.
+  std::optional<SweptScan> undone{};
 };
 
 /// Where a localiser believes that a scan was taken.

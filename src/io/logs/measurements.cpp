@@ -42,6 +42,7 @@ Measurement measurementOf(LogRecord record, PoseSource source) {
   Measurement measurement;
   measurement.T_robot_sensor = record.T_robot_sensor;
   measurement.T_odom_robot = record.odometry;
+  measurement.undone = record.undone;
   measurement.time = record.has_time ? record.time : 0.0;
   // Poses that somebody has corrected are not for who is to find his own.
   if (record.odometry || source == PoseSource::kLog) measurement.motion = record.motion;

@@ -20,7 +20,9 @@ class Lasers {
   explicit Lasers(const std::optional<double>& sweep) : sweep_(sweep) {}
 
   void undistort(LogRecord& record) {
-    record.scan = of(record.T_robot_sensor).undistort(record.scan, record.motion);
+    MotionCompensation& laser = of(record.T_robot_sensor);
+    record.scan = laser.undistort(record.scan, record.motion);
+    record.undone = laser.undone();
   }
 
   /// Whether more scans may tell more.

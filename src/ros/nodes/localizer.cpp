@@ -82,6 +82,7 @@ class Localizer {
     const ros::WallTime start = ros::WallTime::now();
     Measurement measurement = measurementOf(scan, true);
     measurement.scan = compensation_.undistort(measurement.scan, measurement.motion);
+    measurement.undone = compensation_.undone();
     const Estimate estimate = localiser_.localise(measurement);
     tell(estimate.is_known);
     // Nobody is told a guess: map -> odom grows old, and who drives by it stops.
