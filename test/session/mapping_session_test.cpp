@@ -97,6 +97,21 @@ LineMap mapOf(MappingSession& session) {
   return session.lineMap();
 }
 
+TEST(MappingSession, BeamsPointNoSurerThanTheHeadingIsKnown) {
+  MappingSession by_slam(std::make_unique<SlamLocaliser>(), {});
+  MappingSession given(std::make_unique<GivenPoses>(), {});
+  int less_sure = 0;
+  for (const Measurement& measurement : drive()) {
+    const Estimate estimate = by_slam.add(measurement);
+    const double heading_sigma = std::sqrt(estimate.covariance(2, 2));
+    ASSERT_GE(by_slam.scan().bearing_sigma, heading_sigma);
+    less_sure += heading_sigma > 0.0;
+    given.add(measurement);
+    ASSERT_EQ(given.scan().bearing_sigma, 0.0);
+  }
+  EXPECT_GT(less_sure, 100);
+}
+
 TEST(MappingSession, MapsEachScanAtGivenPoses) {
   CountingRecorder recorder;
   MappingSession session(std::make_unique<GivenPoses>(), {}, &recorder);

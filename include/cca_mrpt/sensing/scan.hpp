@@ -23,7 +23,8 @@ struct Scan {
   /// s, from beam 0 to the last: a laser that turns measures one beam after the other. Negative
   /// where the last beam was the first in time; 0 where all are of one instant. See undistort().
   double sweep_duration = 0.0;
-  /// rad, of the beams' directions: 0 as they were measured. See undistort().
+  /// rad, of the beams' directions in the map, by the sensor's heading and by undistort(): 0 where
+  /// the pose is exact and the beams are as they were measured.
   double bearing_sigma = 0.0;
   Pose2 T_map_sensor;  ///< in the middle of the sweep
 
