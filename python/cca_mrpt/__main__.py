@@ -6,11 +6,10 @@ import argparse
 import math
 import re
 import sys
-from importlib.metadata import version
 from pathlib import Path
 from typing import Any, Callable, Dict, List, Optional, Sequence, Tuple
 
-from ._core import write_files_into
+from ._core import version, write_files_into
 from .floor_plans import floor_plan
 from .localisation import localize
 from .logs import read_log
@@ -304,7 +303,7 @@ def _with_places_told(words: Sequence[str]) -> List[str]:
 
 def main(arguments: Optional[Sequence[str]] = None) -> int:
     parser = argparse.ArgumentParser(prog="cca-mrpt", description="line maps of laser logs", epilog=STATUSES)
-    parser.add_argument("--version", action="version", version=f"cca-mrpt {version('cca-mrpt')}")
+    parser.add_argument("--version", action="version", version=f"cca-mrpt {version}")
     add_commands(parser.add_subparsers(dest="command", required=True))
     options = parser.parse_args(_with_places_told(sys.argv[1:] if arguments is None else arguments))
     run = {"batch": run_batch, "map": run_map, "info": run_info, "localize": run_localize, "merge": run_merge,
