@@ -16,4 +16,5 @@ NB_MODULE(_core, module) {
   cca::python::addFloorPlan(module);
   cca::python::addSession(module);
   cca::python::addLocalisation(module);
+  cca::python::addEvaluation(module);
 }

@@ -25,6 +25,7 @@ from ._core import (
     extract_lines,
     version,
 )
+from .evaluation import evaluate
 from .floor_plans import FloorPlan, Furniture, Opening, Room, Wall, floor_plan
 from .grids import Grid
 from .localisation import Localisation, localize
@@ -74,6 +75,7 @@ __all__ = [
     "SlamPose",
     "Wall",
     "baselines",
+    "evaluate",
     "extract_lines",
     "floor_plan",
     "load",
