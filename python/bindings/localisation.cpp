@@ -65,7 +65,8 @@ nb::object localizeRecords(nb::handle records, const std::string& plan_path,
     const nb::gil_scoped_release others_may_run;
     plan = readPlan(plan_path, scale, [&raster](const std::string&) { return gridPlan(*raster); });
     log.emplace(plan.lines, plan.sigmas, T_map_start);
-    const std::unique_ptr<LogReader> reader = undistortedLog([&] { return repeated.open(); }, std::nullopt);
+    const std::unique_ptr<LogReader> reader =
+        undistortedLog([&] { return repeated.open(); }, std::nullopt);
     log->take(*reader, [] { return true; });
   } catch (const std::runtime_error& error) {
     throw nb::value_error(error.what());

@@ -37,8 +37,8 @@ void addEvaluateCommand(CLI::App& program) {
   command->add_option("--out", options->out, "JSON file to write; default: standard output");
   command->callback([options] {
     const JudgedMap map(contentOf(options->map), options->map);
-    const LogScore score = options->log.empty() ? judgeByWorld(options->world, map)
-                                                : evaluateLog(options->log, map);
+    const LogScore score =
+        options->log.empty() ? judgeByWorld(options->world, map) : evaluateLog(options->log, map);
     const std::string text = textOf(score);
     if (options->out.empty()) {
       std::fputs(text.c_str(), stdout);
