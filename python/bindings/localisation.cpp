@@ -13,7 +13,6 @@
 
 #include "apps/logs/localized_log.hpp"
 #include "arguments.hpp"
-#include "io/logs/sound_log.hpp"
 #include "io/logs/undistorted_log.hpp"
 #include "io/plans/plan_reader.hpp"
 #include "io/plans/plan_reader_formats.hpp"
@@ -59,19 +58,15 @@ nb::object localizeRecords(nb::handle records, const std::string& plan_path,
   if (grid) raster = rasterOf(std::get<0>(*grid), std::get<1>(*grid), std::get<2>(*grid));
   std::optional<Pose2> T_map_start;
   if (!start.is_none()) T_map_start = readPose(start, "start");
-  std::optional<nb::object> iterator;  // of the pass that is under way
-  const auto open = [&]() -> std::unique_ptr<LogReader> {
-    const nb::gil_scoped_acquire turn;
-    iterator = nb::iter(records);
-    return soundScansOf(std::make_unique<PythonLog>(*iterator));
-  };
+  RepeatedLog repeated(records);
   std::optional<LocalizedLog> log;
   PlanFile plan;
   try {
     const nb::gil_scoped_release others_may_run;
     plan = readPlan(plan_path, scale, [&raster](const std::string&) { return gridPlan(*raster); });
     log.emplace(plan.lines, plan.sigmas, T_map_start);
-    const std::unique_ptr<LogReader> reader = undistortedLog(open, std::nullopt);
+    const std::unique_ptr<LogReader> reader =
+        undistortedLog([&] { return repeated.open(); }, std::nullopt);
     log->take(*reader, [] { return true; });
   } catch (const std::runtime_error& error) {
     throw nb::value_error(error.what());

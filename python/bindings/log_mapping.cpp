@@ -188,7 +188,7 @@ nb::object mergeMaps(const std::vector<std::string>& maps, nb::kwargs keywords) 
     if (apart) {
       throw std::runtime_error(maps[*apart] + ": no place of it was found in " + maps.front());
     }
-    mapping.finished = true;
+    mapping.complete();
     result = resultOf(mapping);
     result->products.graph = mapping.slam->slam().memory().graph;
     result->products.summary["key_frames"] = result->products.graph.size();

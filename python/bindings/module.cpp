@@ -5,6 +5,7 @@
 
 NB_MODULE(_core, module) {
   module.doc() = "The C++ core of cca_mrpt; use the names that the package itself offers.";
+  module.attr("version") = CCA_VERSION;
   cca::python::addLineTypes(module);
   cca::python::addMapping(module);
   cca::python::addBaselines(module);
@@ -15,4 +16,5 @@ NB_MODULE(_core, module) {
   cca::python::addFloorPlan(module);
   cca::python::addSession(module);
   cca::python::addLocalisation(module);
+  cca::python::addEvaluation(module);
 }

@@ -13,6 +13,7 @@ void addLocalisation(nanobind::module_& module);
 void addLogs(nanobind::module_& module);
 void addSlam(nanobind::module_& module);
 void addMapFiles(nanobind::module_& module);
+void addEvaluation(nanobind::module_& module);
 void addFloorPlan(nanobind::module_& module);
 void addSession(nanobind::module_& module);
 

@@ -3,10 +3,12 @@
 
 #include <nanobind/nanobind.h>
 
+#include <memory>
 #include <optional>
 #include <string>
 
 #include "cca_mrpt/io/log_reader.hpp"
+#include "io/logs/sound_log.hpp"
 
 namespace cca::python {
 
@@ -40,6 +42,24 @@ class PythonLog : public LogReader {
  private:
   nb::handle iterator_;
   bool ended_ = false;
+};
+
+/// Records that are gone through more than once.
+class RepeatedLog {
+ public:
+  /// @param records  an iterable, not an iterator; outlives this.
+  explicit RepeatedLog(nb::handle records) : records_(records) {}
+
+  /// From the beginning on, until it is opened anew. Without the interpreter's lock.
+  std::unique_ptr<LogReader> open() {
+    const nb::gil_scoped_acquire turn;
+    iterator_ = nb::iter(records_);
+    return soundScansOf(std::make_unique<PythonLog>(iterator_));
+  }
+
+ private:
+  nb::handle records_;
+  nb::object iterator_;
 };
 
 }  // namespace cca::python

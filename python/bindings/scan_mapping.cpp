@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "scan_mapping.hpp"
 
+#include <functional>
 #include <utility>
 
 #include "apps/logs/session_warnings.hpp"
@@ -40,7 +41,15 @@ Mapping::Mapping(PoseSource source, const CcaParameters& parameters, bool at_the
   MappingSession::Settings settings;
   settings.mapping = parameters;
   settings.maps_at_the_end = maps_at_the_end;
-  session = std::make_unique<MappingSession>(std::move(localiser), settings, recorder.get());
+  Executor executor = doNow;
+  if (at_the_end) {
+    background = std::make_unique<apps::BackgroundWork>();
+    executor = [others = background.get()](std::function<void()> work) {
+      others->add(std::move(work));
+    };
+  }
+  session = std::make_unique<MappingSession>(std::move(localiser), settings, recorder.get(),
+                                             std::move(executor));
 }
 
 Estimate Mapping::add(LogRecord record) {
@@ -48,10 +57,20 @@ Estimate Mapping::add(LogRecord record) {
   unguided += !record.odometry;
   ReplayMoment moment;
   moment.time = record.has_time ? record.time : 0.0;
-  recorder->add(moment.time, referencePose(record));
+  const auto tell = [own = recorder.get(), time = moment.time, reference = referencePose(record)] {
+    own->add(time, reference);
+  };
+  if (background) {
+    background->add(tell);
+  } else {
+    tell();
+  }
   const Estimate estimate = session->add(measurementOf(std::move(record), pose));
   moment.T_map_robot = estimate.T_map_robot;
-  if (page && page->isDue()) page->show({moment, session->scan(), session->lineMap(), {}, {}});
+  // Of a map that grows in the background, the recorder shows it.
+  const bool is_at_rest = !background || slam;
+  if (is_at_rest && page && page->isDue())
+    page->show({moment, session->scan(), session->lineMap(), {}, {}});
   return estimate;
 }
 
@@ -69,9 +88,14 @@ void Mapping::beginDrive() {
 
 void Mapping::finish() {
   session->finish(apps::doOnAllCores);
+  complete();
   if (earlier && slam->slam().isInMemory()) origin = earlier->origin;
-  finished = true;
   if (page) page->finish(session->lineMap().lines(), "all is mapped");
+}
+
+void Mapping::complete() {
+  if (background) background->wait();
+  finished = true;
 }
 
 std::string Mapping::serve(LivePageSettings settings) {

@@ -9,6 +9,7 @@
 #include <string>
 #include <thread>
 
+#include "apps/runs/background_work.hpp"
 #include "cca_mrpt/session/mapping_session.hpp"
 #include "cca_mrpt/slam/slam_localiser.hpp"
 #include "io/files/memory_file.hpp"
@@ -24,7 +25,8 @@ namespace nb = nanobind;
 /// @throws nb::value_error
 PoseSource sourceOf(const std::string& name);
 
-/// A session, and what the files of its map need besides.
+/// A session, and what the files of its map need besides. Of a map that is looked at when it has
+/// finished, the scans go into it in another thread, which needs no interpreter.
 struct Mapping {
   /// @param of_what  is recorded, for people.
   Mapping(PoseSource source, const CcaParameters& parameters, bool at_the_end,
@@ -36,6 +38,8 @@ struct Mapping {
   /// Another log begins: its drive may begin anywhere in the place of the first one.
   void beginDrive();
   void finish();
+  /// After the session's last pass: all scans are in the map.
+  void complete();
   std::string serve(LivePageSettings settings);
   /// Whether a viewer of the page wants no more scans to be taken for now.
   bool isPaused();
@@ -51,6 +55,7 @@ struct Mapping {
   std::optional<StoredMemory> earlier;  ///< of earlier drives, that this one goes on with
   std::string resumed;                  ///< the folder that it is from
   bool maps_at_the_end, finished = false, is_paused = false;
+  std::unique_ptr<apps::BackgroundWork> background;  ///< the session's; null: all is done at once
 };
 
 MappedScans resultOf(const Mapping& mapping);

@@ -5,7 +5,6 @@ Metres, radians and seconds; bearings are counter-clockwise, x points forwards, 
 is +inf. Poses are (x, y, theta). Wrong values raise ValueError, which names the argument.
 """
 import copyreg
-from importlib.metadata import version
 from typing import TYPE_CHECKING, Dict
 
 from ._core import (
@@ -24,7 +23,9 @@ from ._core import (
     SlamPose,
     all_baselines,
     extract_lines,
+    version,
 )
+from .evaluation import evaluate
 from .floor_plans import FloorPlan, Furniture, Opening, Room, Wall, floor_plan
 from .grids import Grid
 from .localisation import Localisation, localize
@@ -34,7 +35,8 @@ from .plotting import plot
 from .replays import replay_page
 
 if TYPE_CHECKING:
-    from ._simulation import Simulation as Simulation
+    # Where MRPT is not there is no such module.
+    from ._simulation import Simulation as Simulation  # type: ignore[import-not-found, unused-ignore]
 
 baselines: Dict[str, Baseline] = {baseline.name: baseline for baseline in all_baselines()}
 """The classical line extractors, by their names."""
@@ -46,7 +48,7 @@ def _baseline(name: str) -> Baseline:
 
 copyreg.pickle(Baseline, lambda baseline: (_baseline, (baseline.name,)))
 
-__version__ = version("cca-mrpt")
+__version__ = version
 __all__ = [
     "LINE",
     "MAP_LINE",
@@ -73,6 +75,7 @@ __all__ = [
     "SlamPose",
     "Wall",
     "baselines",
+    "evaluate",
     "extract_lines",
     "floor_plan",
     "load",

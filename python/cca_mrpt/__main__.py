@@ -1,16 +1,16 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The command line: python -m cca_mrpt map LOG, merge MAP MAP, localize LOG, plan FOLDER, render FOLDER, info LOG, and batch."""
+"""The command line: python -m cca_mrpt map LOG, merge MAP MAP, evaluate MAP, localize LOG, plan FOLDER, render FOLDER, info LOG, and batch."""
 from __future__ import annotations
 
 import argparse
 import math
 import re
 import sys
-from importlib.metadata import version
 from pathlib import Path
 from typing import Any, Callable, Dict, List, Optional, Sequence, Tuple
 
-from ._core import write_files_into
+from ._core import version, write_files_into
+from .evaluation import evaluation_json
 from .floor_plans import floor_plan
 from .localisation import localize
 from .logs import read_log
@@ -131,6 +131,15 @@ def run_plan(options: argparse.Namespace) -> str:
         raise Shortcoming(f"{options.map}: no room was found in this map")
     if plan.labels_outside:
         raise Shortcoming(f"{len(plan.labels_outside)} labels lie in no room")
+    return ""
+
+
+def run_evaluate(options: argparse.Namespace) -> str:
+    """Print, or write, how good a map is."""
+    figures = evaluation_json(options.map, options.log, options.world)
+    if options.out is None:
+        return figures.rstrip("\n")
+    write_files_into(str(options.out.parent), {options.out.name: figures})
     return ""
 
 
@@ -277,6 +286,12 @@ def add_commands(commands: Any) -> None:
     command = commands.add_parser("merge", help="maps of one place, by one robot or several, become one")
     command.add_argument("maps", metavar="MAP", nargs="+", help="folders with a map.slam; the first one's frame stays")
     add_output(command, True, "the map")
+    command = commands.add_parser("evaluate", help="quality of a line map against its scans, or the true world")
+    command.add_argument("map", metavar="MAP", help="line map, CSV x1,y1,x2,y2,..., or its folder")
+    against = command.add_mutually_exclusive_group(required=True)
+    against.add_argument("--log", help="the laser log that the map was made from")
+    against.add_argument("--world", help="the world; NAME.truth.csv stands beside it")
+    command.add_argument("--out", type=parse_folder, help="JSON file to write; default: standard output")
     command = commands.add_parser("plan", help="floor plan of a finished map: rooms with areas, walls, doors, furniture")
     command.add_argument("map", metavar="DIR", help="folder that map, explore or merge left")
     command.add_argument("--out", type=parse_folder, help="folder to write the plan to (default: DIR)")
@@ -304,10 +319,10 @@ def _with_places_told(words: Sequence[str]) -> List[str]:
 
 def main(arguments: Optional[Sequence[str]] = None) -> int:
     parser = argparse.ArgumentParser(prog="cca-mrpt", description="line maps of laser logs", epilog=STATUSES)
-    parser.add_argument("--version", action="version", version=f"cca-mrpt {version('cca-mrpt')}")
+    parser.add_argument("--version", action="version", version=f"cca-mrpt {version}")
     add_commands(parser.add_subparsers(dest="command", required=True))
     options = parser.parse_args(_with_places_told(sys.argv[1:] if arguments is None else arguments))
-    run = {"batch": run_batch, "map": run_map, "info": run_info, "localize": run_localize, "merge": run_merge,
+    run = {"batch": run_batch, "map": run_map, "evaluate": run_evaluate, "info": run_info, "localize": run_localize, "merge": run_merge,
            "plan": run_plan, "render": run_render}[options.command]
     return told(lambda: run(options))
 

@@ -99,8 +99,9 @@ def open_recording(path: Path) -> Iterator[Recording]:
                 raise ValueError(f"{path}: is a ROS bag of version 1; 'rosbag fix' of an old ROS makes it one of "
                                  "version 2")
         try:
-            # ROS 2 recordings from before 2023 hold no definitions of their messages.
-            reader = stack.enter_context(AnyReader([file], default_typestore=get_typestore(Stores.ROS2_HUMBLE)))
+            # ROS 2 recordings from before 2023 hold no definitions of their messages; ROS 1's all do.
+            known = None if file.suffix == ".bag" else get_typestore(Stores.ROS2_HUMBLE)
+            reader = stack.enter_context(AnyReader([file], default_typestore=known))
         except (AnyReaderError, OSError, ValueError) as error:
             if file.suffix == ".mcap":
                 from .broken_mcap import BrokenMcap

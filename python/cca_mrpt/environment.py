@@ -21,7 +21,7 @@ from . import CellState, ExplorationGrid
 if TYPE_CHECKING:
     from typing_extensions import Unpack
 
-    from ._simulation import Simulation
+    from ._simulation import Simulation  # type: ignore[import-not-found, unused-ignore]
     from .parameters import SimulationParameters
 
 Observation = Dict[str, NDArray[Any]]
@@ -77,7 +77,7 @@ class ExploreEnv(gymnasium.Env[Observation, NDArray[np.float32]]):
                  way_cost: float = 0.0125, contact_cost: float = 1.0, window: float = 8.0,
                  render_mode: Optional[str] = None, **parameters: Unpack[SimulationParameters]) -> None:
         try:
-            from ._simulation import Simulation
+            from ._simulation import Simulation  # type: ignore[import-not-found, unused-ignore]
         except ImportError:
             raise ImportError("ExploreEnv needs cca_mrpt.Simulation: MRPT, here and where it was built") from None
         for name, value, lowest, highest in (("period", period, 0.01, 1.0), ("enough", enough, 0.01, 1.0),

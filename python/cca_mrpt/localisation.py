@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from ._core import LogRecord, localize_records, write_files_into
 from .folders import kept_for_one_run
 from .grids import read_map_yaml
-from .logs import Log, read_log
+from .logs import Log, repeatable
 
 
 class Localisation:
@@ -80,11 +80,7 @@ def localize(log: "Union[str, os.PathLike[str], Iterable[LogRecord]]", plan: "Un
     grid: Optional[Tuple[NDArray[np.uint8], float, Tuple[float, float]]] = None
     if path.suffix.lower() in (".yaml", ".yml"):
         grid = read_map_yaml(path)
-    records: Iterable[LogRecord]
-    if isinstance(log, (str, os.PathLike)):
-        records = read_log(log)
-    else:  # it is gone through twice
-        records = log if isinstance(log, Log) else list(log)
+    records = repeatable(log)
     table, summary, files, warnings, why_not = localize_records(records, name, grid, start, scale)
     told: Dict[str, Any] = json.loads(summary)
     if isinstance(records, Log):

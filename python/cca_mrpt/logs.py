@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 import os
 from pathlib import Path
-from typing import TYPE_CHECKING, Iterator, Optional, Sequence, Tuple, Union
+from typing import TYPE_CHECKING, Iterable, Iterator, Optional, Sequence, Tuple, Union
 
 from ._core import TextLog, LogRecord
 
@@ -96,3 +96,10 @@ def read_log(path: "str | os.PathLike[str]", *, topic: Optional[str] = None, bas
     elif upside_down:
         raise ValueError("upside_down: needs a mount")
     return Log(name, topic, base_frame, odom_frame, place, upside_down)
+
+
+def repeatable(log: "Union[str, os.PathLike[str], Iterable[LogRecord]]") -> Iterable[LogRecord]:
+    """A file's `Log`, or records that can be gone through more than once."""
+    if isinstance(log, (str, os.PathLike)):
+        return read_log(log)
+    return log if isinstance(log, Log) else list(log)

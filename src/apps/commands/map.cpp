@@ -10,6 +10,7 @@
 #include "apps/logs/log_warnings.hpp"
 #include "apps/logs/mapped_logs.hpp"
 #include "apps/options/log_hint_options.hpp"
+#include "apps/options/origin_option.hpp"
 #include "apps/options/parameter_options.hpp"
 #include "apps/options/serve_options.hpp"
 #include "apps/runs/interruption.hpp"
@@ -146,19 +147,7 @@ void addMapCommand(CLI::App& program) {
       ->check(CLI::IsMember({"log", "slam", "odometry", "icp", "truth"}));
   command->add_option("--resume", options->resume,
                       "DIR of an earlier map: go on with it, from anywhere in it");
-  command
-      ->add_option_function<std::string>(
-          "--origin",
-          [options](const std::string& text) {
-            try {
-              options->place = geoReferenceOf(text);
-            } catch (const std::runtime_error& error) {
-              throw CLI::ValidationError("--origin", error.what());
-            }
-          },
-          "where (0, 0) of the map lies, and how far its x axis is turned from east to the left, "
-          "degrees: lines.geojson is in longitude and latitude then")
-      ->type_name("LAT,LON[,DEG]");
+  addOriginOption(*command, options->place, "lines.geojson and plan.geojson are");
   command->add_flag("--force", options->force, "overwrite a map that is there");
   command->add_flag("--quiet", options->quiet, "print nothing but errors");
   options->serve = addServeOptions(*command);

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <cstdio>
 #include <memory>
+#include <optional>
 #include <stdexcept>
 #include <string>
 
+#include "apps/options/origin_option.hpp"
 #include "commands.hpp"
 #include "io/files/content.hpp"
 #include "io/plans/plan_files.hpp"
@@ -14,6 +16,7 @@ namespace {
 
 struct PlanCommandOptions {
   std::string map, out, labels;
+  std::optional<GeoReference> place;
   bool force = false, quiet = false;
 };
 
@@ -43,7 +46,7 @@ void plan(const PlanCommandOptions& options) {
   if (!options.labels.empty()) labels = roomLabelsOfFile(options.labels);
   FloorPlan found = planOfFolder(options.map);
   const RoomLabels outside = nameRooms(found, labels);
-  writePlanFiles(out, planFiles(found, titleOfFolder(options.map)), options.force);
+  writePlanFiles(out, planFiles(found, titleOfFolder(options.map), options.place), options.force);
   if (!options.quiet) tellPlan(found, out);
   for (const auto& [p, name] : outside) {
     std::fprintf(stderr, "cca-mrpt: %s: (%.2f, %.2f), %s, lies in no room\n",
@@ -67,6 +70,7 @@ void addPlanCommand(CLI::App& program) {
   command->add_option("--out", options->out, "folder to write the plan to; DIR where not given");
   command->add_option("--labels", options->labels,
                       "CSV with columns x, y (m, map frame) and name: names the rooms");
+  addOriginOption(*command, options->place, "plan.geojson is");
   command->add_flag("--force", options->force, "overwrite a plan that is there");
   command->add_flag("--quiet", options->quiet, "print nothing but errors");
   command->callback([options] { plan(*options); });

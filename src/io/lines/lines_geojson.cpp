@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
+#include "io/lines/geo_positions.hpp"
 #include "io/lines/line_formats.hpp"
 
 namespace cca {
@@ -11,56 +12,36 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// To a tenth of a millimetre: more digits would only claim what no laser measures.
-double rounded(double metres) { return std::round(metres * 1e4) / 1e4; }
-
-Json metres(const Eigen::Vector2d& p) { return {rounded(p.x()), rounded(p.y())}; }
-
-/// A position of GeoJSON: metres, or degrees where the map's place on the Earth is known.
-class Positions {
- public:
-  explicit Positions(const std::optional<GeoReference>& place) : place_(place) {}
-  Json operator()(const Eigen::Vector2d& p) const {
-    if (!place_) return metres(p);
-    const Eigen::Vector2d degrees = place_->toDegrees(p);
-    constexpr double kDigits = 1e9;  // a degree is 111 km: again a tenth of a millimetre
-    return {std::round(degrees.x() * kDigits) / kDigits,
-            std::round(degrees.y() * kDigits) / kDigits};
-  }
-
- private:
-  const std::optional<GeoReference>& place_;
-};
-
 Json feature(Json properties, Json coordinates) {
   return {{"type", "Feature"},
           {"properties", std::move(properties)},
           {"geometry", {{"type", "LineString"}, {"coordinates", std::move(coordinates)}}}};
 }
 
-Json lineFeature(const MapLine& line, const Positions& position) {
+Json lineFeature(const MapLine& line, const GeoPositions& position) {
   const Eigen::Matrix2d& c = line.segment.covariance;
   return feature({{"kind", "line"},
                   {"id", line.id},
                   {"support", line.support},
-                  {"share", rounded(line.share)},
-                  {"length", rounded(line.segment.length())},
+                  {"share", roundedMetres(line.share)},
+                  {"length", roundedMetres(line.segment.length())},
                   {"covariance", {c(0, 0), c(0, 1), c(1, 1)}}},
                  Json::array({position(line.segment.start), position(line.segment.end)}));
 }
 
-Json polyLineFeature(const PolyLine& chain, const Positions& position) {
+Json polyLineFeature(const PolyLine& chain, const GeoPositions& position) {
   Json coordinates = Json::array();
   double length = 0.0;
   for (std::size_t k = 0; k < chain.vertices.size(); ++k) {
     coordinates.push_back(position(chain.vertices[k]));
     if (k > 0) length += (chain.vertices[k] - chain.vertices[k - 1]).norm();
   }
-  return feature({{"kind", "poly_line"}, {"length", rounded(length)}, {"line_ids", chain.line_ids}},
-                 std::move(coordinates));
+  return feature(
+      {{"kind", "poly_line"}, {"length", roundedMetres(length)}, {"line_ids", chain.line_ids}},
+      std::move(coordinates));
 }
 
-Json arcFeature(const MapArc& found, const Positions& position) {
+Json arcFeature(const MapArc& found, const GeoPositions& position) {
   const Arc& arc = found.arc;
   constexpr double kStep = 5.0 * M_PI / 180.0;
   const int steps = std::max(1, static_cast<int>(std::ceil(arc.sweep / kStep)));
@@ -69,15 +50,15 @@ Json arcFeature(const MapArc& found, const Positions& position) {
     coordinates.push_back(position(arc.at(static_cast<double>(i) / steps)));
   }
   return feature({{"kind", "arc"},
-                  {"centre", metres(arc.centre)},
-                  {"radius", rounded(arc.radius)},
-                  {"start_deg", rounded(arc.start_angle * 180.0 / M_PI)},
-                  {"sweep_deg", rounded(arc.sweep * 180.0 / M_PI)},
+                  {"centre", roundedMetres(arc.centre)},
+                  {"radius", roundedMetres(arc.radius)},
+                  {"start_deg", roundedMetres(arc.start_angle * 180.0 / M_PI)},
+                  {"sweep_deg", roundedMetres(arc.sweep * 180.0 / M_PI)},
                   {"line_ids", found.line_ids}},
                  std::move(coordinates));
 }
 
-Json trajectoryFeature(const std::vector<Pose2>& trajectory, const Positions& position) {
+Json trajectoryFeature(const std::vector<Pose2>& trajectory, const GeoPositions& position) {
   Json coordinates = Json::array();
   for (const Pose2& pose : trajectory) coordinates.push_back(position(pose.position()));
   return feature({{"kind", "trajectory"}}, std::move(coordinates));
@@ -110,13 +91,9 @@ std::vector<Pose2> alongTheWay(const std::vector<Eigen::Vector2d>& positions) {
 std::string linesGeoJson(const std::vector<MapLine>& lines, const std::vector<PolyLine>& poly_lines,
                          const std::vector<Pose2>& trajectory, const std::vector<MapArc>& arcs,
                          const std::optional<GeoReference>& place) {
-  const Positions position(place);
-  const Json where =
-      place ? Json{{"origin", {place->latitude_deg, place->longitude_deg, place->turn_deg}}}
-            : Json{{"note", "metres of the map frame, not longitude and latitude"}};
+  const GeoPositions position(place);
   // One feature a row: such files are looked at, and compared, line by line.
-  std::string text = "{\"type\": \"FeatureCollection\", ";
-  text += where.dump().substr(1, where.dump().size() - 2) + ", \"features\": [";
+  std::string text = position.head();
   const char* separator = "\n";
   const auto append = [&](const Json& next) {
     text += separator + next.dump();

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
-#include <fstream>
 #include <iterator>
 #include <optional>
 #include <sstream>
@@ -14,6 +13,7 @@
 #include <utility>
 
 #include "io/files/byte_order_mark.hpp"
+#include "io/files/content.hpp"
 
 namespace cca {
 namespace {
@@ -61,10 +61,11 @@ std::optional<Segment2> segmentOf(const Row& row, const Columns& columns) {
 }  // namespace
 
 std::vector<Segment2> loadSegments(const std::string& csv_path) {
-  std::ifstream file(csv_path);
-  if (!file || std::filesystem::is_directory(csv_path)) {
-    throw std::runtime_error(csv_path + ": cannot be read");
-  }
+  return readSegments(contentOf(csv_path), csv_path);
+}
+
+std::vector<Segment2> readSegments(const std::string& text, const std::string& name) {
+  std::istringstream file(text);
   std::vector<Segment2> segments;
   Columns columns{0, 1, 2, 3};
   bool is_first = true;
@@ -78,12 +79,12 @@ std::vector<Segment2> loadSegments(const std::string& csv_path) {
     } else if (const auto named = columnsOf(row); may_be_header && named) {
       columns = *named;
     } else {
-      throw std::runtime_error(csv_path + ":" + std::to_string(number) +
+      throw std::runtime_error(name + ":" + std::to_string(number) +
                                ": needs four numbers x1,y1,x2,y2 in [-1e7, 1e7] m, a segment of "
                                "1e5 m at most, or a header with these names before all");
     }
   }
-  if (is_first) throw std::runtime_error(csv_path + ": is empty");
+  if (is_first) throw std::runtime_error(name + ": is empty");
   return segments;
 }
 

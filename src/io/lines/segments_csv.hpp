@@ -14,6 +14,8 @@ namespace cca {
 /// @throws std::runtime_error naming file and line, also for places beyond 10 000 km and segments
 ///         beyond 100 km, and for a file without header and rows.
 std::vector<Segment2> loadSegments(const std::string& csv_path);
+/// The same of a text. @param name  of the file, for messages.
+std::vector<Segment2> readSegments(const std::string& text, const std::string& name);
 
 /// Where the true segments of a world stand: WORLD.truth.csv beside WORLD.yaml.
 std::string truthPath(const std::string& yaml_path);

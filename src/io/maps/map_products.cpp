@@ -65,7 +65,7 @@ std::optional<FloorPlan> addPlan(const std::string& folder, const MapProducts& m
   if (!map.grid) return std::nullopt;
   try {
     const FloorPlan plan = planOfMap(map.lines, asWritten(*map.grid, p_grid));
-    writePlanFiles(folder, planFiles(plan, map.title), true);
+    writePlanFiles(folder, planFiles(plan, map.title, map.place), true);
     double area = 0.0;
     for (const PlanRoom& room : plan.rooms) area += room.area;
     summary["plan"] = {

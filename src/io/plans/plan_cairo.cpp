@@ -79,8 +79,9 @@ cairo_status_t appendPdf(void* text, const unsigned char* bytes, unsigned count)
 
 }  // namespace
 
-std::string planPdf(const FloorPlan& plan, const std::string& title) {
-  const PlanSheet sheet = layOutPlan(plan, title);
+std::string planPdf(const FloorPlan& plan, const std::string& title,
+                    const std::optional<GeoReference>& place) {
+  const PlanSheet sheet = layOutPlan(plan, title, place);
   std::string pdf;
   {
     const Surface surface(
@@ -95,8 +96,9 @@ std::string planPdf(const FloorPlan& plan, const std::string& title) {
   return pdf;
 }
 
-std::string planPng(const FloorPlan& plan, const std::string& title, int longest_side) {
-  const PlanSheet sheet = layOutPlan(plan, title);
+std::string planPng(const FloorPlan& plan, const std::string& title,
+                    const std::optional<GeoReference>& place, int longest_side) {
+  const PlanSheet sheet = layOutPlan(plan, title, place);
   const double scale = longest_side / std::max(sheet.width, sheet.height);
   const int width = std::max(1, static_cast<int>(std::lround(scale * sheet.width)));
   const int height = std::max(1, static_cast<int>(std::lround(scale * sheet.height)));
@@ -106,10 +108,11 @@ std::string planPng(const FloorPlan& plan, const std::string& title, int longest
   return pngOf(surface.get());
 }
 
-NamedFiles planFiles(const FloorPlan& plan, const std::string& title) {
-  NamedFiles files = planTexts(plan, title);
-  files.emplace_back("plan.pdf", planPdf(plan, title));
-  files.emplace_back("rooms.png", planPng(plan, title));
+NamedFiles planFiles(const FloorPlan& plan, const std::string& title,
+                     const std::optional<GeoReference>& place) {
+  NamedFiles files = planTexts(plan, title, place);
+  files.emplace_back("plan.pdf", planPdf(plan, title, place));
+  files.emplace_back("rooms.png", planPng(plan, title, place));
   return files;
 }
 

@@ -44,9 +44,10 @@ FloorPlan planOfMap(const std::vector<MapLine>& lines, const OccupancyRaster& gr
   return floorPlan(grid, readLinesCsv(linesCsv(lines), "lines.csv"));
 }
 
-NamedFiles planTexts(const FloorPlan& plan, const std::string& title) {
-  return {{"plan.geojson", planGeoJson(plan)},
-          {"plan.svg", planSvg(plan, title)},
+NamedFiles planTexts(const FloorPlan& plan, const std::string& title,
+                     const std::optional<GeoReference>& place) {
+  return {{"plan.geojson", planGeoJson(plan, place)},
+          {"plan.svg", planSvg(plan, title, place)},
           {"plan.dxf", planDxf(plan)},
           {"rooms.csv", roomsCsv(plan)}};
 }

@@ -2,11 +2,13 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "cca_mrpt/floor_plan/floor_plan.hpp"
+#include "cca_mrpt/io/geo_reference.hpp"
 
 namespace cca {
 
@@ -36,11 +38,14 @@ std::vector<PlanRoom> seenFrom(const Eigen::Vector2d& p_frame, std::vector<PlanR
 /// Names, and what the files of that name hold.
 using NamedFiles = std::vector<std::pair<std::string, std::string>>;
 
-/// plan.geojson, plan.svg, plan.dxf and rooms.csv. @param title  for people.
-NamedFiles planTexts(const FloorPlan& plan, const std::string& title);
+/// plan.geojson, plan.svg, plan.dxf and rooms.csv. @param title  for people. @param place  see
+/// planGeoJson().
+NamedFiles planTexts(const FloorPlan& plan, const std::string& title,
+                     const std::optional<GeoReference>& place = {});
 
 /// These, plan.pdf and rooms.png. @throws std::runtime_error with Cairo's reason.
-NamedFiles planFiles(const FloorPlan& plan, const std::string& title);
+NamedFiles planFiles(const FloorPlan& plan, const std::string& title,
+                     const std::optional<GeoReference>& place = {});
 
 /// Writes them; each appears whole or not at all. The folder is made where it is missing.
 /// @param overwrite  else files that are there already and differ stop it before it writes any.

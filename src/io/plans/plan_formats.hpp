@@ -1,17 +1,20 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "cca_mrpt/floor_plan/floor_plan.hpp"
+#include "cca_mrpt/io/geo_reference.hpp"
 #include "cca_mrpt/mapping/line_map.hpp"
 
 namespace cca {
 
-/// A floor plan as a GeoJSON FeatureCollection in metres of the map frame (not longitude,
-/// latitude). Each feature has `kind` and `id`:
+/// A floor plan as a GeoJSON FeatureCollection: longitude and latitude where the place of the map
+/// on the Earth is told (`origin` keeps it), else metres of the map frame, which a `note` says.
+/// Properties are in metres of the map frame always. Each feature has `kind` and `id`:
 /// - "room": Polygon with holes; `name` ("" unless given), `area_m2`, `perimeter_m`,
 ///   `unseen_area_m2`, `open_border_m`, `label_point`;
 /// - "door", "opening": LineString from jamb to jamb; `width_m`, `rooms` (two ids), and of an
@@ -20,7 +23,7 @@ namespace cca {
 /// for
 ///   one face), `faces` (2, 1, or 0 where presumed), `left_line_ids`, `right_line_ids`, `presumed`;
 /// - "furniture": Polygon; `leaning`, `room` (id or null).
-std::string planGeoJson(const FloorPlan& plan);
+std::string planGeoJson(const FloorPlan& plan, const std::optional<GeoReference>& place = {});
 
 /// Rooms as CSV, header `id,name,x,y,area_m2,perimeter_m,unseen_area_m2,open_border_m,doors`: a
 /// point inside of each [m, map frame], measures, and its doors and openings by number.
@@ -32,13 +35,17 @@ std::string planDxf(const FloorPlan& plan);
 
 /// A floor plan to scale as SVG, with names, areas, widths of doors, dimensions and a legend.
 /// @param title  for people.
-std::string planSvg(const FloorPlan& plan, const std::string& title);
+/// @param place  an arrow shows where north is; nothing: no arrow. A scale bar is always there.
+std::string planSvg(const FloorPlan& plan, const std::string& title,
+                    const std::optional<GeoReference>& place = {});
 
 /// The same sheet as PDF. @throws std::runtime_error with Cairo's reason.
-std::string planPdf(const FloorPlan& plan, const std::string& title);
+std::string planPdf(const FloorPlan& plan, const std::string& title,
+                    const std::optional<GeoReference>& place = {});
 
 /// The same sheet as PNG of `longest_side` pixels. @throws std::runtime_error with the reason.
-std::string planPng(const FloorPlan& plan, const std::string& title, int longest_side = 1600);
+std::string planPng(const FloorPlan& plan, const std::string& title,
+                    const std::optional<GeoReference>& place = {}, int longest_side = 1600);
 
 /// Names for rooms: a point in the room [m, map frame], and its name.
 using RoomLabels = std::vector<std::pair<Eigen::Vector2d, std::string>>;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "io/lines/geo_positions.hpp"
 #include "io/plans/plan_formats.hpp"
 
 namespace cca {
@@ -9,13 +9,9 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-double inTenthsOfMm(double metres) { return std::round(1e4 * metres) / 1e4; }
-
-Json planPoint(const Eigen::Vector2d& p) { return {inTenthsOfMm(p.x()), inTenthsOfMm(p.y())}; }
-
-Json planRing(const Polygon& polygon) {
+Json planRing(const Polygon& polygon, const GeoPositions& position) {
   Json points = Json::array();
-  for (const auto& p : polygon) points.push_back(planPoint(p));
+  for (const auto& p : polygon) points.push_back(position(p));
   points.push_back(points.front());
   return points;
 }
@@ -30,36 +26,36 @@ Json planFeature(const char* kind, int id, const char* type, Json coordinates) {
   return found;
 }
 
-Json roomFeature(const PlanRoom& room) {
-  Json rings = Json::array({planRing(room.outline)});
-  for (const Polygon& hole : room.holes) rings.push_back(planRing(hole));
+Json roomFeature(const PlanRoom& room, const GeoPositions& position) {
+  Json rings = Json::array({planRing(room.outline, position)});
+  for (const Polygon& hole : room.holes) rings.push_back(planRing(hole, position));
   Json found = planFeature("room", room.id, "Polygon", std::move(rings));
   Json& p = found["properties"];
   p["name"] = room.name;
-  p["area_m2"] = inTenthsOfMm(room.area);
-  p["perimeter_m"] = inTenthsOfMm(room.perimeter);
-  p["unseen_area_m2"] = inTenthsOfMm(room.unseen_area);
-  p["open_border_m"] = inTenthsOfMm(room.open_border);
-  p["label_point"] = planPoint(room.label);
+  p["area_m2"] = roundedMetres(room.area);
+  p["perimeter_m"] = roundedMetres(room.perimeter);
+  p["unseen_area_m2"] = roundedMetres(room.unseen_area);
+  p["open_border_m"] = roundedMetres(room.open_border);
+  p["label_point"] = roundedMetres(room.label);
   return found;
 }
 
-Json openingFeature(const PlanOpening& opening) {
+Json openingFeature(const PlanOpening& opening, const GeoPositions& position) {
   const bool is_door = opening.kind == OpeningKind::kDoor;
   Json found = planFeature(is_door ? "door" : "opening", opening.id, "LineString",
-                           Json::array({planPoint(opening.a), planPoint(opening.b)}));
+                           Json::array({position(opening.a), position(opening.b)}));
   Json& p = found["properties"];
-  p["width_m"] = inTenthsOfMm(opening.width());
+  p["width_m"] = roundedMetres(opening.width());
   p["rooms"] = {opening.rooms[0], opening.rooms[1]};
   if (!is_door) p["type"] = opening.kind == OpeningKind::kPassage ? "passage" : "wide";
   return found;
 }
 
-Json wallFeature(const PlanWall& wall) {
+Json wallFeature(const PlanWall& wall, const GeoPositions& position) {
   Json found = planFeature("wall", wall.id, "LineString",
-                           Json::array({planPoint(wall.start), planPoint(wall.end)}));
+                           Json::array({position(wall.start), position(wall.end)}));
   Json& p = found["properties"];
-  p["thickness_m"] = wall.thickness > 0.0 ? Json(inTenthsOfMm(wall.thickness)) : Json(nullptr);
+  p["thickness_m"] = wall.thickness > 0.0 ? Json(roundedMetres(wall.thickness)) : Json(nullptr);
   p["faces"] = wall.is_presumed ? 0 : wall.right.empty() ? 1 : 2;
   p["left_line_ids"] = wall.left;
   p["right_line_ids"] = wall.right;
@@ -67,9 +63,9 @@ Json wallFeature(const PlanWall& wall) {
   return found;
 }
 
-Json furnitureFeature(const PlanFurniture& piece) {
-  Json found =
-      planFeature("furniture", piece.id, "Polygon", Json::array({planRing(piece.outline)}));
+Json furnitureFeature(const PlanFurniture& piece, const GeoPositions& position) {
+  Json found = planFeature("furniture", piece.id, "Polygon",
+                           Json::array({planRing(piece.outline, position)}));
   Json& p = found["properties"];
   p["leaning"] = piece.leans;
   p["room"] = piece.room ? Json(piece.room) : Json(nullptr);
@@ -78,17 +74,18 @@ Json furnitureFeature(const PlanFurniture& piece) {
 
 }  // namespace
 
-std::string planGeoJson(const FloorPlan& plan) {
-  std::string text = "{\"type\": \"FeatureCollection\", \"features\": [";
+std::string planGeoJson(const FloorPlan& plan, const std::optional<GeoReference>& place) {
+  const GeoPositions position(place);
+  std::string text = position.head();
   const char* separator = "\n";
   const auto put = [&](const Json& found) {
     text += separator + found.dump(-1, ' ', false, Json::error_handler_t::replace);
     separator = ",\n";
   };
-  for (const PlanRoom& room : plan.rooms) put(roomFeature(room));
-  for (const PlanOpening& opening : plan.openings) put(openingFeature(opening));
-  for (const PlanWall& wall : plan.walls) put(wallFeature(wall));
-  for (const PlanFurniture& piece : plan.furniture) put(furnitureFeature(piece));
+  for (const PlanRoom& room : plan.rooms) put(roomFeature(room, position));
+  for (const PlanOpening& opening : plan.openings) put(openingFeature(opening, position));
+  for (const PlanWall& wall : plan.walls) put(wallFeature(wall, position));
+  for (const PlanFurniture& piece : plan.furniture) put(furnitureFeature(piece, position));
   return text + "\n]}\n";
 }
 

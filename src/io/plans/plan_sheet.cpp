@@ -95,7 +95,8 @@ std::vector<std::size_t> coloursOf(const FloorPlan& plan) {
 /// Draws a plan onto a sheet.
 class Layout {
  public:
-  Layout(const FloorPlan& plan, const std::string& title) : plan_(plan) {
+  Layout(const FloorPlan& plan, const std::string& title, const std::optional<GeoReference>& place)
+      : plan_(plan) {
     const Eigen::AlignedBox2d box = boundsOfPlan(plan);
     sheet_.scale = scaleFor(box.sizes());
     mm_per_metre_ = 1000.0 / sheet_.scale;
@@ -116,6 +117,7 @@ class Layout {
     drawDimensions(box);
     drawHeader(title);
     drawLegend();
+    if (place) drawNorth(place->turn_deg * M_PI / 180.0);
   }
 
   const PlanSheet& sheet() const { return sheet_; }
@@ -309,6 +311,24 @@ class Layout {
         .is_left_aligned = true;
   }
 
+  /// In the upper right corner. @param turn  rad, of the map's x axis from east.
+  void drawNorth(double turn) {
+    const Eigen::Vector2d centre(sheet_.width - kSheetMargin - 4.0, kSheetMargin + 3.0);
+    // y points down the page: a turn of the map to the left is one of north to the right.
+    const Eigen::Vector2d north(std::sin(turn), -std::cos(turn)), east(-north.y(), north.x());
+    const Eigen::Vector2d tip = centre + 3.5 * north, wings = centre + 1.2 * north;
+    for (const Polygon& part :
+         {Polygon{centre - 3.5 * north, tip}, Polygon{wings - east, tip, wings + east}}) {
+      SheetShape arrow;
+      arrow.rings = {part};
+      arrow.is_closed = false;
+      arrow.stroke = kPlanInk;
+      arrow.stroke_width = kFaceStroke;
+      add(std::move(arrow));
+    }
+    text(centre - 3.2 * east + Eigen::Vector2d(0.0, 1.0), kCaption, kPlanInk, "N");
+  }
+
   const FloorPlan& plan_;
   PlanSheet sheet_;
   double mm_per_metre_ = 10.0;
@@ -321,8 +341,9 @@ std::string nameOf(const PlanRoom& room) {
   return room.name.empty() ? "Room " + std::to_string(room.id) : room.name;
 }
 
-PlanSheet layOutPlan(const FloorPlan& plan, const std::string& title) {
-  return Layout(plan, title).sheet();
+PlanSheet layOutPlan(const FloorPlan& plan, const std::string& title,
+                     const std::optional<GeoReference>& place) {
+  return Layout(plan, title, place).sheet();
 }
 
 }  // namespace cca

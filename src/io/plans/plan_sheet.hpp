@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "cca_mrpt/floor_plan/floor_plan.hpp"
+#include "cca_mrpt/io/geo_reference.hpp"
 #include "io/maps/colour.hpp"
 
 namespace cca {
@@ -33,8 +35,9 @@ struct PlanSheet {
 
 /// Lays a plan out: rooms with names and areas, walls, openings with widths, furniture, the outer
 /// dimensions, a legend and a title. The scale is the greatest of 1:50, 1:100, 1:200, 1:500 ...
-/// that fits A1.
-PlanSheet layOutPlan(const FloorPlan& plan, const std::string& title);
+/// that fits A1. @param place  an arrow shows where north is; nothing: no arrow.
+PlanSheet layOutPlan(const FloorPlan& plan, const std::string& title,
+                     const std::optional<GeoReference>& place = {});
 
 /// "Kitchen", or "Room 5" where nobody named it.
 std::string nameOf(const PlanRoom& room);

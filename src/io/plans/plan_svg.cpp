@@ -69,8 +69,9 @@ std::string pathElement(const SheetShape& shape) {
 
 }  // namespace
 
-std::string planSvg(const FloorPlan& plan, const std::string& title) {
-  const PlanSheet sheet = layOutPlan(plan, title);
+std::string planSvg(const FloorPlan& plan, const std::string& title,
+                    const std::optional<GeoReference>& place) {
+  const PlanSheet sheet = layOutPlan(plan, title, place);
   const std::string width = decimal(sheet.width), height = decimal(sheet.height);
   std::string svg = "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"" + width +
                     "mm\" height=\"" + height + "mm\" viewBox=\"0 0 " + width + " " + height +
