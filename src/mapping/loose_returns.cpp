@@ -5,37 +5,22 @@
 #include <cmath>
 
 #include "cca_mrpt/sensing/range_noise.hpp"
-#include "geometry/cross.hpp"
+#include "mapping/rows_in_line.hpp"
+#include "mapping/square_key.hpp"
 
 namespace cca {
 namespace {
 
-constexpr double kPlaceSize = 0.1;       // m: two posts' width; neighbours of a row stay apart
-constexpr double kFloorCell = 1.0;       // m, in which scans are counted
-constexpr std::size_t kMostLooks = 4;    // one more than the fewest: bounds the memory
-constexpr double kNewLook = 0.5;         // m, from the last scan kept in a cell
-constexpr double kFarthestLook = 12.0;   // m, at which beams still tell posts apart
-constexpr double kWidestBeam = 0.1;      // m, between beams where they are asked
-constexpr int kFewestLooks = 3;          // from different places: no passer-by
-constexpr double kBesideWall = 0.15;     // m; what stands nearer is the wall's own fringe
-constexpr double kLeastShare = 0.1;      // of the rays, that a cluster returns; a pane does a fifth
-constexpr int kRefuting = 20;            // rays in a row: one pane's cluster in a hundred
-constexpr double kLongestGap = 2.0;      // m, between neighbours of a row
-constexpr double kBand = 1.0;            // m, to either side of a row, what chance is judged by
-constexpr double kLeastOff = 0.03;       // m, of a cluster from its row: half a post
-constexpr std::size_t kFewestInRow = 5;  // three fix a row and its spacing, two confirm them
-constexpr double kChance = 1e-4;         // maps with a false row
-constexpr std::size_t kNeighboursAsked = 6;  // of a cluster, to begin a row with: both sides, three
-
-/// log of the chance that at least `hits` of `tries` come true, each at p.
-double logTail(int tries, int hits, double p) {
-  double sum = 0.0;
-  for (int k = hits; k <= tries; ++k) {
-    sum += std::exp(std::lgamma(tries + 1.0) - std::lgamma(k + 1.0) - std::lgamma(tries - k + 1.0) +
-                    k * std::log(p) + (tries - k) * std::log1p(-p));
-  }
-  return std::log(std::max(sum, 1e-300));
-}
+constexpr double kPlaceSize = 0.1;      // m: two posts' width; neighbours of a row stay apart
+constexpr double kFloorCell = 1.0;      // m, in which scans are counted
+constexpr std::size_t kMostLooks = 4;   // one more than the fewest: bounds the memory
+constexpr double kNewLook = 0.5;        // m, from the last scan kept in a cell
+constexpr double kFarthestLook = 12.0;  // m, at which beams still tell posts apart
+constexpr double kWidestBeam = 0.1;     // m, between beams where they are asked
+constexpr int kFewestLooks = 3;         // from different places: no passer-by
+constexpr double kBesideWall = 0.15;    // m; what stands nearer is the wall's own fringe
+constexpr double kLeastShare = 0.1;     // of the rays, that a cluster returns; a pane does a fifth
+constexpr int kRefuting = 20;           // rays in a row: one pane's cluster in a hundred
 
 double distanceTo(const LineSegment& s, const Eigen::Vector2d& p) {
   const Eigen::Vector2d along = s.end - s.start;
@@ -44,12 +29,6 @@ double distanceTo(const LineSegment& s, const Eigen::Vector2d& p) {
 }
 
 }  // namespace
-
-std::int64_t LooseReturns::keyOf(const Eigen::Vector2d& p, double cell) {
-  const auto x = static_cast<std::int64_t>(std::floor(p.x() / cell));
-  const auto y = static_cast<std::int64_t>(std::floor(p.y() / cell));
-  return x * (std::int64_t{1} << 32) + y;
-}
 
 bool LooseReturns::wants(const Scan& scan) const {
   const Pose2& T = scan.T_map_sensor;
@@ -65,7 +44,7 @@ void LooseReturns::add(const Scan& scan, const std::vector<Eigen::Vector2d>& loo
     look.ranges.push_back(static_cast<float>(isReturn(range) ? range : 0.0));
     look.free.push_back(static_cast<float>(scan.freeRange(beam)));
   }
-  auto& here = looks_at_[keyOf(last_.position(), kFloorCell)];
+  auto& here = looks_at_[squareKey(last_.position(), kFloorCell)];
   if (here.size() < kMostLooks) {
     here.push_back(looks_.size());
     looks_.push_back(std::move(look));
@@ -74,7 +53,7 @@ void LooseReturns::add(const Scan& scan, const std::vector<Eigen::Vector2d>& loo
     looks_[here.back()] = std::move(look);
   }
   for (const Eigen::Vector2d& p : loose) {
-    Place& place = places_[keyOf(p, kPlaceSize)];
+    Place& place = places_[squareKey(p, kPlaceSize)];
     place.sum += p;
     place.returns += 1.0;
     place.looks += place.last != number_;
@@ -105,13 +84,13 @@ std::vector<LooseReturns::Cluster> LooseReturns::clusters(const std::vector<MapL
       return distanceTo(wall.segment, p) < kBesideWall;
     });
     for (int k = 0; k < 9 && !is_taken; ++k) {
-      const Eigen::Vector2d beside = p + kPlaceSize * Eigen::Vector2d(k % 3 - 1, k / 3 - 1);
-      for (const std::size_t other : at[keyOf(beside, kPlaceSize)]) {
+      const Eigen::Vector2d beside = inSquareAround(p, k, kPlaceSize);
+      for (const std::size_t other : at[squareKey(beside, kPlaceSize)]) {
         is_taken = is_taken || (means[other].mean - p).norm() < kPlaceSize;
       }
     }
     if (is_taken) continue;
-    at[keyOf(p, kPlaceSize)].push_back(means.size());
+    at[squareKey(p, kPlaceSize)].push_back(means.size());
     means.push_back(seed.cluster);
   }
   means.erase(std::remove_if(means.begin(), means.end(),
@@ -165,118 +144,17 @@ double LooseReturns::shareOf(const LineSegment& row) const {
   return all.returned / std::max(1.0, static_cast<double>(all.returned + all.passed));
 }
 
-/// Clusters on one line, in order along it.
-struct LooseReturns::Row {
-  std::vector<std::size_t> members;
-  LineSegment segment;
-  double log_chance = 0.0;
-};
-
 std::vector<MapLine> LooseReturns::dottedWalls(const std::vector<MapLine>& walls,
                                                const MapNoise& noise) const {
-  const std::vector<Cluster> means = clusters(walls);
-  const double off = std::max(kLeastOff, 2.0 * std::sqrt(noise.offsetVariance()));
-  std::unordered_map<std::int64_t, std::vector<std::size_t>> at;
-  for (std::size_t i = 0; i < means.size(); ++i) {
-    at[keyOf(means[i].mean, kLongestGap)].push_back(i);
-  }
-  const auto around = [&](const Eigen::Vector2d& p) {
-    std::vector<std::size_t> found;
-    for (int k = 0; k < 9; ++k) {
-      const auto cell =
-          at.find(keyOf(p + kLongestGap * Eigen::Vector2d(k % 3 - 1, k / 3 - 1), kLongestGap));
-      if (cell != at.end()) found.insert(found.end(), cell->second.begin(), cell->second.end());
-    }
-    return found;
-  };
-  // From the end of a row on, one neighbour after the other, the row fitted anew with each.
-  const auto grow = [&](std::vector<std::size_t>* row) {
-    PointMoments moments;
-    for (const std::size_t i : *row) moments.add(means[i].mean);
-    for (bool grew = true; grew;) {
-      const FittedLine line = fitLine(moments);
-      const Eigen::Vector2d end = means[row->back()].mean;
-      Eigen::Vector2d u = line.direction;
-      if (u.dot(end - means[row->front()].mean) < 0.0) u = -u;
-      double nearest = kLongestGap;
-      std::size_t next = means.size();
-      for (const std::size_t i : around(end)) {
-        const double t = u.dot(means[i].mean - end);
-        if (t <= 1e-6 || t >= nearest) continue;
-        if (std::abs(cross(u, means[i].mean - line.centroid)) > off) continue;
-        nearest = t;
-        next = i;
-      }
-      grew = next < means.size();
-      if (!grew) continue;
-      row->push_back(next);
-      moments.add(means[next].mean);
-    }
-  };
-  std::vector<Row> rows;
-  double tests = 0.0;
-  for (std::size_t i = 0; i < means.size(); ++i) {
-    std::vector<std::size_t> near = around(means[i].mean);
-    near.erase(std::remove_if(near.begin(), near.end(),
-                              [&](std::size_t j) {
-                                const double d = (means[j].mean - means[i].mean).norm();
-                                return j == i || d < 2.0 * off || d > kLongestGap;
-                              }),
-               near.end());
-    std::sort(near.begin(), near.end(), [&](std::size_t a, std::size_t b) {
-      return (means[a].mean - means[i].mean).norm() < (means[b].mean - means[i].mean).norm();
-    });
-    if (near.size() > kNeighboursAsked) near.resize(kNeighboursAsked);
-    for (const std::size_t j : near) {
-      tests += 1.0;
-      Row row;
-      row.members = {i, j};
-      grow(&row.members);
-      std::reverse(row.members.begin(), row.members.end());
-      grow(&row.members);
-      if (row.members.size() < kFewestInRow) continue;
-      PointMoments moments;
-      for (const std::size_t m : row.members) moments.add(means[m].mean);
-      const FittedLine line = fitLine(moments);
-      const auto project = [&](const Eigen::Vector2d& p) {
-        return Eigen::Vector2d(line.centroid +
-                               line.direction * line.direction.dot(p - line.centroid));
-      };
-      row.segment.start = project(means[row.members.front()].mean);
-      row.segment.end = project(means[row.members.back()].mean);
-      row.segment.moments = moments;
-      const double variance =
-          std::max(noise.rangeVariance(), line.residual_sum_sq / (moments.weight - 2.0));
-      row.segment.covariance << variance / moments.weight, 0.0, 0.0,
-          variance / std::max(variance, line.spread_sum_sq);
-      int beside = 0;
-      for (const Cluster& c : means) {
-        const Eigen::Vector2d v = c.mean - row.segment.start, u = row.segment.direction();
-        const double t = u.dot(v);
-        beside += t >= 0.0 && t <= row.segment.length() && std::abs(cross(u, v)) < kBand;
-      }
-      // Two clusters make the line; the others are on it by chance as often as it is wide.
-      const int others = static_cast<int>(row.members.size()) - 2;
-      row.log_chance = logTail(std::max(beside - 2, others), others, off / kBand);
-      rows.push_back(std::move(row));
-    }
-  }
-  std::sort(rows.begin(), rows.end(), [](const Row& a, const Row& b) {
-    return a.log_chance != b.log_chance ? a.log_chance < b.log_chance : a.members < b.members;
-  });
-  std::vector<bool> is_used(means.size(), false);
+  const std::vector<Cluster> all = clusters(walls);
+  std::vector<Eigen::Vector2d> means;
+  for (const Cluster& cluster : all) means.push_back(cluster.mean);
   std::vector<MapLine> found;
-  for (const Row& row : rows) {
-    if (row.log_chance + std::log(tests) > std::log(kChance)) break;
-    if (std::any_of(row.members.begin(), row.members.end(),
-                    [&](std::size_t m) { return is_used[m]; })) {
-      continue;
-    }
-    for (const std::size_t m : row.members) is_used[m] = true;
+  for (const RowInLine& row : rowsInLine(means, noise)) {
     MapLine line;
     line.segment = row.segment;
     line.kind = LineKind::kDotted;
-    for (const std::size_t m : row.members) line.support += means[m].looks;
+    for (const std::size_t m : row.members) line.support += all[m].looks;
     line.share = shareOf(row.segment);
     found.push_back(line);
   }

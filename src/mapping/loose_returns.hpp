@@ -26,11 +26,8 @@ class LooseReturns {
   void add(const Scan& scan, const std::vector<Eigen::Vector2d>& loose);
 
   /// Dotted walls, the surest first, without ids: rows of places that stand in line by more than
-  /// chance. Clusters of the places by K-means; a seed is a pair of neighbours; its row is what
-  /// lies on the line through both, with gaps of 2 m at most; a row is believed where as many
-  /// clusters on one line are expected by chance in less than one map of 10^4 [a contrario:
-  /// Desolneux, Moisan & Morel 2000]. Rays speak for each cluster alone: what most of them passed
-  /// went away.
+  /// chance, see rowsInLine(). Clusters of the places are by K-means. Rays speak for each cluster
+  /// alone: what most of them passed went away.
   /// @param walls  lines of the map; what lies beside one is that wall's.
   /// Cost: O(clusters x (scans kept + lines)).
   std::vector<MapLine> dottedWalls(const std::vector<MapLine>& walls, const MapNoise& noise) const;
@@ -57,8 +54,6 @@ class LooseReturns {
     int returned = 0, passed = 0;
     int passed_since = 0;  ///< the last that returned
   };
-  struct Row;
-  static std::int64_t keyOf(const Eigen::Vector2d& p, double cell);
   std::vector<Cluster> clusters(const std::vector<MapLine>& walls) const;
   Verdict ask(const Eigen::Vector2d& p) const;
   double shareOf(const LineSegment& row) const;

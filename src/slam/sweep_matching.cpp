@@ -72,6 +72,14 @@ Eigen::Matrix3d informationOn(const Part& part, const SweepQuadric& quadric) {
   return (part * quadric.H.inverse() * part.transpose()).inverse();
 }
 
+/// Compares the change that the wheels tell with the one that the scan shows by itself.
+/// @param now  the change so far, in the axes of the map as the wheels' is.
+void compareChange(const Part& change, const SweepQuadric& by_scan, const Eigen::Vector3d& now,
+                   const Eigen::Vector3d& by_wheels, SweepFit& fit) {
+  const Eigen::Vector3d seen = now - change * by_scan.H.ldlt().solve(by_scan.g);
+  fit.change_error = by_wheels.dot(informationOn(change, by_scan) * (by_wheels - seen));
+}
+
 }  // namespace
 
 std::optional<SweepFit> matchSweep(const ScanSurface& query, const SweptScan& sweep,
@@ -126,11 +134,8 @@ std::optional<SweepFit> matchSweep(const ScanSurface& query, const SweptScan& sw
     before += R.transpose() * step.segment<3>(3);
     after += R.transpose() * step.segment<3>(6);
     if (round + 1 < kRounds) continue;
-    const Eigen::Vector3d seen = now - change * by_scan.H.ldlt().solve(by_scan.g);
-    const Eigen::Matrix3d weight = informationOn(change, by_scan);
-    const Eigen::Vector3d wheels = R * by_wheels;
-    fit.change_error = wheels.dot(weight * (wheels - seen));
-    fit.expected_change_error = (weight * known.inverse()).trace();
+    compareChange(change, by_scan, now, R * by_wheels, fit);
+    fit.expected_change_error = (informationOn(change, by_scan) * known.inverse()).trace();
   }
   fit.motion = {added(sweep.motion.before, before), added(sweep.motion.after, after)};
   return fit;

@@ -72,6 +72,37 @@ std::string packedText(const std::string& text) {
   return base64Of(bytes);
 }
 
+template <class Laser>
+Json jsonOf(const Laser& laser) {
+  const auto& [x, y, theta] = laser.T_robot_sensor;
+  return {{"x", x},
+          {"y", y},
+          {"theta", theta},
+          {"first", laser.first},
+          {"step", laser.step},
+          {"beams", laser.beams}};
+}
+
+template <class Item>
+std::int64_t frameOf(const Item& item) {
+  return static_cast<std::int64_t>(item.frame);
+}
+
+template <class Change>
+Json jsonOfLines(const Tail<Change>& changes) {
+  Json lines;
+  lines["frame"] = column(changes, frameOf<Change>);
+  lines["id"] = column(changes, [](const Change& c) { return static_cast<std::int64_t>(c.id); });
+  const char* const ends[] = {"x1", "y1", "x2", "y2"};
+  for (std::size_t k = 0; k < 4; ++k) {
+    lines[ends[k]] = column(changes, [k](const Change& c) { return c.line.ends[k]; });
+  }
+  lines["support"] = column(changes, [](const Change& c) { return c.line.support; });
+  lines["sigma_offset"] = column(changes, [](const Change& c) { return c.line.sigma_offset; });
+  lines["sigma_angle"] = column(changes, [](const Change& c) { return c.line.sigma_angle; });
+  return lines;
+}
+
 /// x, y, x, y, ... in mm
 Json ringOf(const Polygon& polygon) {
   Json numbers = Json::array();
@@ -114,15 +145,7 @@ std::string Replay::json(const Mark& from, const Eigen::Vector2d& origin,
   run["robot_radius"] = robot_radius_;
   run["frontier_block"] = kFrontierBlock;
   run["world"] = world.empty() ? Json() : Json::parse(world);
-  for (const Laser& laser : lasers_) {
-    const auto& [x, y, theta] = laser.T_robot_sensor;
-    run["lasers"].push_back({{"x", x},
-                             {"y", y},
-                             {"theta", theta},
-                             {"first", laser.first},
-                             {"step", laser.step},
-                             {"beams", laser.beams}});
-  }
+  for (const Laser& laser : lasers_) run["lasers"].push_back(jsonOf(laser));
   Json& frames = run["frames"];
   const bool has_times = hasTimes();
   frames["time"] = column(new_frames, [&](const Frame& f) {
@@ -151,24 +174,11 @@ std::string Replay::json(const Mark& from, const Eigen::Vector2d& origin,
                                 {"reason", decision.reason},
                                 {"way", decision.way}});
   }
-  const auto frameOf = [](const auto& item) { return static_cast<std::int64_t>(item.frame); };
   Json& frontier = run["frontier"];
-  frontier["frame"] = column(new_toggles, frameOf);
+  frontier["frame"] = column(new_toggles, frameOf<Toggle>);
   frontier["x"] = column(new_toggles, [](const Toggle& t) { return t.block.first; });
   frontier["y"] = column(new_toggles, [](const Toggle& t) { return t.block.second; });
-  Json& lines = run["lines"];
-  lines["frame"] = column(new_changes, frameOf);
-  lines["id"] =
-      column(new_changes, [](const LineChange& c) { return static_cast<std::int64_t>(c.id); });
-  const char* const ends[] = {"x1", "y1", "x2", "y2"};
-  for (std::size_t k = 0; k < 4; ++k) {
-    lines[ends[k]] = column(new_changes, [k](const LineChange& c) { return c.line.ends[k]; });
-  }
-  lines["support"] = column(new_changes, [](const LineChange& c) { return c.line.support; });
-  lines["sigma_offset"] =
-      column(new_changes, [](const LineChange& c) { return c.line.sigma_offset; });
-  lines["sigma_angle"] =
-      column(new_changes, [](const LineChange& c) { return c.line.sigma_angle; });
+  run["lines"] = jsonOfLines(new_changes);
   run["coverage"]["distance"] = column(coverage_distance_, [](std::int64_t d) { return d; });
   run["coverage"]["share"] = column(coverage_share_, [](std::int64_t s) { return s; });
   return run.dump(-1, ' ', false, Json::error_handler_t::replace);

@@ -127,6 +127,20 @@ double scaleOf(const std::vector<double>& from, const std::vector<double>& to) {
   return squares > 0.0 ? product / squares : 1.0;
 }
 
+/// @param sweep  s, as the scans show; negative: the last beam first.
+Finding sweepFinding(double sweep) {
+  if (std::abs(sweep) < kOneInstant) return good("scan: all beams of one instant");
+  return good(text("scan: one sweep takes %.3f s, %s beam first; that is undone", std::abs(sweep),
+                   sweep > 0.0 ? "the first" : "the last"));
+}
+
+/// @param scale  of the odometry's turns or ways, as the scans show. @param what  of the wheels.
+Finding scaleFinding(const char* of, double scale, const char* what) {
+  const std::string told = text("odom: %s of the scans are %.3f of its own", of, scale);
+  if (std::abs(scale - 1.0) < kWrongScale) return good(told);
+  return note(told, text("calibrate the wheels' %s; line SLAM learns it", what));
+}
+
 /// s, by how much the odometry's stamps have to be moved to turn when the scans do; nothing where
 /// the robot has turned too evenly to tell.
 std::optional<double> delayOf(const Drive& drive, const Transforms& transforms,
@@ -367,22 +381,11 @@ void RobotCheck::checkMotion(const Transforms& tf, std::vector<Finding>& finding
              "drive and turn it by hand meanwhile: scans tell sweep and odometry then"));
     return;
   }
-  const double sweep = session.sweepDuration(0);
-  findings.push_back(std::abs(sweep) < kOneInstant
-                         ? good("scan: all beams of one instant")
-                         : good(text("scan: one sweep takes %.3f s, %s beam first; that is undone",
-                                     std::abs(sweep), sweep > 0.0 ? "the first" : "the last")));
-  const double turn_scale = scaleOf(by_wheels, by_scans);
-  const std::string of_turns = text("odom: turns of the scans are %.3f of its own", turn_scale);
-  findings.push_back(std::abs(turn_scale - 1.0) < kWrongScale
-                         ? good(of_turns)
-                         : note(of_turns, "calibrate the wheels' distance; line SLAM learns it"));
+  findings.push_back(sweepFinding(session.sweepDuration(0)));
+  findings.push_back(scaleFinding("turns", scaleOf(by_wheels, by_scans), "distance"));
   if (way > kLeastWay) {
-    const double way_scale = way / std::max(1e-3, wayOf(drive.by_wheels));
-    const std::string of_ways = text("odom: ways of the scans are %.3f of its own", way_scale);
-    findings.push_back(std::abs(way_scale - 1.0) < kWrongScale
-                           ? good(of_ways)
-                           : note(of_ways, "calibrate the wheels' radius; line SLAM learns it"));
+    const double scale = way / std::max(1e-3, wayOf(drive.by_wheels));
+    findings.push_back(scaleFinding("ways", scale, "radius"));
   }
   checkMount(tf, drive.by_scans, drive.by_wheels, findings);
   const auto delay = delayOf(drive, tf, settings_.odom_frame, settings_.base_frame);
