@@ -46,6 +46,7 @@ SlamPose Slam::State::step(const AnalysedScan& analysed, const Pose2& T_robot_se
     jump();
   }
   const bool is_doubtful = takePose(tracked, surface.points.size());
+  const Eigen::Matrix3d of_match = covariance_;  // a new frame is exactly where it is itself
   if (is_doubtful) {
     monitor_.add(tracked.motion.T_before_after, surface);
   } else {
@@ -64,7 +65,7 @@ SlamPose Slam::State::step(const AnalysedScan& analysed, const Pose2& T_robot_se
   const Pose2 T_frame_sensor = frames_.graph.pose(frame).inverse() * T_map_sensor_;
   scans_.push_back({frame, T_frame_sensor, T_robot_sensor, is_doubtful});
   advanceBackEnd();
-  return poseNow(T_robot_sensor, tracked.found.agreement);
+  return poseNow(T_robot_sensor, tracked.found.agreement, of_match);
 }
 
 std::optional<SweepHalves> Slam::State::sweepMotion(const AnalysedScan& analysed,
@@ -90,7 +91,7 @@ SlamPose Slam::State::beginPart(const Scan& scan, const Pose2& T_robot_sensor,
   startPart(frame);
   starts_anywhere_ = false;
   scans_.push_back({frame, {}, T_robot_sensor, false});
-  return poseNow(T_robot_sensor, 1.0);
+  return poseNow(T_robot_sensor, 1.0, covariance_);
 }
 
 PoseBelief Slam::State::predict(const MotionBelief& motion) const {
@@ -247,10 +248,11 @@ void Slam::State::finish(const DoAll& do_all) {
   back_end_.finish(frames_, map_, 1.0 + motion_.longer(), do_all);
 }
 
-SlamPose Slam::State::poseNow(const Pose2& T_robot_sensor, double agreement) const {
+SlamPose Slam::State::poseNow(const Pose2& T_robot_sensor, double agreement,
+                              const Eigen::Matrix3d& covariance) const {
   SlamPose pose;
   pose.T_map_robot = T_map_sensor_ * T_robot_sensor.inverse();
-  pose.covariance = covariance_;
+  pose.covariance = covariance;
   pose.agreement = agreement;
   pose.version = version();
   pose.is_lost = isLost();

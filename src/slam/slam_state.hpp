@@ -77,7 +77,8 @@ class Slam::State {
   void learnScale(const GraphEdge& odometry, const GraphEdge& match);
   void startPart(int frame);
   void advanceBackEnd();
-  SlamPose poseNow(const Pose2& T_robot_sensor, double agreement) const;
+  SlamPose poseNow(const Pose2& T_robot_sensor, double agreement,
+                   const Eigen::Matrix3d& covariance) const;
 
   Pose2 T_map_start_;
   KeyFrames frames_;

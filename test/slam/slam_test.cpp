@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <functional>
 #include <limits>
@@ -57,6 +58,18 @@ TEST(Slam, TakesTheLaserFromWhereItIsMounted) {
   std::vector<Pose2> sensors;
   for (const Pose2& pose : slam.trajectory()) sensors.push_back(pose * T_robot_sensor);
   EXPECT_LT(worstError(sensors, drive.way), 0.15);
+}
+
+// A covariance of zero would make a filter believe the pose whatever others say.
+TEST(Slam, TellsTheCovarianceOfEachMatchThatOfAKeyFrameToo) {
+  Drive drive(2.0 * M_PI);
+  Slam slam(drive.way.front());
+  for (std::size_t k = 0; k < 40; ++k) {
+    const SlamPose pose = slam.step(drive.scans[k], {}, drive.wheels[k]);
+    if (k == 0) continue;
+    EXPECT_GT(pose.covariance.selfadjointView<Eigen::Upper>().eigenvalues().minCoeff(), 0.0) << k;
+  }
+  EXPECT_GT(slam.graph().size(), 3) << "else nothing is shown";
 }
 
 TEST(Slam, NeedsNoWheelsWhereTheLaserSeesEnough) {
