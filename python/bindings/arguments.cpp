@@ -167,6 +167,15 @@ void readNumbers(nb::handle from, const char* argument, const char* expected, in
   }
 }
 
+std::optional<GeoReference> readOrigin(nb::handle from) {
+  if (from.is_none()) return std::nullopt;
+  double n[3];
+  readNumbers(from, "origin", "(latitude, longitude, turn) in degrees", 3, n);
+  if (std::abs(n[0]) > 89.9 || std::abs(n[1]) > 180.0 || std::abs(n[2]) > 360.0)
+    throw nb::value_error("origin: must be in [-89.9, 89.9], [-180, 180] and [-360, 360] degrees");
+  return GeoReference{n[0], n[1], n[2]};
+}
+
 Pose2 readPose(nb::handle from, const char* argument) {
   double numbers[3];
   readNumbers(from, argument, "(x, y, theta)", 3, numbers);

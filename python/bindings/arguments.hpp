@@ -3,8 +3,10 @@
 
 #include <nanobind/nanobind.h>
 
+#include <optional>
 #include <vector>
 
+#include "cca_mrpt/io/geo_reference.hpp"
 #include "cca_mrpt/sensing/scan.hpp"
 
 namespace cca::python {
@@ -31,6 +33,10 @@ void readPlace(nb::handle pose, double free_range_without_return, Scan& scan);
 /// @throws nb::value_error naming the argument.
 void readNumbers(nb::handle from, const char* argument, const char* expected, int count,
                  double* numbers);
+
+/// Where the map lies on the Earth, from (latitude, longitude, turn), degrees; None: nobody says.
+/// @throws nb::value_error naming the range.
+std::optional<GeoReference> readOrigin(nb::handle from);
 
 /// A pose from (x, y, theta). @throws nb::value_error naming the argument.
 Pose2 readPose(nb::handle from, const char* argument);

@@ -13,6 +13,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "arguments.hpp"
 #include "cca_mrpt/io/map_products.hpp"
 #include "io/lines/line_formats.hpp"
 #include "io/plans/plan_files.hpp"
@@ -41,11 +42,12 @@ nb::dict bytesOf(const NamedFiles& files) {
   return contents;
 }
 
-NamedFiles allFilesOf(const FloorPlan& plan, const std::string& title) {
+NamedFiles allFilesOf(const FloorPlan& plan, const std::string& title,
+                      const std::optional<GeoReference>& place) {
 #ifdef CCA_CAIRO
-  return planFiles(plan, title);
+  return planFiles(plan, title, place);
 #else
-  return planTexts(plan, title);
+  return planTexts(plan, title, place);
 #endif
 }
 
@@ -87,13 +89,14 @@ nb::object geoJsonOfPlan(const std::string& lines_csv, const Cells& cells, doubl
 
 nb::dict filesOfPlan(const std::string& lines_csv, const Cells& cells, double resolution,
                      const Place& origin, const std::optional<std::string>& labels,
-                     const std::string& title) {
+                     const std::string& title, nb::handle place) {
+  const std::optional<GeoReference> on_earth = readOrigin(place);
   const OccupancyRaster grid = rasterOf(cells, resolution, origin);
   NamedFiles files;
   try {
     const nb::gil_scoped_release others_may_run;
     const FloorPlan plan = planOf(lines_csv, grid, "map.yaml", labels, "labels").plan;
-    files = allFilesOf(plan, title);
+    files = allFilesOf(plan, title, on_earth);
   } catch (const std::runtime_error& error) {
     throw nb::value_error(error.what());
   }
@@ -131,7 +134,7 @@ NamedFiles picturesOf(MapProducts products, OccupancyRaster grid, const std::str
   try {
     const FloorPlan plan = floorPlan(grid, readLinesCsv(lines_csv, "lines.csv"));
     rooms = seenFrom(products.origin, plan.rooms);
-    if (!grid.values.empty()) files = allFilesOf(plan, products.title);
+    if (!grid.values.empty()) files = allFilesOf(plan, products.title, products.place);
   } catch (const std::exception&) {  // a map is a map without a plan, too
   }
 #ifdef CCA_CAIRO
@@ -150,9 +153,10 @@ NamedFiles picturesOf(MapProducts products, OccupancyRaster grid, const std::str
 nb::dict picturesOfMap(const std::string& title, const std::string& lines_csv, const Ends& ends,
                        std::vector<PolyLine> poly_lines, const Poses& trajectory,
                        const Cells& cells, double resolution, const Place& origin,
-                       const Place& frame_origin, const std::string& packed) {
+                       const Place& frame_origin, const std::string& packed, nb::handle place) {
   MapProducts products = productsOf(title, lines_csv, ends, std::move(poly_lines), trajectory,
                                     {frame_origin.first, frame_origin.second});
+  products.place = readOrigin(place);
   OccupancyRaster grid = rasterOf(cells, resolution, origin);
   NamedFiles files;
   {
@@ -185,9 +189,11 @@ void addFloorPlan(nb::module_& module) {
              "the lowest y on), and the labels that lie in no room.");
   module.def("floor_plan_files", &filesOfPlan, nb::arg("lines_csv"), nb::arg("cells"),
              nb::arg("resolution"), nb::arg("origin"), nb::arg("labels").none(), nb::arg("title"),
+             nb::arg("place").none(),
              nb::sig("def floor_plan_files(lines_csv: str, cells: "
                      "numpy.typing.NDArray[numpy.uint8], resolution: float, "
-                     "origin: tuple[float, float], labels: str | None, title: str) -> "
+                     "origin: tuple[float, float], labels: str | None, title: str, "
+                     "place: collections.abc.Sequence[float] | None) -> "
                      "dict[str, bytes]"),
              "All files of such a plan, by name; without Cairo no plan.pdf and rooms.png.");
   module.def("write_plan_files", &writePlan, nb::arg("folder"), nb::arg("files"),
@@ -200,13 +206,15 @@ void addFloorPlan(nb::module_& module) {
   module.def("pictures_of_map", &picturesOfMap, nb::arg("title"), nb::arg("lines_csv"),
              nb::arg("ends"), nb::arg("poly_lines"), nb::arg("trajectory"), nb::arg("cells"),
              nb::arg("resolution"), nb::arg("origin"), nb::arg("frame_origin"), nb::arg("packed"),
+             nb::arg("place").none(),
              nb::sig("def pictures_of_map(title: str, lines_csv: str, "
                      "ends: numpy.typing.NDArray[numpy.float64], "
                      "poly_lines: collections.abc.Sequence[PolyLine], "
                      "trajectory: numpy.typing.NDArray[numpy.float64], "
                      "cells: numpy.typing.NDArray[numpy.uint8], resolution: float, "
                      "origin: tuple[float, float], frame_origin: tuple[float, float], "
-                     "packed: str) -> dict[str, bytes]"),
+                     "packed: str, place: collections.abc.Sequence[float] | None) -> "
+                     "dict[str, bytes]"),
              "map.png, and the replay.html of a run, with the rooms of its map.");
 }
 

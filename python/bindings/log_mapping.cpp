@@ -13,6 +13,7 @@
 
 #include "apps/logs/session_warnings.hpp"
 #include "apps/runs/on_all_cores.hpp"
+#include "arguments.hpp"
 #include "cca_mrpt/session/earlier_drive.hpp"
 #include "io/logs/sound_log.hpp"
 #include "io/poses/local_frame.hpp"
@@ -135,14 +136,16 @@ class LogMapping {
 };
 
 /// @param resume  the folder of a map to go on with; nothing: none.
+/// @param origin  (latitude, longitude, turn) of the map, degrees; None: nobody says.
 /// @param page    where a page is to be served; nothing: there is none.
 /// @param told    called with its address.
 nb::object mapLogs(const std::vector<NamedLog>& logs, const std::string& pose,
                    const std::optional<std::string>& resume, const std::string& title,
-                   const std::optional<std::pair<std::string, int>>& page, nb::handle told,
-                   nb::kwargs keywords) {
+                   nb::handle origin, const std::optional<std::pair<std::string, int>>& page,
+                   nb::handle told, nb::kwargs keywords) {
   CcaParameters parameters;
   readParameters(keywords, parameters);
+  const std::optional<GeoReference> place = readOrigin(origin);
   if (logs.empty()) throw nb::value_error("logs: one or more are needed");
   const bool is_auto = pose == "auto", is_joined = logs.size() > 1 || resume;
   const PoseSource source = is_auto ? PoseSource::kSlam : sourceOf(pose);
@@ -168,6 +171,7 @@ nb::object mapLogs(const std::vector<NamedLog>& logs, const std::string& pose,
   } catch (const std::runtime_error& error) {
     throw nb::value_error(error.what());
   }
+  result->products.place = place;
   return filesAndArrays(*result);
 }
 
@@ -204,12 +208,13 @@ void addLogMapping(nb::module_& module) {
   static const std::string signature = parameterSignature<CcaParameters>(
       "map_logs(logs: collections.abc.Sequence[tuple[str, collections.abc.Iterable[LogRecord]]], "
       "pose: str, "
-      "resume: str | None, title: str, page: tuple[str, int] | None, told: "
+      "resume: str | None, title: str, origin: collections.abc.Sequence[float] | None, page: "
+      "tuple[str, int] | None, told: "
       "collections.abc.Callable[[str], object]",
       "tuple[dict[str, typing.Any], dict[str, bytes]]");
   module.def("map_logs", &mapLogs, nb::arg("logs"), nb::arg("pose"), nb::arg("resume").none(),
-             nb::arg("title"), nb::arg("page").none(), nb::arg("told"), nb::arg("parameters"),
-             nb::sig(signature.c_str()),
+             nb::arg("title"), nb::arg("origin").none(), nb::arg("page").none(), nb::arg("told"),
+             nb::arg("parameters"), nb::sig(signature.c_str()),
              "What a map of logs holds, and its files by name: see `cca_mrpt.map`.");
   static const std::string merging =
       parameterSignature<CcaParameters>("merge_maps(maps: collections.abc.Sequence[str]",

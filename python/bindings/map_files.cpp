@@ -55,7 +55,8 @@ nb::dict filesOf(const MapProducts& map) {
   };
   put("lines.csv", linesCsv(map.lines));
   put("arcs.csv", arcsCsv(map.arcs));
-  put("lines.geojson", linesGeoJson(map.lines, map.poly_lines, map.trajectory, map.arcs));
+  put("lines.geojson",
+      linesGeoJson(map.lines, map.poly_lines, map.trajectory, map.arcs, map.place));
   put("lines.svg", linesSvg(map.lines, map.poly_lines, map.trajectory, map.arcs));
   put("lines.dxf", linesDxf(map.lines, map.poly_lines, map.trajectory, map.arcs));
   if (map.grid) {
@@ -100,6 +101,14 @@ void addMapFiles(nb::module_& module) {
         }
       },
       nb::arg("page"), nb::arg("name"), "The runs that a replay.html holds, packed.");
+  module.def(
+      "origin_of",
+      [](const std::string& text) {
+        const GeoReference place = geoReferenceOf(text);
+        return nb::make_tuple(place.latitude_deg, place.longitude_deg, place.turn_deg);
+      },
+      nb::arg("text"), nb::sig("def origin_of(text: str) -> tuple[float, float, float]"),
+      "(latitude, longitude, turn) of LAT,LON[,DEG], degrees.");
   module.def("page_of_runs", &replayPage, nb::arg("runs"), "The page of one run, or two.");
 }
 
@@ -122,6 +131,9 @@ nb::object filesAndArrays(const MappedScans& result) {
   held["shortcoming"] = result.shortcoming;
   held["replay"] = map.replay;
   held["frame_origin"] = nb::make_tuple(origin.x(), origin.y());
+  if (const auto& place = map.place) {
+    held["place"] = nb::make_tuple(place->latitude_deg, place->longitude_deg, place->turn_deg);
+  }
   held["grid"] = map.grid ? gridTuple(*map.grid) : nb::none();
   auto& summary = map.summary;
   if (!origin.isZero()) summary["frame_origin_m"] = {origin.x(), origin.y()};

@@ -63,15 +63,6 @@ std::vector<Pose2> readTrajectory(nb::handle from) {
   return poses;
 }
 
-std::optional<GeoReference> readOrigin(nb::handle from) {
-  if (from.is_none()) return std::nullopt;
-  double n[3];
-  readNumbers(from, "origin", "(latitude, longitude, turn) in degrees", 3, n);
-  if (std::abs(n[0]) > 89.9 || std::abs(n[1]) > 180.0 || std::abs(n[2]) > 360.0)
-    throw nb::value_error("origin: must be in [-89.9, 89.9], [-180, 180] and [-360, 360] degrees");
-  return GeoReference{n[0], n[1], n[2]};
-}
-
 template <class Write>
 auto placedWriter(Write write) {
   return [write](SharedLineMap& map, nb::handle trajectory, nb::handle origin) {

@@ -9,7 +9,7 @@ import sys
 from pathlib import Path
 from typing import Any, Callable, Dict, List, Optional, Sequence, Tuple
 
-from ._core import version, write_files_into
+from ._core import origin_of, version, write_files_into
 from .evaluation import evaluation_json
 from .floor_plans import floor_plan
 from .localisation import localize
@@ -71,7 +71,7 @@ def run_map(options: argparse.Namespace) -> str:
     first = options.logs[0]
     out = options.out or Path("out") / Path(first).name.split(".")[0]
     require_new(out, options.force, "lines.csv", "summary.json")
-    made = map_log(options.logs, options.pose, resume=options.resume, serve=options.serve,
+    made = map_log(options.logs, options.pose, resume=options.resume, origin=options.origin, serve=options.serve,
                    serve_address=options.serve_address, **reading_of(options))
     if made.warnings:
         print(f"{first}: {made.warnings}", file=sys.stderr)
@@ -119,7 +119,7 @@ def run_plan(options: argparse.Namespace) -> str:
     """Write the floor plan of a map; what was done, in a sentence."""
     out = options.out or Path(options.map)
     plan = floor_plan(options.map, options.labels)
-    names = plan.save(out, force=options.force)
+    names = plan.save(out, force=options.force, origin=options.origin)
     for (x, y), name in plan.labels_outside:
         print(f"cca_mrpt: {options.labels}: ({x:.2f}, {y:.2f}), {name}, lies in no room", file=sys.stderr)
     if not options.quiet:
@@ -229,6 +229,14 @@ def parse_start(text: str) -> Tuple[float, float, float]:
     return x, y, math.radians(degrees)
 
 
+def parse_origin(text: str) -> Tuple[float, float, float]:
+    """LAT,LON or LAT,LON,DEG."""
+    try:
+        return origin_of(text)
+    except RuntimeError as error:
+        raise argparse.ArgumentTypeError(str(error)) from None
+
+
 def parse_folder(text: str) -> Path:
     """An empty one would be the folder that one is in: a shell variable that was never set."""
     if not text:
@@ -263,6 +271,12 @@ def add_output(command: argparse.ArgumentParser, required: bool, what: str) -> N
     command.add_argument("--quiet", action="store_true", help="print nothing but errors")
 
 
+def add_origin(command: argparse.ArgumentParser, what: str) -> None:
+    command.add_argument("--origin", type=parse_origin, metavar="LAT,LON[,DEG]",
+                         help="where (0, 0) of the map lies, and how far its x axis is turned from east to the left, "
+                         f"degrees: {what} in longitude and latitude then")
+
+
 def add_commands(commands: Any) -> None:
     add_log(commands.add_parser("info", help="what is in a log"))
     command = commands.add_parser("localize", help="poses of a log in a finished map or a drawn plan")
@@ -278,6 +292,7 @@ def add_commands(commands: Any) -> None:
     command.add_argument("--pose", default="auto", choices=POSES,
                          help="where the poses come from (auto: the log's own where it has corrected ones, else SLAM)")
     command.add_argument("--resume", metavar="DIR", help="an earlier map: go on with it, from anywhere in it")
+    add_origin(command, "lines.geojson and plan.geojson are")
     add_output(command, False, "the map")
     command.add_argument("--serve", type=parse_port, nargs="?", const=8048, metavar="PORT",
                          help="show the map in browsers as it grows, at this port [8048]; 0: any free")
@@ -296,6 +311,7 @@ def add_commands(commands: Any) -> None:
     command.add_argument("map", metavar="DIR", help="folder that map, explore or merge left")
     command.add_argument("--out", type=parse_folder, help="folder to write the plan to (default: DIR)")
     command.add_argument("--labels", metavar="FILE", help="CSV with columns x, y (m, map frame) and name: names the rooms")
+    add_origin(command, "plan.geojson is")
     command.add_argument("--force", action="store_true", help="overwrite a plan that is there")
     command.add_argument("--quiet", action="store_true", help="print nothing but errors")
     command = commands.add_parser("render", help="a page to replay a run in, from its folder's replay.html")
@@ -310,7 +326,7 @@ def _with_places_told(words: Sequence[str]) -> List[str]:
     """`--start -1,0,90` as `--start=-1,0,90`: argparse takes what begins so for an option."""
     told: List[str] = []
     for word in words:
-        if told and told[-1] in ("--start", "--mount") and re.match(r"-[\d.]", word):
+        if told and told[-1] in ("--start", "--mount", "--origin") and re.match(r"-[\d.]", word):
             told[-1] += "=" + word
         else:
             told.append(word)

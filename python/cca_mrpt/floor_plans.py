@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 import os
 from pathlib import Path
-from typing import Any, Dict, List, NamedTuple, Optional, Tuple, Union
+from typing import Any, Dict, List, NamedTuple, Optional, Sequence, Tuple, Union
 
 import numpy as np
 
@@ -110,11 +110,12 @@ class FloorPlan:
         """The text of plan.geojson: that which the program writes."""
         return self._geojson
 
-    def save(self, folder: "Union[str, os.PathLike[str]]", force: bool = False) -> List[str]:
+    def save(self, folder: "Union[str, os.PathLike[str]]", force: bool = False, origin: Optional[Sequence[float]] = None) -> List[str]:
         """Write the plan's files into a folder, which is made where it is missing; each whole or not at all.
 
         Args:
             force: overwrite files that are there and differ.
+            origin: (latitude, longitude, turn), degrees, as of `map`: plan.geojson is in degrees then.
 
         Returns:
             Their names: plan.geojson, plan.svg, plan.dxf, rooms.csv; plan.pdf and rooms.png where the package was built
@@ -124,7 +125,7 @@ class FloorPlan:
             RuntimeError: one of them is there already, or cannot be written; names the file and the reason.
         """
         lines_csv, (cells, resolution, origin), _, title = self._source
-        files = floor_plan_files(lines_csv, cells, resolution, origin, self._labels[0] if self._labels else None, title)
+        files = floor_plan_files(lines_csv, cells, resolution, origin, self._labels[0] if self._labels else None, title, origin)
         write_plan_files(os.fspath(folder), files, force)
         return list(files)
 

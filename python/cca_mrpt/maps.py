@@ -80,6 +80,7 @@ class Map:
         self._files = files
         self.shortcoming: str = held.get("shortcoming", "")
         # A page of the run, packed, and where its frame lies; of a map that was loaded the files hold it.
+        self._place: Optional[Sequence[float]] = held.get("place")  # on the Earth
         self._replay: Optional[Tuple[str, Tuple[float, float]]] = (held["replay"], held["frame_origin"]) if "replay" in held else None
 
     def save(self, folder: Union[str, "os.PathLike[str]"], force: bool = False) -> List[str]:
@@ -114,7 +115,7 @@ class Map:
         packed, frame_origin = self._replay
         cells, resolution, origin = self.grid or Grid(np.zeros((0, 0), np.uint8), 1.0, (0.0, 0.0))
         return pictures_of_map(title, self.lines_csv(), np.ascontiguousarray(self.lines["ends"]), self.poly_lines, self.trajectory,
-                               np.ascontiguousarray(cells), resolution, origin, frame_origin, packed)
+                               np.ascontiguousarray(cells), resolution, origin, frame_origin, packed, self._place)
 
     def plot(self, ax: Optional[Axes] = None) -> Axes:
         """Draw lines and trajectory to scale by matplotlib: the axes."""
@@ -163,7 +164,7 @@ def _tell_address(url: str) -> None:
 def map(path: "Union[Source, Sequence[Source]]", pose: str = "auto", *,
         resume: "Optional[Union[str, os.PathLike[str]]]" = None, topic: Optional[str] = None,
         base_frame: Optional[str] = None, odom_frame: Optional[str] = None, mount: Optional[Sequence[float]] = None,
-        upside_down: bool = False, serve: Optional[int] = None, serve_address: str = "127.0.0.1",
+        upside_down: bool = False, origin: Optional[Sequence[float]] = None, serve: Optional[int] = None, serve_address: str = "127.0.0.1",
         **parameters: Unpack[MapParameters]) -> Map:
     """The line map of a whole log, or of several: the same as the program `cca-mrpt map` makes, byte for byte.
 
@@ -176,6 +177,8 @@ def map(path: "Union[Source, Sequence[Source]]", pose: str = "auto", *,
         resume: folder of an earlier map with a map.slam: go on with it, from anywhere in it, in its frame. Where its place
             is not found, this is the map of the log alone; `summary["found_in_memory"]` and a warning say so.
         topic, base_frame, odom_frame, mount, upside_down: of bags, see `read_log`.
+        origin: (latitude, longitude, turn), degrees: where (0, 0) of the map lies, and how far its x axis is turned from
+            east to the left; lines.geojson and plan.geojson are in degrees then, and the plan's sheet shows north.
         serve: a port: the map is shown in browsers as it grows, at the address that is printed on stderr. See
             `Mapper.serve`; while a viewer pauses, no scan is read.
         parameters: of `LineMap`.
@@ -192,8 +195,8 @@ def map(path: "Union[Source, Sequence[Source]]", pose: str = "auto", *,
     paths = [log.path if isinstance(log, Log) else "" for log in logs]
     page = None if serve is None else (serve_address, serve)
     earlier = None if resume is None else os.fspath(resume)
-    held, files = map_logs(list(zip(paths, logs)), pose, earlier, Path(paths[0] if paths and paths[0] else "scans").name, page,
-                           _tell_address, **parameters)
+    held, files = map_logs(list(zip(paths, logs)), pose, earlier, Path(paths[0] if paths and paths[0] else "scans").name, origin,
+                           page, _tell_address, **parameters)
     result = Map(held, files, "; ".join(log.warnings for log in logs if isinstance(log, Log) and log.warnings))
     if len(paths) > 1 and all(paths):
         result.summary = {"logs": paths, **result.summary}

@@ -116,7 +116,7 @@ def test_rooms_take_the_names_of_labels(house, tmp_path):
 def test_the_program_writes_the_same_plan(house, with_labels, tmp_path):
     house.save(tmp_path / "map")
     (tmp_path / "labels.csv").write_text("x,y,name\n-1,0,Kitchen\n50,50,Nowhere\n")
-    labels = ["--labels", tmp_path / "labels.csv"] if with_labels else []
+    labels = ["--labels", tmp_path / "labels.csv", "--origin", "-33.93,18.42,30"] if with_labels else []
     for what in "program", "python":
         status, said = run(what, "plan", tmp_path / "map", *labels, "--out", tmp_path / what)
         assert status == (3 if with_labels else 0), said

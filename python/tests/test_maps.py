@@ -135,10 +135,10 @@ def test_a_map_is_drawn(drive):
     pyplot.close("all")
 
 
-def both(program, log, pose, tmp_path):
+def both(program, log, pose, tmp_path, *words):
     """lines.csv and others of the program and of Python's command, as bytes."""
     for name, command in ("program", [program]), ("python", [sys.executable, "-m", "cca_mrpt"]):
-        done = subprocess.run([*command, "map", str(log), "--pose", pose, "--out", str(tmp_path / name)],
+        done = subprocess.run([*command, "map", str(log), "--pose", pose, *words, "--out", str(tmp_path / name)],
                               capture_output=True, text=True)
         if "built without ROS" in done.stderr:
             pytest.skip("the program was built without ROS")
@@ -152,10 +152,26 @@ def both(program, log, pose, tmp_path):
 
 
 @pytest.mark.skipif(not installed_program(), reason="needs the program cca-mrpt")
-@pytest.mark.parametrize("pose", ["log", "slam"])
-def test_the_program_makes_the_same_bytes(log, pose, tmp_path):
-    for name, of_program, of_python in both(installed_program(), log, pose, tmp_path):
+@pytest.mark.parametrize("pose, words", [("log", []), ("slam", []), ("slam", ["--origin", "-33.93,18.42,30"])])
+def test_the_program_makes_the_same_bytes(log, pose, words, tmp_path):
+    for name, of_program, of_python in both(installed_program(), log, pose, tmp_path, *words):
         assert of_program == of_python, name
+
+
+def test_a_map_may_lie_on_the_earth(log, tmp_path):
+    made = cca_mrpt.map(log, origin=(52.5, 13.4, 0.0))
+    made.save(tmp_path / "map")
+    for name in "lines.geojson", "plan.geojson":
+        corner = json.loads((tmp_path / "map" / name).read_text())["features"][0]["geometry"]["coordinates"]
+        while isinstance(corner[0], list):
+            corner = corner[0]
+        assert corner == pytest.approx([13.4, 52.5], abs=1e-3), name
+    assert len(cca_mrpt.load(tmp_path / "map").poly_lines) == len(made.poly_lines)
+    made.floor_plan().save(tmp_path / "plan", origin=(52.5, 13.4, 0.0))
+    assert (tmp_path / "plan" / "plan.geojson").read_bytes() == (tmp_path / "map" / "plan.geojson").read_bytes()
+    for wrong in (95.0, 0.0, 0.0), (0.0, 0.0), (0.0, float("nan"), 0.0):
+        with pytest.raises(ValueError, match="origin"):
+            cca_mrpt.map(log, origin=wrong)
 
 
 @pytest.mark.skipif(not (installed_program() and SHARED.exists()), reason="needs the program and the shared data")
