@@ -4,12 +4,13 @@
 
 usage: floor_plan_table.py PROGRAM --plans FOLDER --bench FOLDER [--maps FOLDER] [--only NAME...] [--require KEY=VALUE...]
                            [--elsewhere SEED]
-       floor_plan_table.py PROGRAM --logs FOLDER --bench FOLDER [--maps FOLDER] [--only NAME...] [--require KEY=VALUE...]
+       floor_plan_table.py PROGRAM --logs FOLDER --bench FOLDER [--pose log|slam] [--maps FOLDER] [--only NAME...] [--require KEY=VALUE...]
        floor_plan_table.py PROGRAM --worlds FOLDER [--maps FOLDER] [--only NAME...] [--require KEY=VALUE...]
 
 --plans    plans with world.yaml, gt.png and plain.png; each is explored once and planned
 --logs     real logs, NAME-corrected.log.gz: those of test/floor_plan/truth, whose rooms and doors were drawn by hand;
-           each is mapped by its own poses (`map LOG --pose log`), whose frame the drawings are in
+           each is mapped by its own poses (`map LOG --pose log`), whose frame the drawings are in; by --pose slam in
+           a frame that is off by as much as SLAM and who corrected the log disagree
 --bench    the scorer of rooms (score_rooms.py, rooms_lib.py)
 --worlds   worlds with NAME.yaml and NAME.truth.csv, the faces of their walls: door widths, sides, thickness
 --elsewhere  explores from another start each, with this seed, walls shifted off the grid's lines: a second set
@@ -121,7 +122,7 @@ def score_logs(options, work):
     head("log")
     for name in sorted(options.only or [f[: -len(".geojson")] for f in os.listdir(TRUTH)]):
         folder = os.path.join(options.maps, name)
-        subprocess.run([options.program, "map", os.path.join(options.logs, name + "-corrected.log.gz"), "--pose", "log",
+        subprocess.run([options.program, "map", os.path.join(options.logs, name + "-corrected.log.gz"), "--pose", options.pose,
                         "--out", folder, "--quiet", "--force"], check=True)
         out = os.path.join(work, name)
         _, seconds = planned(options.program, folder, out)
@@ -236,6 +237,7 @@ def main():
     for option in ("--plans", "--bench", "--worlds", "--logs", "--maps"):
         parser.add_argument(option)
     parser.add_argument("--elsewhere", type=int, metavar="SEED")
+    parser.add_argument("--pose", default="log", choices=["log", "slam"])
     parser.add_argument("--only", nargs="*")
     parser.add_argument("--require", nargs="*", default=[])
     options = parser.parse_args()
