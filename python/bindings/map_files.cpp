@@ -57,7 +57,7 @@ nb::dict filesOf(const MapProducts& map) {
   put("arcs.csv", arcsCsv(map.arcs));
   put("lines.geojson",
       linesGeoJson(map.lines, map.poly_lines, map.trajectory, map.arcs, map.place));
-  put("lines.svg", linesSvg(map.lines, map.poly_lines, map.trajectory, map.arcs));
+  put("lines.svg", linesSvg(map.lines, map.poly_lines, map.trajectory, map.arcs, map.place));
   put("lines.dxf", linesDxf(map.lines, map.poly_lines, map.trajectory, map.arcs));
   if (map.grid) {
     put("map.pgm", occupancyPgm(*map.grid));

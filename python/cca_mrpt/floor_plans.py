@@ -124,8 +124,8 @@ class FloorPlan:
         Raises:
             RuntimeError: one of them is there already, or cannot be written; names the file and the reason.
         """
-        lines_csv, (cells, resolution, origin), _, title = self._source
-        files = floor_plan_files(lines_csv, cells, resolution, origin, self._labels[0] if self._labels else None, title, origin)
+        lines_csv, (cells, resolution, corner), _, title = self._source
+        files = floor_plan_files(lines_csv, cells, resolution, corner, self._labels[0] if self._labels else None, title, origin)
         write_plan_files(os.fspath(folder), files, force)
         return list(files)
 
