@@ -171,9 +171,10 @@ std::optional<GeoReference> readOrigin(nb::handle from) {
   if (from.is_none()) return std::nullopt;
   double n[3];
   readNumbers(from, "origin", "(latitude, longitude, turn) in degrees", 3, n);
-  if (std::abs(n[0]) > 89.9 || std::abs(n[1]) > 180.0 || std::abs(n[2]) > 360.0)
+  const GeoReference place{n[0], n[1], n[2]};
+  if (!place.isOnEarth())
     throw nb::value_error("origin: must be in [-89.9, 89.9], [-180, 180] and [-360, 360] degrees");
-  return GeoReference{n[0], n[1], n[2]};
+  return place;
 }
 
 Pose2 readPose(nb::handle from, const char* argument) {

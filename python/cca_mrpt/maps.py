@@ -79,8 +79,8 @@ class Map:
             self.summary["warnings"] = told
         self._files = files
         self.shortcoming: str = held.get("shortcoming", "")
-        # A page of the run, packed, and where its frame lies; of a map that was loaded the files hold it.
         self._place: Optional[Sequence[float]] = held.get("place")  # on the Earth
+        # A page of the run, packed, and where its frame lies; of a map that was loaded the files hold it.
         self._replay: Optional[Tuple[str, Tuple[float, float]]] = (held["replay"], held["frame_origin"]) if "replay" in held else None
 
     def save(self, folder: Union[str, "os.PathLike[str]"], force: bool = False) -> List[str]:

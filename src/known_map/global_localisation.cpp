@@ -7,6 +7,8 @@
 #include <numeric>
 #include <utility>
 
+#include "geometry/square_key.hpp"
+
 namespace cca {
 namespace {
 
@@ -97,11 +99,7 @@ bool isSamePlace(const Pose2& a, const Pose2& b) {
   return off.head<2>().norm() < kSamePlace && std::abs(off.z()) < kSameTurn;
 }
 
-std::int64_t seenCell(const Eigen::Vector2d& p) {
-  const auto x = static_cast<std::int64_t>(std::floor(p.x() / kSeenCell));
-  const auto y = static_cast<std::int64_t>(std::floor(p.y() / kSeenCell));
-  return x * (std::int64_t{1} << 32) + y;
-}
+std::int64_t seenCell(const Eigen::Vector2d& p) { return squareKey(p, kSeenCell); }
 
 }  // namespace
 

@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "cca_mrpt/sensing/range_noise.hpp"
+#include "geometry/square_key.hpp"
 #include "mapping/rows_in_line.hpp"
-#include "mapping/square_key.hpp"
 
 namespace cca {
 namespace {

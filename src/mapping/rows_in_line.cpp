@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "geometry/cross.hpp"
-#include "mapping/square_key.hpp"
+#include "geometry/square_key.hpp"
 
 namespace cca {
 namespace {

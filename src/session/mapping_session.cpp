@@ -18,7 +18,7 @@ namespace {
 constexpr double kOfMatch = 2.0;
 
 /// Puts a scan where it was taken. Its beams point no surer than the robot knows its heading.
-void placeScan(const Pose2& T_map_sensor, const Estimate& localised, Scan& scan) {
+void placeAsLocalised(const Pose2& T_map_sensor, const Estimate& localised, Scan& scan) {
   scan.T_map_sensor = T_map_sensor;
   scan.bearing_sigma =
       std::hypot(scan.bearing_sigma, kOfMatch * std::sqrt(localised.covariance(2, 2)));
@@ -186,7 +186,7 @@ Estimate MappingSession::localise(const Measurement& measurement, std::size_t se
   if (!measurement.motion.middle && !measurement.T_odom_robot) {
     compensationOf(0).amend(now.T_map_sensor);
   }
-  placeScan(now.T_map_sensor, now, analysed_.scan);
+  placeAsLocalised(now.T_map_sensor, now, analysed_.scan);
   const bool corrects = localiser_->correctsPast();
   const bool is_kept = state_.past.add(analysed_, now.T_map_robot, now.is_known);
   if (now.is_known && (is_kept || !corrects)) insert(analysed_, now.T_map_robot, 0);
@@ -205,7 +205,7 @@ Estimate MappingSession::localiseSecondary(const Measurement& measurement, std::
     estimate.T_map_robot = *state_.T_map_odom * *measurement.T_odom_robot;
     estimate.T_map_sensor = estimate.T_map_robot * measurement.T_robot_sensor;
   }
-  placeScan(estimate.T_map_sensor, state_.last, analysed_.scan);
+  placeAsLocalised(estimate.T_map_sensor, state_.last, analysed_.scan);
   const bool corrects = localiser_->correctsPast();
   PastScans& past = state_.past;
   const bool is_kept = past.addBeside(past.size() - 1, analysed_, state_.last.T_map_robot, sensor);

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <unordered_set>
 
+#include "geometry/square_key.hpp"
 #include "slam/scan_surface.hpp"
 
 namespace cca {
@@ -121,9 +122,7 @@ std::vector<SurfacePoint> thinned(const std::vector<SurfacePoint>& points, doubl
   taken.reserve(points.size());
   std::vector<SurfacePoint> kept;
   for (const SurfacePoint& p : points) {
-    const auto x = static_cast<std::int64_t>(std::floor(p.position.x() / spacing));
-    const auto y = static_cast<std::int64_t>(std::floor(p.position.y() / spacing));
-    if (taken.insert(x * (std::int64_t{1} << 32) + y).second) kept.push_back(p);
+    if (taken.insert(squareKey(p.position, spacing)).second) kept.push_back(p);
   }
   return kept;
 }

@@ -64,8 +64,10 @@ SlamPose Slam::State::step(const AnalysedScan& analysed, const Pose2& T_robot_se
   const int frame = frames_.size() - 1;
   const Pose2 T_frame_sensor = frames_.graph.pose(frame).inverse() * T_map_sensor_;
   scans_.push_back({frame, T_frame_sensor, T_robot_sensor, is_doubtful});
+  const double heading = T_map_sensor_.theta;
   advanceBackEnd();
-  return poseNow(T_robot_sensor, tracked.found.agreement, of_match);
+  return poseNow(T_robot_sensor, tracked.found.agreement,
+                 rotatedCovariance(of_match, T_map_sensor_.theta - heading));
 }
 
 std::optional<SweepHalves> Slam::State::sweepMotion(const AnalysedScan& analysed,

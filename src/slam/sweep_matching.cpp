@@ -73,11 +73,14 @@ Eigen::Matrix3d informationOn(const Part& part, const SweepQuadric& quadric) {
 }
 
 /// Compares the change that the wheels tell with the one that the scan shows by itself.
-/// @param now  the change so far, in the axes of the map as the wheels' is.
+/// @param now    the change so far, in the axes of the map as all that follows.
+/// @param known  the information of the wheels.
 void compareChange(const Part& change, const SweepQuadric& by_scan, const Eigen::Vector3d& now,
-                   const Eigen::Vector3d& by_wheels, SweepFit& fit) {
+                   const Eigen::Vector3d& by_wheels, const Eigen::Matrix3d& known, SweepFit& fit) {
   const Eigen::Vector3d seen = now - change * by_scan.H.ldlt().solve(by_scan.g);
-  fit.change_error = by_wheels.dot(informationOn(change, by_scan) * (by_wheels - seen));
+  const Eigen::Matrix3d weight = informationOn(change, by_scan);
+  fit.change_error = by_wheels.dot(weight * (by_wheels - seen));
+  fit.expected_change_error = (weight * known.inverse()).trace();
 }
 
 }  // namespace
@@ -134,8 +137,7 @@ std::optional<SweepFit> matchSweep(const ScanSurface& query, const SweptScan& sw
     before += R.transpose() * step.segment<3>(3);
     after += R.transpose() * step.segment<3>(6);
     if (round + 1 < kRounds) continue;
-    compareChange(change, by_scan, now, R * by_wheels, fit);
-    fit.expected_change_error = (informationOn(change, by_scan) * known.inverse()).trace();
+    compareChange(change, by_scan, now, R * by_wheels, known, fit);
   }
   fit.motion = {added(sweep.motion.before, before), added(sweep.motion.after, after)};
   return fit;

@@ -3,12 +3,15 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <deque>
+#include <limits>
 #include <random>
 
 #include "../navigation/known_world.hpp"
 #include "cca_mrpt/localisation/given_poses.hpp"
 #include "cca_mrpt/localisation/wheel_odometry.hpp"
+#include "cca_mrpt/navigation/world/exploration_grid.hpp"
 #include "cca_mrpt/slam/slam_localiser.hpp"
 #include "counting_recorder.hpp"
 
@@ -110,6 +113,66 @@ TEST(MappingSession, BeamsPointNoSurerThanTheHeadingIsKnown) {
     ASSERT_EQ(given.scan().bearing_sigma, 0.0);
   }
   EXPECT_GT(less_sure, 100);
+}
+
+/// Knows the place; the heading is off to one side and the other, and told to be known to `told`.
+class UnsureHeading : public Localiser {
+ public:
+  UnsureHeading(double off, double told) : off_(off), told_(told) {}
+  Estimate update(const Measurement& measurement, const AnalysedScan& /*analysed*/,
+                  const PastScans& /*past*/) override {
+    off_ = -off_;
+    Estimate estimate;
+    estimate.T_map_robot = *measurement.T_map_robot;
+    estimate.T_map_robot.theta += off_;
+    estimate.T_map_sensor = estimate.T_map_robot;
+    estimate.covariance(2, 2) = told_ * told_;
+    return estimate;
+  }
+
+ private:
+  double off_, told_;
+};
+
+/// Cells seen free behind a wall 20 m long, at no line of the grid, that a robot looks along which
+/// turns on the spot 0.4 m before it; one beam in 33 is lost.
+int freedBehindAWall(double told_sigma) {
+  const Pose2 T_map_wall{0.313, -0.287, 0.1};  // the wall is its x axis, the room at y > 0
+  MappingSession session(std::make_unique<UnsureHeading>(0.006, told_sigma), {});
+  ExplorationGrid grid(0.05);
+  std::mt19937 random(5);
+  std::normal_distribution<double> noise(0.0, 0.01);
+  for (int k = 0; k < 40; ++k) {
+    const Pose2 T_wall_robot{0.5, 0.4, -0.5 + 0.02 * k};
+    Measurement measurement;
+    measurement.scan.angle_min = -0.75 * M_PI;
+    measurement.scan.angle_increment = M_PI / 720.0;
+    for (std::size_t beam = 0; beam < 1081; ++beam) {
+      const double bearing = T_wall_robot.theta + measurement.scan.bearing(beam);
+      const double x = std::cos(bearing), y = std::sin(bearing);
+      const double to_end = x > 0.0 ? 19.5 / x : 0.5 / -x, to_side = y > 0.0 ? 1.6 / y : 0.4 / -y;
+      measurement.scan.ranges.push_back(random() % 33 == 0
+                                            ? std::numeric_limits<double>::infinity()
+                                            : std::min(to_end, to_side) + noise(random));
+    }
+    measurement.T_map_robot = T_map_wall * T_wall_robot;
+    measurement.time = 0.025 * k;
+    session.add(measurement);
+    grid.insert(session.scan());
+  }
+  int freed = 0;
+  for (int y = grid.lowest().y; y <= grid.highest().y; ++y) {
+    for (int x = grid.lowest().x; x <= grid.highest().x; ++x) {
+      const Eigen::Vector2d p = T_map_wall.inverse() * grid.centreOf({x, y});
+      freed += p.y() < -0.06 && p.x() > 0.1 && p.x() < 19.9 && grid.at({x, y}) == CellState::kFree;
+    }
+  }
+  return freed;
+}
+
+TEST(MappingSession, ARobotThatTurnsOpensNoWallFarAway) {
+  EXPECT_GT(freedBehindAWall(0.0), 20) << "else nothing is shown";
+  EXPECT_EQ(freedBehindAWall(0.004), 0);
 }
 
 TEST(MappingSession, MapsEachScanAtGivenPoses) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cmath>
 #include <string>
 
 namespace cca {
@@ -16,6 +17,13 @@ struct GeoReference {
   Eigen::Vector2d toDegrees(const Eigen::Vector2d& p_map) const;
   /// The inverse; within a kilometre to .1 mm.
   Eigen::Vector2d toMap(const Eigen::Vector2d& longitude_latitude_deg) const;
+
+  /// Whether the latitude is in [-89.9, 89.9], the longitude in [-180, 180], the turn in
+  /// [-360, 360]; false of what is no number.
+  bool isOnEarth() const {
+    return std::abs(latitude_deg) <= 89.9 && std::abs(longitude_deg) <= 180.0 &&
+           std::abs(turn_deg) <= 360.0;
+  }
 };
 
 /// Reads "LAT,LON" or "LAT,LON,DEG", degrees.

@@ -7,14 +7,14 @@ namespace cca {
 
 using Json = nlohmann::ordered_json;
 
-double roundedMetres(double metres) { return std::round(metres * 1e4) / 1e4; }
+double inTenthousandths(double value) { return std::round(value * 1e4) / 1e4; }
 
-Json roundedMetres(const Eigen::Vector2d& p) {
-  return {roundedMetres(p.x()), roundedMetres(p.y())};
+Json inTenthousandths(const Eigen::Vector2d& p) {
+  return {inTenthousandths(p.x()), inTenthousandths(p.y())};
 }
 
 Json GeoPositions::operator()(const Eigen::Vector2d& p) const {
-  if (!place_) return roundedMetres(p);
+  if (!place_) return inTenthousandths(p);
   const Eigen::Vector2d degrees = place_->toDegrees(p);
   constexpr double kDigits = 1e9;  // a degree is 111 km: again a tenth of a millimetre
   return {std::round(degrees.x() * kDigits) / kDigits, std::round(degrees.y() * kDigits) / kDigits};

@@ -23,8 +23,8 @@ class GeoPositions {
   const std::optional<GeoReference>& place_;
 };
 
-/// m, to a tenth of a millimetre.
-double roundedMetres(double metres);
-nlohmann::ordered_json roundedMetres(const Eigen::Vector2d& p);
+/// To four digits behind the point: of metres, a tenth of a millimetre.
+double inTenthousandths(double value);
+nlohmann::ordered_json inTenthousandths(const Eigen::Vector2d& p);
 
 }  // namespace cca

@@ -77,16 +77,17 @@ Eigen::Vector2d GeoReference::toMap(const Eigen::Vector2d& longitude_latitude_de
 
 GeoReference geoReferenceOf(const std::string& text) {
   const std::vector<double> numbers = numbersIn(text);
-  const auto fits = [&](std::size_t k, double most) { return std::abs(numbers[k]) <= most; };
-  if (numbers.size() < 2 || numbers.size() > 3 || !fits(0, 89.9) || !fits(1, 180.0) ||
-      (numbers.size() == 3 && !fits(2, 360.0))) {
+  GeoReference place;
+  if (numbers.size() == 2) place = {numbers[0], numbers[1]};
+  if (numbers.size() == 3) place = {numbers[0], numbers[1], numbers[2]};
+  if (numbers.size() < 2 || numbers.size() > 3 || !place.isOnEarth()) {
     throw std::runtime_error(
         "'" + text +
         "': LAT,LON or LAT,LON,DEG is needed: degrees in [-89.9, 89.9], [-180, 180] and "
         "[-360, 360], the last one how far the map's x axis is turned from "
         "east to the left");
   }
-  return {numbers[0], numbers[1], numbers.size() == 3 ? numbers[2] : 0.0};
+  return place;
 }
 
 }  // namespace cca

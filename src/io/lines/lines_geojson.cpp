@@ -23,8 +23,8 @@ Json lineFeature(const MapLine& line, const GeoPositions& position) {
   return feature({{"kind", "line"},
                   {"id", line.id},
                   {"support", line.support},
-                  {"share", roundedMetres(line.share)},
-                  {"length", roundedMetres(line.segment.length())},
+                  {"share", inTenthousandths(line.share)},
+                  {"length", inTenthousandths(line.segment.length())},
                   {"covariance", {c(0, 0), c(0, 1), c(1, 1)}}},
                  Json::array({position(line.segment.start), position(line.segment.end)}));
 }
@@ -37,7 +37,7 @@ Json polyLineFeature(const PolyLine& chain, const GeoPositions& position) {
     if (k > 0) length += (chain.vertices[k] - chain.vertices[k - 1]).norm();
   }
   return feature(
-      {{"kind", "poly_line"}, {"length", roundedMetres(length)}, {"line_ids", chain.line_ids}},
+      {{"kind", "poly_line"}, {"length", inTenthousandths(length)}, {"line_ids", chain.line_ids}},
       std::move(coordinates));
 }
 
@@ -50,10 +50,10 @@ Json arcFeature(const MapArc& found, const GeoPositions& position) {
     coordinates.push_back(position(arc.at(static_cast<double>(i) / steps)));
   }
   return feature({{"kind", "arc"},
-                  {"centre", roundedMetres(arc.centre)},
-                  {"radius", roundedMetres(arc.radius)},
-                  {"start_deg", roundedMetres(arc.start_angle * 180.0 / M_PI)},
-                  {"sweep_deg", roundedMetres(arc.sweep * 180.0 / M_PI)},
+                  {"centre", inTenthousandths(arc.centre)},
+                  {"radius", inTenthousandths(arc.radius)},
+                  {"start_deg", inTenthousandths(arc.start_angle * 180.0 / M_PI)},
+                  {"sweep_deg", inTenthousandths(arc.sweep * 180.0 / M_PI)},
                   {"line_ids", found.line_ids}},
                  std::move(coordinates));
 }

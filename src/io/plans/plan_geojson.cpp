@@ -32,11 +32,11 @@ Json roomFeature(const PlanRoom& room, const GeoPositions& position) {
   Json found = planFeature("room", room.id, "Polygon", std::move(rings));
   Json& p = found["properties"];
   p["name"] = room.name;
-  p["area_m2"] = roundedMetres(room.area);
-  p["perimeter_m"] = roundedMetres(room.perimeter);
-  p["unseen_area_m2"] = roundedMetres(room.unseen_area);
-  p["open_border_m"] = roundedMetres(room.open_border);
-  p["label_point"] = roundedMetres(room.label);
+  p["area_m2"] = inTenthousandths(room.area);
+  p["perimeter_m"] = inTenthousandths(room.perimeter);
+  p["unseen_area_m2"] = inTenthousandths(room.unseen_area);
+  p["open_border_m"] = inTenthousandths(room.open_border);
+  p["label_point"] = inTenthousandths(room.label);
   return found;
 }
 
@@ -45,7 +45,7 @@ Json openingFeature(const PlanOpening& opening, const GeoPositions& position) {
   Json found = planFeature(is_door ? "door" : "opening", opening.id, "LineString",
                            Json::array({position(opening.a), position(opening.b)}));
   Json& p = found["properties"];
-  p["width_m"] = roundedMetres(opening.width());
+  p["width_m"] = inTenthousandths(opening.width());
   p["rooms"] = {opening.rooms[0], opening.rooms[1]};
   if (!is_door) p["type"] = opening.kind == OpeningKind::kPassage ? "passage" : "wide";
   return found;
@@ -55,7 +55,7 @@ Json wallFeature(const PlanWall& wall, const GeoPositions& position) {
   Json found = planFeature("wall", wall.id, "LineString",
                            Json::array({position(wall.start), position(wall.end)}));
   Json& p = found["properties"];
-  p["thickness_m"] = wall.thickness > 0.0 ? Json(roundedMetres(wall.thickness)) : Json(nullptr);
+  p["thickness_m"] = wall.thickness > 0.0 ? Json(inTenthousandths(wall.thickness)) : Json(nullptr);
   p["faces"] = wall.is_presumed ? 0 : wall.right.empty() ? 1 : 2;
   p["left_line_ids"] = wall.left;
   p["right_line_ids"] = wall.right;
