@@ -19,6 +19,18 @@ constexpr double kExplainedByChance = 0.25, kHiddenByChance = 0.45, kThroughByCh
 /// What never came so far may come yet.
 constexpr double kLeastShare = 0.02;
 
+/// Whether a return behind a piece is of a line of the plan all the same: seen through it, as it is
+/// of glass, or in it, as in a mirror.
+bool endsAtPlanBeyond(const PlanLines::Piece& pane, const Eigen::Vector2d& end,
+                      const Eigen::Vector2d& normal, const PlanLines& plan, double tolerance) {
+  if (plan.nearest(end, normal, tolerance) >= 0) return true;
+  const auto mirrored = [across = pane.normal()](const Eigen::Vector2d& v) {
+    return Eigen::Vector2d(v - 2.0 * across.dot(v) * across);
+  };
+  const Eigen::Vector2d before = pane.start + mirrored(end - pane.start);
+  return plan.nearest(before, mirrored(normal), tolerance) >= 0;
+}
+
 }  // namespace
 
 double SightShares::agreement() const {
@@ -63,22 +75,24 @@ SightShares seePlan(const std::vector<SightRay>& rays, const Pose2& T_map_sensor
                     std::vector<PieceSight>* said) {
   SightShares shares;
   const double c = std::cos(T_map_sensor.theta), s = std::sin(T_map_sensor.theta);
+  const auto inMapAxes = [&](const Eigen::Vector2d& v) {
+    return Eigen::Vector2d(c * v.x() - s * v.y(), s * v.x() + c * v.y());
+  };
   const Eigen::Vector2d origin = T_map_sensor.position();
   for (const SightRay& ray : rays) {
-    const Eigen::Vector2d end{origin.x() + c * ray.end.x() - s * ray.end.y(),
-                              origin.y() + s * ray.end.x() + c * ray.end.y()};
+    const Eigen::Vector2d end = origin + inMapAxes(ray.end), normal = inMapAxes(ray.normal);
     const PlanLines::Slot crossed = plan.crossed(origin, end, kBehindPlan, {});
     if (crossed >= 0) {
       if (said) said->push_back({crossed, true});
       const bool is_door = !is_open.empty() && is_open[static_cast<std::size_t>(crossed)];
       if (!is_door || plan.crossed(origin, end, kBehindPlan, is_open) >= 0) {
-        shares.through += 1.0;
+        const bool is_pane =
+            ray.is_return && endsAtPlanBeyond(plan[crossed], end, normal, plan, tolerance);
+        (is_pane ? shares.hidden : shares.through) += 1.0;
         continue;
       }
     }
     if (!ray.is_return) continue;
-    const Eigen::Vector2d normal{c * ray.normal.x() - s * ray.normal.y(),
-                                 s * ray.normal.x() + c * ray.normal.y()};
     const PlanLines::Slot on = plan.nearest(end, normal, tolerance);
     if (on < 0) {
       shares.hidden += 1.0;

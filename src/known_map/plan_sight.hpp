@@ -13,7 +13,8 @@ namespace cca {
 /// of none.
 struct SightShares {
   double explained = 0.0;    ///< end on a line of the plan
-  double hidden = 0.0;       ///< end before one, on what the plan does not show: furniture, people
+  double hidden = 0.0;       ///< end before one, on what the plan does not show: furniture, people;
+                             ///< or at one that is seen through a pane or in a mirror
   double through = 0.0;      ///< have gone through a line: the plan, or the pose, is wrong there
   double distance_sq = 0.0;  ///< m^2, sum over the explained
 

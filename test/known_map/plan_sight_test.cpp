@@ -3,6 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <vector>
+
 namespace cca {
 namespace {
 
@@ -28,6 +31,31 @@ TEST(SeePlan, ABeamWithoutReturnSpeaksOnlyWhereItWentThroughAWall) {
   EXPECT_EQ(seenBy(silent).count(), 0.0);
   silent.end.x() = 4.0;
   EXPECT_EQ(seenBy(silent).through, 1.0);
+}
+
+/// What a return says behind the wall of a room, with another room behind it.
+SightShares seenBehind(const Eigen::Vector2d& end, const Eigen::Vector2d& normal) {
+  const double turn = 0.4;
+  const auto turned = [&](const Eigen::Vector2d& p) {
+    return Eigen::Vector2d(std::cos(turn) * p.x() - std::sin(turn) * p.y(),
+                           std::sin(turn) * p.x() + std::cos(turn) * p.y());
+  };
+  std::vector<PlanLine> lines;
+  for (const double x : {-3.6, 1.0, 5.2}) {
+    lines.push_back({turned({x, -5.0}), turned({x, 5.0})});
+  }
+  return seePlan({{turned(end), turned(normal)}}, {}, PlanLines(lines), 0.1);
+}
+
+TEST(SeePlan, AReturnThroughAPaneIsOfTheWallBehind) {
+  EXPECT_EQ(seenBehind({5.25, 0.3}, {-1.0, 0.0}).hidden, 1.0);
+  EXPECT_EQ(seenBehind({5.25, 0.3}, {0.0, 1.0}).through, 1.0) << "of another surface";
+  EXPECT_EQ(seenBehind({3.9, 0.3}, {-1.0, 0.0}).through, 1.0) << "of none";
+}
+
+TEST(SeePlan, AReturnInAMirrorIsOfTheWallBefore) {
+  EXPECT_EQ(seenBehind({5.62, 0.3}, {-1.0, 0.0}).hidden, 1.0);
+  EXPECT_EQ(seenBehind({5.62, 0.3}, {0.0, 1.0}).through, 1.0);
 }
 
 SightShares shares(double explained, double hidden, double through) {
