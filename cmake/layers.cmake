@@ -36,7 +36,6 @@ function(cca_add_replay_template target)
     DEPENDS ${parts} ${PROJECT_SOURCE_DIR}/cmake/replay_template.cmake VERBATIM)
   target_sources(${target} PRIVATE ${header})
   target_include_directories(${target} PRIVATE ${CMAKE_CURRENT_BINARY_DIR})
-  set_source_files_properties(${replay}/replay_page.cpp PROPERTIES COMPILE_OPTIONS -Wno-overlength-strings)
 endfunction()
 
 # cca_late_library(NAME SOURCES file... DEPENDS target...)

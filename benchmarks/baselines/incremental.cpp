@@ -6,7 +6,7 @@
 namespace cca::baselines {
 namespace {
 
-void track(const Points& points, Run run, const IncrementalParameters& p, std::vector<Run>& out) {
+void grow(const Points& points, Run run, const IncrementalParameters& p, std::vector<Run>& out) {
   PointMoments moments;
   Run line_run{run.first, run.first};
   for (std::size_t i = run.first; i < run.last; ++i) {
@@ -36,7 +36,7 @@ std::vector<LineSegment> incremental(const Scan& scan, const IncrementalParamete
   const Points points = returnedPoints(scan);
   std::vector<Run> runs;
   for (const Run& run : contiguousRuns(points, scan.angle_increment, p.common.break_points)) {
-    track(points, run, p, runs);
+    grow(points, run, p, runs);
   }
   runs = mergeCollinear(points, runs, p.tolerance, scan.angle_increment, p.common.break_points);
   return segmentsOf(points, runs, p.common.limits);

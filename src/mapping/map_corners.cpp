@@ -23,7 +23,7 @@ Eigen::Vector2d& pointOf(std::vector<MapLine>& lines, const End& end) {
   return end.last ? s.end : s.start;
 }
 
-struct Candidate {
+struct CornerCandidate {
   double moved;  // m, by both ends together
   End a, b;
   Eigen::Vector2d vertex;
@@ -31,7 +31,7 @@ struct Candidate {
 
 /// Where two lines meet near these ends; false where they do not.
 bool meet(const std::vector<MapLine>& lines, const End& a, const End& b, double reach,
-          Candidate* corner) {
+          CornerCandidate* corner) {
   const LineSegment &s = lines[a.line].segment, &t = lines[b.line].segment;
   const Eigen::Vector2d u = s.direction(), v = t.direction();
   const double sine = cross(u, v);
@@ -81,23 +81,24 @@ class EndGrid {
 
 std::vector<Corner> joinCorners(std::vector<MapLine>& lines, double reach) {
   const EndGrid grid(lines, reach);
-  std::vector<Candidate> candidates;
+  std::vector<CornerCandidate> candidates;
   for (std::size_t i = 0; i < lines.size(); ++i) {
     for (const bool last : {false, true}) {
       const End a{i, last};
       grid.near(pointOf(lines, a), [&](const End& b) {
-        Candidate corner;
+        CornerCandidate corner;
         if (b.line > i && meet(lines, a, b, reach, &corner)) candidates.push_back(corner);
       });
     }
   }
-  std::sort(candidates.begin(), candidates.end(), [](const Candidate& x, const Candidate& y) {
-    return std::make_tuple(x.moved, numberOf(x.a), numberOf(x.b)) <
-           std::make_tuple(y.moved, numberOf(y.a), numberOf(y.b));
-  });
+  std::sort(candidates.begin(), candidates.end(),
+            [](const CornerCandidate& x, const CornerCandidate& y) {
+              return std::make_tuple(x.moved, numberOf(x.a), numberOf(x.b)) <
+                     std::make_tuple(y.moved, numberOf(y.a), numberOf(y.b));
+            });
   std::vector<bool> taken(2 * lines.size(), false);
   std::vector<Corner> corners;
-  for (const Candidate& c : candidates) {
+  for (const CornerCandidate& c : candidates) {
     if (taken[numberOf(c.a)] || taken[numberOf(c.b)]) continue;
     taken[numberOf(c.a)] = taken[numberOf(c.b)] = true;
     pointOf(lines, c.a) = pointOf(lines, c.b) = c.vertex;

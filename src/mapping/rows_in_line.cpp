@@ -30,7 +30,7 @@ double logTail(int tries, int hits, double p) {
   return std::log(std::max(sum, 1e-300));
 }
 
-struct Candidate {
+struct RowCandidate {
   RowInLine row;
   double log_chance = 0.0;
 };
@@ -47,8 +47,8 @@ class RowSearch {
   }
 
   /// All rows of enough clusters, each as often as pairs of it begin one.
-  std::vector<Candidate> candidates() {
-    std::vector<Candidate> found;
+  std::vector<RowCandidate> candidates() {
+    std::vector<RowCandidate> found;
     for (std::size_t i = 0; i < clusters_.size(); ++i) {
       for (const std::size_t j : neighboursOf(i)) {
         ++seeds_;
@@ -122,8 +122,8 @@ class RowSearch {
     return moments;
   }
 
-  Candidate candidate(std::vector<std::size_t> members) const {
-    Candidate found;
+  RowCandidate candidate(std::vector<std::size_t> members) const {
+    RowCandidate found;
     LineSegment& segment = found.row.segment;
     segment.moments = momentsOf(members);
     const FittedLine line = fitLine(segment.moments);
@@ -168,14 +168,14 @@ class RowSearch {
 std::vector<RowInLine> rowsInLine(const std::vector<Eigen::Vector2d>& clusters,
                                   const MapNoise& noise) {
   RowSearch search(clusters, noise);
-  std::vector<Candidate> candidates = search.candidates();
-  std::sort(candidates.begin(), candidates.end(), [](const Candidate& a, const Candidate& b) {
+  std::vector<RowCandidate> candidates = search.candidates();
+  std::sort(candidates.begin(), candidates.end(), [](const RowCandidate& a, const RowCandidate& b) {
     return a.log_chance != b.log_chance ? a.log_chance < b.log_chance
                                         : a.row.members < b.row.members;
   });
   std::vector<bool> is_used(clusters.size(), false);
   std::vector<RowInLine> rows;
-  for (Candidate& candidate : candidates) {
+  for (RowCandidate& candidate : candidates) {
     if (candidate.log_chance + std::log(search.seeds()) > std::log(kChance)) break;
     const std::vector<std::size_t>& members = candidate.row.members;
     if (std::any_of(members.begin(), members.end(), [&](std::size_t m) { return is_used[m]; }))

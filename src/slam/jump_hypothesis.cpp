@@ -11,7 +11,7 @@ namespace {
 constexpr double kDoubtful = 0.6;
 /// m; a jump is accepted after this way, or after this share of what it claims, whatever is more. A
 /// turn on the spot shows nothing new.
-constexpr double kLeastWay = 0.5, kWayOfClaim = 0.35;
+constexpr double kLeastWayOfJump = 0.5, kWayOfClaim = 0.35;
 
 }  // namespace
 
@@ -48,7 +48,7 @@ std::optional<LocalMatch> JumpHypothesis::update(const KeyFrames& frames,
 bool JumpHypothesis::isAccepted() const {
   const int scans = static_cast<int>(T_frame_sensor_.size());
   return scans >= kStandingScans ||
-         (scans > 1 && way_ >= std::max(kLeastWay, kWayOfClaim * claim_));
+         (scans > 1 && way_ >= std::max(kLeastWayOfJump, kWayOfClaim * claim_));
 }
 
 }  // namespace cca

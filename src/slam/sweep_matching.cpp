@@ -52,30 +52,30 @@ Pose2 added(const Pose2& motion, const Eigen::Vector3d& step) {
 }
 
 /// Three of the nine unknowns, or a mixture: the pose, the motions before and after.
-using Part = Eigen::Matrix<double, 3, 9>;
-Part part(double pose, double before, double after) {
+using Mixture = Eigen::Matrix<double, 3, 9>;
+Mixture part(double pose, double before, double after) {
   const Eigen::Matrix3d identity = Eigen::Matrix3d::Identity();
-  Part mixture;
+  Mixture mixture;
   mixture << pose * identity, before * identity, after * identity;
   return mixture;
 }
 
 /// Adds what is known of a part of the unknowns, which is off by `off` from that.
-void hold(const Part& part, const Eigen::Matrix3d& information, const Eigen::Vector3d& off,
+void hold(const Mixture& part, const Eigen::Matrix3d& information, const Eigen::Vector3d& off,
           SweepQuadric& quadric) {
   quadric.H += part.transpose() * information * part;
   quadric.g += part.transpose() * information * off;
 }
 
 /// By all that it holds, the information on a part of the unknowns.
-Eigen::Matrix3d informationOn(const Part& part, const SweepQuadric& quadric) {
+Eigen::Matrix3d informationOn(const Mixture& part, const SweepQuadric& quadric) {
   return (part * quadric.H.inverse() * part.transpose()).inverse();
 }
 
 /// Compares the change that the wheels tell with the one that the scan shows by itself.
 /// @param now    the change so far, in the axes of the map as all that follows.
 /// @param known  the information of the wheels.
-void compareChange(const Part& change, const SweepQuadric& by_scan, const Eigen::Vector3d& now,
+void compareChange(const Mixture& change, const SweepQuadric& by_scan, const Eigen::Vector3d& now,
                    const Eigen::Vector3d& by_wheels, const Eigen::Matrix3d& known, SweepFit& fit) {
   const Eigen::Vector3d seen = now - change * by_scan.H.ldlt().solve(by_scan.g);
   const Eigen::Matrix3d weight = informationOn(change, by_scan);
@@ -89,7 +89,8 @@ std::optional<SweepFit> matchSweep(const ScanSurface& query, const SweptScan& sw
                                    const Pose2& start, const PoseBelief& prior,
                                    const SweepBelief& belief,
                                    const std::vector<PlacedSurface>& references) {
-  const Part pose = part(1.0, 0.0, 0.0), sum = part(0.0, 1.0, 1.0), change = part(0.0, -1.0, 1.0);
+  const Mixture pose = part(1.0, 0.0, 0.0), sum = part(0.0, 1.0, 1.0),
+                change = part(0.0, -1.0, 1.0);
   const SweepShares shares = sharesOf(query, sweep.sense);
   const MatchScale scale = finestScale(query);
   const double noise = noiseShare(query, scale);

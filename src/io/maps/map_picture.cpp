@@ -19,14 +19,14 @@ namespace {
 
 using Box = Eigen::AlignedBox2d;
 
-constexpr double kMargin = 1.0;        // m around the map
-constexpr double kSmallestView = 2.0;  // m
-constexpr int kHeader = 64;            // pixels of a sheet of 1600
+constexpr double kMarginOfPicture = 1.0;  // m around the map
+constexpr double kSmallestView = 2.0;     // m
+constexpr int kHeader = 64;               // pixels of a sheet of 1600
 constexpr double kRoomOpacity = 0.1;
 constexpr double kThinnest = 0.5;  // of the strokes on a sheet of 1600 pixels
 
 constexpr Colour kUnknown{0.906, 0.922, 0.933}, kFree{1.0, 1.0, 1.0}, kHit{0.55, 0.62, 0.67};
-constexpr Colour kInk{0.13, 0.17, 0.21}, kSoftInk{0.38, 0.44, 0.49}, kPaper{1.0, 1.0, 1.0};
+constexpr Colour kDarkInk{0.13, 0.17, 0.21}, kSoftInk{0.38, 0.44, 0.49}, kPaper{1.0, 1.0, 1.0};
 constexpr Colour kTrajectory{0.93, 0.55, 0.14, 0.85};
 constexpr Colour kStart{0.16, 0.63, 0.29}, kEnd{0.84, 0.15, 0.16};
 /// Dark enough for white paper, and told apart by most colour-blind people.
@@ -86,14 +86,14 @@ void drawLines(Canvas& canvas, const MapProducts& products, double unit) {
   for (const MapLine& line : loneLines(products.lines, products.poly_lines)) {
     const LineSegment& s = line.segment;
     if (line.kind == LineKind::kWall) {
-      canvas.polyline({s.start, s.end}, 2.2 * unit, kInk);
+      canvas.polyline({s.start, s.end}, 2.2 * unit, kDarkInk);
       continue;
     }
     const double dash = 5.0 * unit / canvas.pixelsPerMetre();
     for (double t = 0.0; t < s.length(); t += 2.0 * dash) {
       const Eigen::Vector2d from = s.start + t * s.direction();
       canvas.polyline({from, from + std::min(dash, s.length() - t) * s.direction()}, 2.2 * unit,
-                      kInk);
+                      kDarkInk);
     }
   }
   std::size_t next = 0;
@@ -136,11 +136,12 @@ void drawScaleBar(Canvas& canvas, bool beside_caption, double unit) {
   const double y = (beside_caption ? kHeader * unit : canvas.height()) - 18.0 * unit;
   canvas.bar(x - 8.0 * unit, y - 24.0 * unit, length + 16.0 * unit, 36.0 * unit, {1, 1, 1, 0.8});
   for (int part = 0; part < 4; ++part) {
-    canvas.bar(x + 0.25 * part * length, y, 0.25 * length, 5.0 * unit, part % 2 ? kSoftInk : kInk);
+    canvas.bar(x + 0.25 * part * length, y, 0.25 * length, 5.0 * unit,
+               part % 2 ? kSoftInk : kDarkInk);
   }
   char label[32];
   std::snprintf(label, sizeof label, "%g m", metres);
-  canvas.text(x, y - 6.0 * unit, 15.0 * unit, false, kInk, label);
+  canvas.text(x, y - 6.0 * unit, 15.0 * unit, false, kDarkInk, label);
 }
 
 /// Names of files may be anything; Cairo draws no text that is not UTF-8.
@@ -156,7 +157,7 @@ void drawCaption(Canvas& canvas, const MapProducts& products, double unit) {
   std::snprintf(numbers, sizeof numbers, "%zu lines, %zu poly-lines, %.0f m of wall",
                 products.lines.size(), products.poly_lines.size(), length);
   canvas.bar(0, 0, canvas.width(), kHeader * unit, kPaper);
-  canvas.text(16.0 * unit, 28.0 * unit, 21.0 * unit, true, kInk, asUtf8(products.title));
+  canvas.text(16.0 * unit, 28.0 * unit, 21.0 * unit, true, kDarkInk, asUtf8(products.title));
   canvas.text(16.0 * unit, 51.0 * unit, 15.0 * unit, false, kSoftInk, numbers);
 }
 
@@ -166,9 +167,10 @@ void drawLegend(Canvas& canvas, double unit) {
                                                                {kEnd, "end"},
                                                                {kTrajectory, "way"},
                                                                {kPalette.front(), "poly-line"},
-                                                               {kInk, "single line"}}};
-  constexpr double kBegin = 440.0, kNeeded = 950.0, kLetter = 8.0;  // pixels of a sheet of 1600
-  if (0.75 * canvas.width() < kNeeded * unit) return;  // the scale bar has the last quarter
+                                                               {kDarkInk, "single line"}}};
+  // Pixels of a sheet of 1600.
+  constexpr double kBegin = 440.0, kWidthNeeded = 950.0, kLetter = 8.0;
+  if (0.75 * canvas.width() < kWidthNeeded * unit) return;  // the scale bar has the last quarter
   double x = kBegin * unit;
   for (const auto& [colour, meaning] : entries) {
     canvas.bar(x, 43.0 * unit, 18.0 * unit, 6.0 * unit, colour);
@@ -201,7 +203,7 @@ Box wholeView(const MapProducts& products) {
   if (products.lines.empty() && products.grid) extendByKnownCells(box, *products.grid);
   if (box.isEmpty()) box.extend(Eigen::Vector2d::Zero());
   const Eigen::Vector2d half =
-      (0.5 * box.sizes().array() + kMargin).max(0.5 * kSmallestView).matrix();
+      (0.5 * box.sizes().array() + kMarginOfPicture).max(0.5 * kSmallestView).matrix();
   return Box(box.center() - half, box.center() + half);
 }
 

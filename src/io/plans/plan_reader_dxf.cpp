@@ -17,7 +17,7 @@ constexpr double kMetresOfUnits[] = {1.0, 0.0254, 0.3048, 1609.344, 0.001, 0.01,
 constexpr std::string_view kLayersOfNoWalls[] = {"A-DOOR", "A-OPNG", "A-AREA",
                                                  "A-ANNO", "A-DIMS", "TRAJECTORY"};
 
-struct Group {
+struct DxfGroup {
   int code;
   std::string_view value;
 };
@@ -38,7 +38,7 @@ class GroupReader {
   }
 
   /// @return  false at the end.
-  bool next(Group& group) {
+  bool next(DxfGroup& group) {
     std::string_view code, value;
     if (!line(code)) return false;
     if (!line(value)) {
@@ -55,7 +55,7 @@ class GroupReader {
     return true;
   }
 
-  double number(const Group& group) const {
+  double number(const DxfGroup& group) const {
     double value = 0.0;
     const std::string_view text = group.value.substr(group.value.substr(0, 1) == "+" ? 1 : 0);
     const auto result = std::from_chars(text.data(), text.data() + text.size(), value);
@@ -98,7 +98,7 @@ class DxfPlan {
   DxfPlan(const std::string& text, const std::string& name, double scale)
       : groups_(text, name), scale_(scale) {
     plan_.kind = "DXF";
-    Group group{};
+    DxfGroup group{};
     bool has_section = false;
     while (groups_.next(group)) {
       if (group.code == 0) {
@@ -126,7 +126,7 @@ class DxfPlan {
   PlanFile plan() { return std::move(plan_); }
 
  private:
-  void take(const Group& group) {
+  void take(const DxfGroup& group) {
     if (section_ == "HEADER") {
       if (group.code == 9) variable_ = group.value;
       if (group.code == 70 && variable_ == "$INSUNITS" && !(scale_ > 0.0)) {

@@ -19,8 +19,8 @@ constexpr double kStep = 0.05;      // s, of the predicted motion
 constexpr double kNoMotion = 1e-9;  // m/s: what rounding leaves of a speed that was braked
 // m, by which a hazard may come nearer that is inside the clearance, and inside the robot itself: a
 // robot that touches something only turns or leaves.
-constexpr double kDeeper = 1e-4, kSlack = 1e-9;
-constexpr double kAside = 0.5 * M_PI + 0.02;  // rad, from a hazard: past it
+constexpr double kDeeper = 1e-4, kDeeperInside = 1e-9;
+constexpr double kPastHazard = 0.5 * M_PI + 0.02;  // rad, from a hazard: past it
 
 double towards(double from, double to, double step) {
   return from < to ? std::min(to, from + step) : std::max(to, from - step);
@@ -139,7 +139,7 @@ class StoppingCheck {
       for (const Hazard& hazard : hazards_) {
         const double distance = hazard.p_robot.norm();
         const double now = i > 0 ? nearest(path, hazard) : distance;
-        const double deeper = i == 0 && distance < robot.radius ? kSlack : kDeeper;
+        const double deeper = i == 0 && distance < robot.radius ? kDeeperInside : kDeeper;
         keep_[i].push_back(std::min(radius - hazard.allowance, now) - deeper);
       }
     }
@@ -207,7 +207,7 @@ double bearingPast(const std::vector<Hazard>& hazards, double radius, double bea
   if (isPast(bearing)) return bearing;
   double best = bearing, least = std::numeric_limits<double>::infinity();
   for (const double towards : bearings) {
-    for (const double aside : {-kAside, kAside}) {
+    for (const double aside : {-kPastHazard, kPastHazard}) {
       const double off = std::abs(wrapAngle(towards + aside - bearing));
       if (off >= least || !isPast(towards + aside)) continue;
       least = off;

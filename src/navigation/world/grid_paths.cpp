@@ -15,12 +15,12 @@ struct Step {
   bool settled = false;
 };
 
-struct Candidate {
+struct OpenCell {
   double estimate;
   std::uint64_t order;  // first come, first served: the result does not depend on the heap
   Cell cell;
 };
-bool operator<(const Candidate& a, const Candidate& b) {
+bool operator<(const OpenCell& a, const OpenCell& b) {
   return a.estimate != b.estimate ? a.estimate > b.estimate : a.order > b.order;
 }
 
@@ -40,7 +40,7 @@ Path cellPath(const PassableSpace& space, const std::vector<Cell>& blocks, Cell 
     for (const Cell step : kNeighbours) corridor[b + step] = 1;
   }
   TiledGrid<Step> steps;
-  std::priority_queue<Candidate> open;
+  std::priority_queue<OpenCell> open;
   std::uint64_t order = 0;
   steps[start] = {0.0, start, false};
   open.push({octile(start, goal), order++, start});

@@ -59,7 +59,7 @@ constexpr double kOverlap = 0.8;       // m, walked twice: seen from all of the 
 constexpr double kTurnTolerance =
     0.8;  // rad, of the whole turn; the boundary is seen anew each time
 
-constexpr double kAhead = 4.0;          // m, traced in front of the robot
+constexpr double kTracedAhead = 4.0;    // m, traced in front of the robot
 constexpr double kAheadClosely = 0.6;   // m, traced where nothing farther ahead matters
 constexpr double kLookedAt = 0.15;      // m, by which the nearest place may be missed
 constexpr double kSensed = 8.0;         // m, traced each way for the first d_followed
@@ -153,7 +153,7 @@ std::optional<Eigen::Vector2d> BoundaryFollower::step(const Eigen::Vector2d& goa
   // Out of sight, the boundary beside the robot is the one that it has been following.
   const bool found = findAnchor(view, trace_space);
   auto trace = traceBoundary(trace_space, found ? trace_[anchor_].center_map : x, on_the_right_,
-                             closely_ ? kAheadClosely : kAhead, seen);
+                             closely_ ? kAheadClosely : kTracedAhead, seen);
   if (trace.empty() || (!found && (trace.front().center_map - x).norm() > kBeside)) {
     return std::nullopt;
   }
