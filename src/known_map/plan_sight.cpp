@@ -15,7 +15,8 @@ constexpr double kShortOfFree = 0.3;     // m, that a silent beam is taken to ha
 constexpr double kBehindPlan = 0.25;     // m, behind a line, and a ray has gone through
 
 /// What the beams of a scan are at a pose that somebody guesses, in a building.
-constexpr double kExplainedByChance = 0.25, kHiddenByChance = 0.45, kThroughByChance = 0.30;
+constexpr double kExplainedByChance = 0.25, kHiddenByChance = 0.45, kThroughByChance = 0.23,
+                 kBeyondByChance = 0.07;
 /// What never came so far may come yet.
 constexpr double kLeastShare = 0.02;
 
@@ -42,6 +43,7 @@ SightShares& SightShares::operator+=(const SightShares& other) {
   explained += other.explained;
   hidden += other.hidden;
   through += other.through;
+  beyond += other.beyond;
   distance_sq += other.distance_sq;
   return *this;
 }
@@ -88,7 +90,7 @@ SightShares seePlan(const std::vector<SightRay>& rays, const Pose2& T_map_sensor
       if (!is_door || plan.crossed(origin, end, kBehindPlan, is_open) >= 0) {
         const bool is_pane =
             ray.is_return && endsAtPlanBeyond(plan[crossed], end, normal, plan, tolerance);
-        (is_pane ? shares.hidden : shares.through) += 1.0;
+        (is_pane ? shares.beyond : shares.through) += 1.0;
         continue;
       }
     }
@@ -111,7 +113,8 @@ double SightModel::evidence(const SightShares& seen) const {
   if (count <= 0.0) return 0.0;
   const double sum = seen.explained * std::log(usual_.explained / kExplainedByChance) +
                      seen.hidden * std::log(usual_.hidden / kHiddenByChance) +
-                     seen.through * std::log(usual_.through / kThroughByChance);
+                     seen.through * std::log(usual_.through / kThroughByChance) +
+                     seen.beyond * std::log(usual_.beyond / kBeyondByChance);
   return sum / count;
 }
 
@@ -133,6 +136,7 @@ void SightModel::learn(const SightShares& seen, double share) {
   follow(usual_.explained, seen.explained);
   follow(usual_.hidden, seen.hidden);
   follow(usual_.through, seen.through);
+  follow(usual_.beyond, seen.beyond);
 }
 
 }  // namespace cca

@@ -48,18 +48,18 @@ SightShares seenBehind(const Eigen::Vector2d& end, const Eigen::Vector2d& normal
 }
 
 TEST(SeePlan, AReturnThroughAPaneIsOfTheWallBehind) {
-  EXPECT_EQ(seenBehind({5.25, 0.3}, {-1.0, 0.0}).hidden, 1.0);
+  EXPECT_EQ(seenBehind({5.25, 0.3}, {-1.0, 0.0}).beyond, 1.0);
   EXPECT_EQ(seenBehind({5.25, 0.3}, {0.0, 1.0}).through, 1.0) << "of another surface";
   EXPECT_EQ(seenBehind({3.9, 0.3}, {-1.0, 0.0}).through, 1.0) << "of none";
 }
 
 TEST(SeePlan, AReturnInAMirrorIsOfTheWallBefore) {
-  EXPECT_EQ(seenBehind({5.62, 0.3}, {-1.0, 0.0}).hidden, 1.0);
+  EXPECT_EQ(seenBehind({5.62, 0.3}, {-1.0, 0.0}).beyond, 1.0);
   EXPECT_EQ(seenBehind({5.62, 0.3}, {0.0, 1.0}).through, 1.0);
 }
 
 SightShares shares(double explained, double hidden, double through) {
-  return {explained, hidden, through, 0.0};
+  return {explained, hidden, through, 0.0, 0.0};
 }
 
 TEST(SightModel, FurnitureAndPeopleSpeakAgainstNoPoseAndRaysThroughWallsDo) {
@@ -77,6 +77,17 @@ TEST(SightModel, LearnsWhatIsUsual) {
   EXPECT_NEAR(model.usual().hidden, 0.8, 0.02);
   // Hidden beams are usual here now, and speak for the pose.
   EXPECT_GT(model.evidence(shares(0, 10, 0)), SightModel().evidence(shares(0, 10, 0)));
+}
+
+TEST(SightModel, PanesSpeakAgainstAPlaceUntilTheyAreUsual) {
+  SightShares panes = shares(50, 30, 0);
+  panes.beyond = 20.0;
+  SightModel model;
+  const double before = model.evidence(panes);
+  EXPECT_LT(before, model.evidence(shares(50, 30, 0)));
+  EXPECT_GT(before, model.evidence(shares(50, 30, 20)));
+  for (int k = 0; k < 200; ++k) model.learn(panes, 0.1);
+  EXPECT_GT(model.evidence(panes), before);
 }
 
 TEST(SightModel, AnExactFitIsWorthMoreThanACloseOne) {
