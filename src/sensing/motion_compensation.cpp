@@ -13,11 +13,11 @@ namespace {
 constexpr double kLongestGap = 0.5;  // s; the motion in between is not that during the sweep
 constexpr std::size_t kPeriods = 31,
                       kLeastPeriods = 5;  // some seconds; a median of five bears two gaps
-constexpr double kIrregular = 0.1;  // of the median period, within which half of them have to lie
+// Of a period or a duration: half of the periods lie so near to their median, no sweep is longer
+// than a period by more, and what differs by more is another question to identification.
+constexpr double kIrregular = 0.1;
 constexpr double kShortest = 0.02;  // of the period: below, a driver's duration is nonsense
-constexpr double kLongest = 1.1;    // of the period: above, likewise; periods waver by a tenth
 constexpr double kSlowestLaser = 1.0;  // s; no sweep lasts longer
-constexpr double kOther = 0.1;  // of a duration: another one is another question to identification
 
 Twist twistBetween(const SensorReading& before, const SensorReading& after) {
   return twistBetween(before.T_odom_sensor, after.T_odom_sensor, after.time - before.time);
@@ -116,7 +116,7 @@ std::optional<double> MotionCompensation::period() const {
 double MotionCompensation::candidate(const Scan& scan) const {
   const double told = std::abs(scan.sweep_duration);
   const auto period = this->period();
-  const bool is_plausible = told > 0.0 && told <= (period ? kLongest * *period : kSlowestLaser) &&
+  const bool is_plausible = told > 0.0 && told <= (period ? (1.0 + kIrregular) * *period : kSlowestLaser) &&
                             (!period || told >= kShortest * *period);
   if (is_plausible) return told;
   const double field_of_view =
@@ -138,7 +138,7 @@ void MotionCompensation::identify(const Taken& next) {
   if (taken_.size() < 2) return;
   const Taken &before = taken_[taken_.size() - 2], &asked = taken_.back();
   if (!(asked.candidate > 0.0)) return;
-  if (std::abs(asked.candidate - identified_for_) > kOther * asked.candidate) {
+  if (std::abs(asked.candidate - identified_for_) > kIrregular * asked.candidate) {
     identification_ = SweepIdentification();
     lasers_ += identified_for_ > 0.0;
     identified_for_ = asked.candidate;

@@ -19,7 +19,6 @@ constexpr double kTurnedAway = 0.5;     // rad: a turn at constant rate shows it
 constexpr double kNearReference = 0.8;  // m; farther off, other surfaces come into view
 constexpr double kLongestTurn = 7.0;    // rad, a full turn: odometry's heading has drifted by then
 constexpr double kClip = 0.3;           // m, of a difference: occlusions are no matter of the sweep
-constexpr double kOneSurface = 0.1;     // of the range, between neighbouring beams
 constexpr std::size_t kPoints = 180;    // of a scan that are compared
 constexpr double kLeastCommon = 0.4;    // of them, that the reference has to see
 constexpr double kSearch = 0.06;        // rad, of heading, from where the last scan fitted

@@ -18,7 +18,6 @@ constexpr double kLeastTurn = 0.05;  // of a beam's spacing, at the ends of the 
 constexpr double kLeastWay = 1e-3;   // m, likewise; below the noise of any laser
 constexpr double kWidestGap = 0.75;  // of a beam's spacing, from a bearing to the beam taken for it
 constexpr double kSmallAngle = 1e-6;  // rad, below which an arc is a straight line
-constexpr double kStep = 0.1;         // of the range, between the neighbours of a return
 constexpr double kBend = 0.25;        // of a step in inverse range from neighbour to neighbour
 /// m, the thickness of a partition; a surface that ends at a return is not known to go on by more.
 /// Moved along a wall that the beam grazes, it would lie behind the corner, and behind its wall.
@@ -70,7 +69,7 @@ std::vector<Moved> movedBeams(const Scan& scan, const Twist& before, const Twist
 /// beams.
 bool areOfOneSurface(const Moved& here, const Moved& beside, const Moved& beyond) {
   if (!isReturn(beside.range)) return false;
-  if (std::abs(beside.range - here.range) < kStep * here.range) return true;
+  if (std::abs(beside.range - here.range) < kOneSurface * here.range) return true;
   if (!isReturn(beyond.range)) return false;
   const double step = 1.0 / beside.range - 1.0 / here.range;
   const double before = 1.0 / here.range - 1.0 / beyond.range;

@@ -18,6 +18,9 @@ Twist twistBetween(const Pose2& from, const Pose2& to, double dt);
 /// Where constant motion leads to in dt seconds, which may be negative.
 Pose2 moveBy(const Twist& twist, double dt);
 
+/// Of the range: neighbouring beams whose ranges differ by less are of one surface.
+inline constexpr double kOneSurface = 0.1;
+
 /// Brings a scan to the middle of its sweep: motion compensation, or de-skewing.
 ///
 /// A laser that turns measures each beam from where it is by then. Each return is moved to where it
