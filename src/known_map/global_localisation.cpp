@@ -287,7 +287,8 @@ double GlobalLocalisation::priorOf(const Hypothesis& hypothesis, const SightMode
 /// both: those to either side of the best one, along its weakest direction, are asked as well.
 void GlobalLocalisation::askNeighbours(const SightModel& model) {
   const Hypothesis best = hypotheses_.front();
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> axes(best.information.topLeftCorner<2, 2>());
+  Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> axes;
+  axes.computeDirect(best.information.topLeftCorner<2, 2>());
   const Eigen::Vector2d weakest = axes.eigenvectors().col(0);
   for (int k = -kNeighbourSteps; k <= kNeighbourSteps; ++k) {
     if (k == 0) continue;
