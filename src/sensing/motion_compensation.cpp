@@ -16,7 +16,7 @@ constexpr std::size_t kPeriods = 31,
 // Of a period or a duration: half of the periods lie so near to their median, no sweep is longer
 // than a period by more, and what differs by more is another question to identification.
 constexpr double kIrregular = 0.1;
-constexpr double kShortest = 0.02;  // of the period: below, a driver's duration is nonsense
+constexpr double kShortest = 0.02;     // of the period: below, a driver's duration is nonsense
 constexpr double kSlowestLaser = 1.0;  // s; no sweep lasts longer
 
 Twist twistBetween(const SensorReading& before, const SensorReading& after) {
@@ -116,7 +116,8 @@ std::optional<double> MotionCompensation::period() const {
 double MotionCompensation::candidate(const Scan& scan) const {
   const double told = std::abs(scan.sweep_duration);
   const auto period = this->period();
-  const bool is_plausible = told > 0.0 && told <= (period ? (1.0 + kIrregular) * *period : kSlowestLaser) &&
+  const bool is_plausible = told > 0.0 &&
+                            told <= (period ? (1.0 + kIrregular) * *period : kSlowestLaser) &&
                             (!period || told >= kShortest * *period);
   if (is_plausible) return told;
   const double field_of_view =
