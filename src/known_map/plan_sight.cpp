@@ -14,7 +14,8 @@ constexpr double kSilentSpacing = 0.07;  // rad: kRaySpacing, at a usual distanc
 constexpr double kShortOfFree = 0.3;     // m, that a silent beam is taken to have seen less
 constexpr double kBehindPlan = 0.25;     // m, behind a line, and a ray has gone through
 
-/// What the beams of a scan are at a pose that somebody guesses, in a building.
+/// What the beams of a scan are at a pose that somebody guesses, in a building. Of those that go
+/// through a line 24 % end at another, straight on or mirrored (780 000 of `localisation_test`).
 constexpr double kExplainedByChance = 0.25, kHiddenByChance = 0.45, kThroughByChance = 0.23,
                  kBeyondByChance = 0.07;
 /// What never came so far may come yet.
