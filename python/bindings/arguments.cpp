@@ -189,4 +189,13 @@ Pose2 readSensorPose(nb::handle from) {
   return pose;
 }
 
+Pose2 readStart(nb::handle from) {
+  constexpr double kFarthest = 1e8;  // m, as of the program's --start
+  const Pose2 pose = readPose(from, "start");
+  if (pose.position().cwiseAbs().maxCoeff() > kFarthest)
+    throw nb::value_error("start: x and y must be in [-1e8, 1e8] m");
+  requireBearing(pose.theta, "start");
+  return pose;
+}
+
 }  // namespace cca::python

@@ -43,5 +43,8 @@ Pose2 readPose(nb::handle from, const char* argument);
 /// The same of a laser on its robot. @throws nb::value_error where its heading looks like degrees,
 /// too.
 Pose2 readSensorPose(nb::handle from);
+/// The same of where a drive begins in a plan. @throws nb::value_error where it is farther than 1e8
+/// m from (0, 0), too.
+Pose2 readStart(nb::handle from);
 
 }  // namespace cca::python

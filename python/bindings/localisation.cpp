@@ -57,7 +57,7 @@ nb::object localizeRecords(nb::handle records, const std::string& plan_path,
   std::optional<OccupancyRaster> raster;
   if (grid) raster = rasterOf(std::get<0>(*grid), std::get<1>(*grid), std::get<2>(*grid));
   std::optional<Pose2> T_map_start;
-  if (!start.is_none()) T_map_start = readPose(start, "start");
+  if (!start.is_none()) T_map_start = readStart(start);
   RepeatedLog repeated(records);
   std::optional<LocalizedLog> log;
   PlanFile plan;

@@ -136,6 +136,8 @@ def run_plan(options: argparse.Namespace) -> str:
 
 def run_evaluate(options: argparse.Namespace) -> str:
     """Print, or write, how good a map is."""
+    if options.out is not None and not options.force and options.out.is_file():
+        raise FileExistsError(f"{options.out}: is there already (--force overwrites it)")
     figures = evaluation_json(options.map, options.log, options.world)
     if options.out is None:
         return figures.rstrip("\n")
@@ -307,6 +309,7 @@ def add_commands(commands: Any) -> None:
     against.add_argument("--log", help="the laser log that the map was made from")
     against.add_argument("--world", help="the world; NAME.truth.csv stands beside it")
     command.add_argument("--out", type=parse_folder, help="JSON file to write; default: standard output")
+    command.add_argument("--force", action="store_true", help="overwrite that file")
     command = commands.add_parser("plan", help="floor plan of a finished map: rooms with areas, walls, doors, furniture")
     command.add_argument("map", metavar="DIR", help="folder that map, explore or merge left")
     command.add_argument("--out", type=parse_folder, help="folder to write the plan to (default: DIR)")

@@ -6,9 +6,20 @@ import fcntl
 import os
 from contextlib import contextmanager
 from pathlib import Path
-from typing import Iterable, Iterator
+from typing import Iterable, Iterator, Union
 
 from ._core import write_files_into
+
+
+def folder_of(name: Union[str, "os.PathLike[str]"]) -> Path:
+    """A folder that somebody names.
+
+    Raises:
+        ValueError: by the empty name, which would be the folder at hand.
+    """
+    if not os.fspath(name):
+        raise ValueError("folder: a name is needed; '.' is the folder at hand")
+    return Path(name)
 
 
 @contextmanager
@@ -18,7 +29,7 @@ def kept_for_one_run(folder: Path, names: Iterable[str], force: bool) -> Iterato
     Nothing remains of the lock, however the process ends. On a file system without locks it keeps nobody out.
 
     Args:
-        names: what will be written.
+        names: what will be written, or goes.
         force: whether that may be there.
 
     Raises:
@@ -34,7 +45,7 @@ def kept_for_one_run(folder: Path, names: Iterable[str], force: bool) -> Iterato
             raise RuntimeError(f"{folder}: another run is writing there") from None
         except OSError:
             pass
-        taken = [name for name in names if (folder / name).exists()]
+        taken = [name for name in names if os.path.lexists(folder / name)]
         if taken and not force:
             raise FileExistsError(f"{folder / taken[0]}: is there already (force=True overwrites it)")
         yield

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ._core import LogRecord, localize_records, write_files_into
-from .folders import kept_for_one_run
+from .folders import folder_of, kept_for_one_run
 from .grids import read_map_yaml
 from .logs import Log, repeatable
 
@@ -43,7 +43,7 @@ class Localisation:
             FileExistsError: one of them is there already, and `force` is not given.
             RuntimeError: it cannot be written, or another run is writing there; names the file and the reason.
         """
-        where = Path(folder)
+        where = folder_of(folder)
         names = [*self._files, "summary.json"]
         with kept_for_one_run(where, names, force):
             (where / "summary.json").unlink(missing_ok=True)  # it says that all is there

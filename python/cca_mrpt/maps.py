@@ -5,6 +5,7 @@ from __future__ import annotations
 import csv
 import io
 import json
+import math
 import os
 import sys
 from collections import abc
@@ -15,7 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ._core import MAP_LINE, Estimate, LogRecord, MappingSession, PolyLine, map_logs, merge_maps, pictures_of_map, read_chains, write_files_into
-from .folders import kept_for_one_run
+from .folders import folder_of, kept_for_one_run
 from .grids import Grid, read_grid
 from .logs import Log, read_log
 from .plotting import plot
@@ -95,14 +96,15 @@ class Map:
             replay.html and the floor plan's (see `FloorPlan.save`); summary.json comes last.
 
         Raises:
-            FileExistsError: one of them is there already.
+            FileExistsError: one of them is there already, or another file of a map, which would go.
+            ValueError: the folder has no name.
             RuntimeError: it cannot be written, or another run is writing there; names the file and the reason.
         """
-        where, contents = Path(folder), dict(self._files)
+        where, contents = folder_of(folder), dict(self._files)
         if self._replay:
             contents.update(self._pictures(self.summary.get("title") or where.resolve().name))
         names = [*contents, "summary.json"]
-        with kept_for_one_run(where, names, force):
+        with kept_for_one_run(where, [*names, *FILES], force):
             (where / "summary.json").unlink(missing_ok=True)  # it says that all is there
             write_files_into(os.fspath(where), contents)
             for name in set(FILES) - set(contents):  # what an earlier run left would be taken for this one's
@@ -198,6 +200,8 @@ def map(path: "Union[Source, Sequence[Source]]", pose: str = "auto", *,
     held, files = map_logs(list(zip(paths, logs)), pose, earlier, Path(paths[0] if paths and paths[0] else "scans").name, origin,
                            page, _tell_address, **parameters)
     result = Map(held, files, "; ".join(log.warnings for log in logs if isinstance(log, Log) and log.warnings))
+    if not len(result.trajectory):
+        raise ValueError("records: no scan is among them, of which a map could be made")
     if len(paths) > 1 and all(paths):
         result.summary = {"logs": paths, **result.summary}
     elif paths[0]:
@@ -280,11 +284,38 @@ class Mapper:
 
 
 def _table(text: str, path: Path) -> List[Dict[str, float]]:
+    reader, rows = csv.DictReader(io.StringIO(text)), []
+    if not reader.fieldnames:
+        raise ValueError(f"{path}: is empty, or no file of a map")
+    for row in reader:
+        if None in row or None in row.values():
+            raise ValueError(f"{path}, line {reader.line_num}: is damaged: {len(reader.fieldnames)} values are needed")
+        try:
+            numbers = {name: float(value) for name, value in row.items() if name not in ("line_ids", "kind")}
+        except ValueError as error:
+            raise ValueError(f"{path}, line {reader.line_num}: is damaged, or no file of a map ({error})") from None
+        if not all(math.isfinite(number) for number in numbers.values()):
+            raise ValueError(f"{path}, line {reader.line_num}: is damaged: finite numbers are needed")
+        rows.append(numbers)
+    return rows
+
+
+def _text_of(content: bytes, path: Path) -> str:
     try:
-        return [{name: float(value) for name, value in row.items() if name not in ("line_ids", "kind")}
-                for row in csv.DictReader(io.StringIO(text))]
-    except (TypeError, ValueError) as error:
-        raise ValueError(f"{path}: is damaged, or no file of a map ({error})") from None
+        return content.decode()
+    except UnicodeDecodeError as error:
+        raise ValueError(f"{path}: is damaged: no text ({error})") from None
+
+
+def _summary_of(path: Path) -> Dict[str, Any]:
+    try:
+        summary = json.loads(_text_of(path.read_bytes(), path))
+    except json.JSONDecodeError as error:
+        raise ValueError(f"{path}: is damaged: no JSON ({error})") from None
+    unplaced = summary.get("unplaced_scans", []) if isinstance(summary, dict) else None
+    if not isinstance(unplaced, list) or not all(isinstance(number, int) for number in unplaced):
+        raise ValueError(f"{path}: is no summary of a map")
+    return cast("Dict[str, Any]", summary)
 
 
 def _lines_of(rows: List[Dict[str, float]], path: Path) -> NDArray[np.void]:
@@ -308,25 +339,27 @@ def load(folder: Union[str, "os.PathLike[str]"]) -> Map:
         FileNotFoundError: there is no map.
         ValueError: a file of it is damaged; names it and the reason.
     """
-    where = Path(folder)
+    where = folder_of(folder)
     if not (where / "lines.csv").exists():
         raise FileNotFoundError(f"{where / 'lines.csv'}: no such file")
     files = {name: (where / name).read_bytes() for name in FILES if (where / name).exists()}
-    text = {name: files[name].decode() for name in files if name.endswith((".csv", ".geojson", ".svg"))}
+    text = {name: _text_of(files[name], where / name) for name in files if name.endswith((".csv", ".geojson", ".svg"))}
     held: Dict[str, Any] = {"lines": _lines_of(_table(text["lines.csv"], where / "lines.csv"), where / "lines.csv"),
                             "poly_lines": [], "arcs": [], "summary": {}}
     try:
         if "lines.geojson" in text:
             held["poly_lines"] = read_chains(text["lines.geojson"], str(where / "lines.geojson"))
-        if (where / "summary.json").exists():
-            held["summary"] = json.loads((where / "summary.json").read_text())
         for row in csv.DictReader(io.StringIO(text.get("arcs.csv", ""))):
             held["arcs"].append(MapArc((float(row["x"]), float(row["y"])), float(row["radius"]),
                                        float(np.radians(float(row["start_deg"]))), float(np.radians(float(row["sweep_deg"]))),
                                        [int(name) for name in row["line_ids"].split()]))
     except (KeyError, TypeError, RuntimeError, ValueError) as error:
         raise ValueError(f"{where}: is damaged, or no folder of a map ({error!r})") from None
-    poses = _table(text.get("poses.csv", ""), where / "poses.csv")
+    if (where / "summary.json").exists():
+        held["summary"] = _summary_of(where / "summary.json")
+    else:
+        held["warnings"] = "summary.json is missing: the folder may hold half of a map"
+    poses = _table(text["poses.csv"], where / "poses.csv") if "poses.csv" in text else []
     held["trajectory"] = np.array([[row["x"], row["y"], row["theta"]] for row in poses]).reshape(-1, 3)
     held["times"] = [row["stamp"] for row in poses]
     held["grid"] = read_grid(where)

@@ -238,7 +238,8 @@ def test_a_grid_of_somebody_else_is_read_by_its_own_thresholds(log, tmp_path):
 
 @pytest.mark.parametrize("arguments, named", [
     (dict(scale=-1.0), "scale"), (dict(scale=np.nan), "scale"), (dict(start=(1.0, 2.0)), "start"),
-    (dict(start=(np.nan, 0.0, 0.0)), "start"),
+    (dict(start=(np.nan, 0.0, 0.0)), "start"), (dict(start=(1e9, 0.0, 0.0)), "start: x and y"),
+    (dict(start=(0.0, 0.0, 90.0)), "are these degrees"),
 ])
 def test_wrong_arguments_are_named(log, plan, arguments, named):
     with pytest.raises(ValueError, match=named):

@@ -42,6 +42,10 @@ def test_a_map_is_judged_as_its_folder_is(mapped, tmp_path):
     assert set(cca_mrpt.evaluate(made, world=world)) != set(figures)
     assert main(["evaluate", str(folder), "--log", str(log), "--out", str(tmp_path / "score.json")]) == 0
     assert json.loads((tmp_path / "score.json").read_text()) == figures
+    (tmp_path / "score.json").write_text("mine")
+    again = ["evaluate", str(folder), "--log", str(log), "--out", str(tmp_path / "score.json")]
+    assert main(again) == 1 and (tmp_path / "score.json").read_text() == "mine"
+    assert main([*again, "--force"]) == 0 and (tmp_path / "score.json").read_text() != "mine"
 
 
 def test_evaluate_says_what_is_wrong(mapped, tmp_path, capsys):

@@ -91,7 +91,19 @@ def test_maps_are_not_overwritten_unasked(log, tmp_path):
     made.save(tmp_path / "map")
     with pytest.raises(FileExistsError, match="lines.csv: is there already"):
         made.save(tmp_path / "map")
-    (tmp_path / "map" / "graph.g2o").write_text("of another run")
+    (tmp_path / "other").mkdir()
+    for folder in "map", "other":
+        (tmp_path / folder / "graph.g2o").write_text("of another run")
+    with pytest.raises(FileExistsError, match="graph.g2o: is there already"):
+        made.save(tmp_path / "other")
+    assert (tmp_path / "other" / "graph.g2o").read_text() == "of another run"
+    (tmp_path / "linked").mkdir()
+    (tmp_path / "linked" / "lines.csv").symlink_to(tmp_path / "away.csv")
+    with pytest.raises(FileExistsError, match="lines.csv: is there already"):
+        made.save(tmp_path / "linked")
+    for use in made.save, cca_mrpt.load:
+        with pytest.raises(ValueError, match="folder: a name is needed"):
+            use("")
     made.save(tmp_path / "map", force=True)
     assert not (tmp_path / "map" / "graph.g2o").exists()
 
@@ -104,8 +116,34 @@ def test_what_is_no_map_is_named(tmp_path):
         cca_mrpt.load(tmp_path)
 
 
+@pytest.mark.parametrize("name, damage, message", [
+    ("lines.csv", b"", "is empty"),
+    ("poses.csv", b"", "is empty"),
+    ("lines.csv", b"id,x1\n1,\x80\n", "no text"),
+    ("lines.csv", b"id,x1\n1,2\n3\n", "line 3: is damaged: 2 values are needed"),
+    ("poses.csv", b"stamp,x,y,theta\n1,2,nan,4\n", "line 2: is damaged: finite numbers are needed"),
+    ("poses.csv", b"stamp,x,y,theta\n1,2,a,4\n", "line 2: is damaged, or no file of a map"),
+    ("summary.json", b"{", "no JSON"),
+    ("summary.json", b"[]", "is no summary of a map"),
+    ("summary.json", b'{"unplaced_scans": 5}', "is no summary of a map"),
+])
+def test_what_is_damaged_is_named(log, tmp_path, name, damage, message):
+    cca_mrpt.map(log).save(tmp_path / "map")
+    (tmp_path / "map" / name).write_bytes(damage)
+    with pytest.raises(ValueError, match=f"{name}.*{message}"):
+        cca_mrpt.load(tmp_path / "map")
+
+
+def test_half_a_map_is_told(log, tmp_path):
+    cca_mrpt.map(log).save(tmp_path / "map")
+    assert cca_mrpt.load(tmp_path / "map").warnings == ""
+    (tmp_path / "map" / "summary.json").unlink()
+    assert "half of a map" in cca_mrpt.load(tmp_path / "map").warnings
+
+
 @pytest.mark.parametrize("source, pose, named", [
     ([1, 2], "auto", "records: an iterable of LogRecord"),
+    ([], "auto", "no scan is among them"),
     ([], "gps", "pose: 'gps' is none of auto log odometry slam"),
     ([cca_mrpt.LogRecord(np.ones(360), **FULL_TURN)], "odometry", "holds no odometry"),
 ])

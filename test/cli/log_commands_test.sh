@@ -93,6 +93,9 @@ check "extract writes segments" "$program" extract room.log --out lines.csv
 refuses 1 "is there already" "$program" extract room.log --out lines.csv
 check "extract overwrites where it may" "$program" extract room.log --out lines.csv --force
 refuses 1 "lines of single scans" "$program" evaluate lines.csv --log room.log
+check "evaluate writes figures" "$program" evaluate map/lines.csv --log room.log --out figures.json
+refuses 1 "is there already" "$program" evaluate map/lines.csv --log room.log --out figures.json
+check "evaluate overwrites where it may" "$program" evaluate map/lines.csv --log room.log --out figures.json --force
 head -1 lines.csv | grep -q '^scan_id,x1,y1,x2,y2' || { echo "FAILED: header of extract"; failed=1; }
 
 check "render draws a map over its scans" "$program" render map/lines.csv --log room.log --out a.png --size 500

@@ -25,6 +25,7 @@ LogScore evaluateLog(const std::string& log, const JudgedMap& map) {
 void addEvaluateCommand(CLI::App& program) {
   struct Options {
     std::string map, log, world, out;
+    bool force = false;
   };
   auto* command = program.add_subcommand(
       "evaluate", "quality of a line map against the scans it was made from, or the true world");
@@ -35,7 +36,9 @@ void addEvaluateCommand(CLI::App& program) {
   against->add_option("--world", options->world, "the world; NAME.truth.csv stands beside it");
   against->require_option(1);
   command->add_option("--out", options->out, "JSON file to write; default: standard output");
+  command->add_flag("--force", options->force, "overwrite that file");
   command->callback([options] {
+    requireNew(options->out, options->force);
     const JudgedMap map(contentOf(options->map), options->map);
     const LogScore score =
         options->log.empty() ? judgeByWorld(options->world, map) : evaluateLog(options->log, map);

@@ -177,8 +177,7 @@ void explore(const ExploreOptions& options, const Parameters& parameters) {
   const std::unique_ptr<LivePage> page = openPage(*options.serve, scene);
   std::optional<DecisionFile> decisions;
   if (!options.explain.empty()) {
-    if (!options.force && fs::exists(options.explain))
-      throw std::runtime_error(options.explain + ": is there already (--force overwrites it)");
+    requireNew(options.explain, options.force);
     decisions.emplace(options.explain, scene.origin);
   }
   const std::string folder = chooseFolder(options, simulation.world().name);

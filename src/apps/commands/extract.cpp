@@ -42,11 +42,6 @@ std::string row(int scan_id, const Arc& arc) {
   return {text.data(), static_cast<std::size_t>(length)};
 }
 
-void requireNew(const std::string& file, bool force) {
-  if (force || !std::filesystem::is_regular_file(file)) return;
-  throw std::runtime_error(file + ": is there already (--force overwrites it)");
-}
-
 }  // namespace
 
 void addExtractCommand(CLI::App& program) {

@@ -89,6 +89,11 @@ void AtomicFile::commit() {
   if (std::rename(temporary_.c_str(), target_.c_str()) != 0) throw cannotWrite(path_);
 }
 
+void requireNew(const std::string& path, bool overwrite) {
+  if (overwrite || !fs::is_regular_file(path)) return;
+  throw std::runtime_error(path + ": is there already (--force overwrites it)");
+}
+
 void removeLeftovers(const std::string& folder) {
   std::error_code gone;
   for (const auto& entry : fs::directory_iterator(folder, gone)) {

@@ -29,6 +29,9 @@ class AtomicFile {
   std::string path_, target_, temporary_;
 };
 
+/// @throws std::runtime_error where a file is there already that must not be overwritten.
+void requireNew(const std::string& path, bool overwrite);
+
 /// Removes what AtomicFiles have left in a folder whose program was killed.
 void removeLeftovers(const std::string& folder);
 

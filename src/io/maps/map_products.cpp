@@ -82,15 +82,11 @@ std::optional<FloorPlan> addPlan(const std::string& folder, const MapProducts& m
 FolderLock prepareMapFolder(const std::string& folder, bool overwrite,
                             const std::vector<const char*>& beside) {
   makeFolder(folder);
-  const auto requireNew = [&](const char* name) {
-    const std::string path = inFolder(folder, name);
-    if (!fs::exists(path) || overwrite) return;
-    throw std::runtime_error(path + ": is there already (--force overwrites it)");
-  };
-  for (const char* name : kAlways) requireNew(name);
-  for (const char* name : kSometimes) requireNew(name);
-  for (const char* name : kPlanFiles) requireNew(name);
-  for (const char* name : beside) requireNew(name);
+  const auto mayWrite = [&](const char* name) { requireNew(inFolder(folder, name), overwrite); };
+  for (const char* name : kAlways) mayWrite(name);
+  for (const char* name : kSometimes) mayWrite(name);
+  for (const char* name : kPlanFiles) mayWrite(name);
+  for (const char* name : beside) mayWrite(name);
   AtomicFile probe(inFolder(folder, kSummary));  // fails now, not after the work
   removeLeftovers(folder);
   return FolderLock(folder);

@@ -55,8 +55,7 @@ NamedFiles planTexts(const FloorPlan& plan, const std::string& title,
 void writePlanFiles(const std::string& folder, const NamedFiles& files, bool overwrite) {
   for (const auto& [name, content] : files) {
     const std::string path = (fs::path(folder) / name).string();
-    if (fs::exists(path) && !overwrite && contentOf(path) != content)
-      throw std::runtime_error(path + ": is there already (--force overwrites it)");
+    if (!fs::exists(path) || contentOf(path) != content) requireNew(path, overwrite);
   }
   makeFolder(folder);
   for (const auto& [name, content] : files) writeFile((fs::path(folder) / name).string(), content);
