@@ -164,7 +164,7 @@ int freedBehindAWall(double told_sigma) {
   for (int y = grid.lowest().y; y <= grid.highest().y; ++y) {
     for (int x = grid.lowest().x; x <= grid.highest().x; ++x) {
       const Eigen::Vector2d p = T_map_wall.inverse() * grid.centreOf({x, y});
-      freed += p.y() < -0.06 && p.x() > 0.1 && p.x() < 19.9 && isFree(grid.at({x, y}));
+      freed += p.y() < -0.06 && p.x() > 0.1 && p.x() < 19.9 && grid.at({x, y}) == CellState::kFree;
     }
   }
   return freed;

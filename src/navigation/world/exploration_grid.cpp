@@ -167,11 +167,11 @@ void ExplorationGrid::markSurfaces(const std::vector<SurfacePoint>& points) {
 // What lies between two neighbouring beams is most likely as free as they are.
 void ExplorationGrid::presumeFree(const Scan& scan) {
   const Eigen::Vector2d origin = scan.T_map_sensor.position() / resolution_;
-  const auto certainRange = [&](std::size_t i) { return certain_ranges_[i] / resolution_; };
+  const auto freeRange = [&](std::size_t i) { return scan.freeRange(i) / resolution_; };
   const double apart = std::abs(scan.angle_increment);
   for (std::size_t i = 0; i + 1 < scan.size(); ++i) {
     const double range =
-        std::min({certainRange(i), certainRange(i + 1), kLongestRangeCells}) - kBeforeSurface;
+        std::min({freeRange(i), freeRange(i + 1), kLongestRangeCells}) - kBeforeSurface;
     if (!(range > 0.0)) continue;
     const auto between =
         static_cast<std::size_t>(std::min(range * apart, static_cast<double>(kMostBetween)));
