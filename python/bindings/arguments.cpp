@@ -183,18 +183,9 @@ Pose2 readPose(nb::handle from, const char* argument) {
   return {numbers[0], numbers[1], numbers[2]};
 }
 
-Pose2 readSensorPose(nb::handle from) {
-  const Pose2 pose = readPose(from, "sensor_pose");
-  requireBearing(pose.theta, "sensor_pose");
-  return pose;
-}
-
-Pose2 readStart(nb::handle from) {
-  constexpr double kFarthest = 1e8;  // m, as of the program's --start
-  const Pose2 pose = readPose(from, "start");
-  if (pose.position().cwiseAbs().maxCoeff() > kFarthest)
-    throw nb::value_error("start: x and y must be in [-1e8, 1e8] m");
-  requireBearing(pose.theta, "start");
+Pose2 readPoseInRadians(nb::handle from, const char* argument) {
+  const Pose2 pose = readPose(from, argument);
+  requireBearing(pose.theta, argument);
   return pose;
 }
 

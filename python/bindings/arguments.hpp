@@ -40,11 +40,8 @@ std::optional<GeoReference> readOrigin(nb::handle from);
 
 /// A pose from (x, y, theta). @throws nb::value_error naming the argument.
 Pose2 readPose(nb::handle from, const char* argument);
-/// The same of a laser on its robot. @throws nb::value_error where its heading looks like degrees,
-/// too.
-Pose2 readSensorPose(nb::handle from);
-/// The same of where a drive begins in a plan. @throws nb::value_error where it is farther than 1e8
-/// m from (0, 0), too.
-Pose2 readStart(nb::handle from);
+/// The same of a place that people tell. @throws nb::value_error where its heading looks like
+/// degrees, too.
+Pose2 readPoseInRadians(nb::handle from, const char* argument);
 
 }  // namespace cca::python

@@ -57,7 +57,9 @@ nb::object localizeRecords(nb::handle records, const std::string& plan_path,
   std::optional<OccupancyRaster> raster;
   if (grid) raster = rasterOf(std::get<0>(*grid), std::get<1>(*grid), std::get<2>(*grid));
   std::optional<Pose2> T_map_start;
-  if (!start.is_none()) T_map_start = readStart(start);
+  if (!start.is_none()) T_map_start = readPoseInRadians(start, "start");
+  if (T_map_start && T_map_start->position().cwiseAbs().maxCoeff() > kFarthestPlan)
+    throw nb::value_error("start: x and y must be in [-1e8, 1e8] m");
   RepeatedLog repeated(records);
   std::optional<LocalizedLog> log;
   PlanFile plan;

@@ -91,7 +91,7 @@ void constructRecord(LogRecord* self, nb::handle ranges, double angle_min, doubl
   record.has_time = time.has_value();
   record.time = time.value_or(0.0);
   if (!std::isfinite(record.time)) throw nb::value_error("time: a finite number is needed");
-  record.T_robot_sensor = readSensorPose(sensor_pose);
+  record.T_robot_sensor = readPoseInRadians(sensor_pose, "sensor_pose");
   if (!std::isfinite(sweep_duration)) {
     throw nb::value_error("sweep_duration: a finite number is needed");
   }

@@ -225,7 +225,8 @@ Action explore(SharedExplorer& explorer, nb::handle ranges, double angle_min,
   readScan(ranges, angle_min, angle_increment, observation.scan);
   readPlace(pose, free_range_without_return, observation.scan);
   observation.T_map_robot = observation.scan.T_map_sensor;
-  observation.scan.T_map_sensor = observation.T_map_robot * readSensorPose(sensor_pose);
+  observation.scan.T_map_sensor =
+      observation.T_map_robot * readPoseInRadians(sensor_pose, "sensor_pose");
   double measured[2];
   readNumbers(velocity, "velocity", "(m/s, rad/s)", 2, measured);
   observation.velocity = {measured[0], measured[1]};

@@ -30,7 +30,7 @@ SlamPose localise(SharedSlam& slam, nb::handle ranges, double angle_min, double 
                   nb::handle odometry, nb::handle sensor_pose, double free_range_without_return) {
   Scan scan;
   readScan(ranges, angle_min, angle_increment, scan);
-  const Pose2 T_robot_sensor = readSensorPose(sensor_pose);
+  const Pose2 T_robot_sensor = readPoseInRadians(sensor_pose, "sensor_pose");
   readPlace(nb::make_tuple(0.0, 0.0, 0.0), free_range_without_return, scan);
   std::optional<Pose2> T_odom_robot;
   if (!odometry.is_none()) T_odom_robot = readPose(odometry, "odometry");

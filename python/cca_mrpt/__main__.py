@@ -136,8 +136,8 @@ def run_plan(options: argparse.Namespace) -> str:
 
 def run_evaluate(options: argparse.Namespace) -> str:
     """Print, or write, how good a map is."""
-    if options.out is not None and not options.force and options.out.is_file():
-        raise FileExistsError(f"{options.out}: is there already (--force overwrites it)")
+    if options.out is not None and options.out.is_file():
+        require_new(options.out.parent, options.force, options.out.name)
     figures = evaluation_json(options.map, options.log, options.world)
     if options.out is None:
         return figures.rstrip("\n")

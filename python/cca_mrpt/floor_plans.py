@@ -10,6 +10,7 @@ from typing import Any, Dict, List, NamedTuple, Optional, Sequence, Tuple, Union
 import numpy as np
 
 from ._core import floor_plan_files, floor_plan_geojson, title_of_folder, write_plan_files
+from .folders import folder_of
 from .grids import Grid
 from .maps import Map, load
 
@@ -122,11 +123,12 @@ class FloorPlan:
             beside Cairo.
 
         Raises:
+            ValueError: the folder has no name.
             RuntimeError: one of them is there already, or cannot be written; names the file and the reason.
         """
         lines_csv, (cells, resolution, corner), _, title = self._source
         files = floor_plan_files(lines_csv, cells, resolution, corner, self._labels[0] if self._labels else None, title, origin)
-        write_plan_files(os.fspath(folder), files, force)
+        write_plan_files(os.fspath(folder_of(folder)), files, force)
         return list(files)
 
     @property

@@ -101,7 +101,7 @@ def test_maps_are_not_overwritten_unasked(log, tmp_path):
     (tmp_path / "linked" / "lines.csv").symlink_to(tmp_path / "away.csv")
     with pytest.raises(FileExistsError, match="lines.csv: is there already"):
         made.save(tmp_path / "linked")
-    for use in made.save, cca_mrpt.load:
+    for use in made.save, made.floor_plan().save, cca_mrpt.load:
         with pytest.raises(ValueError, match="folder: a name is needed"):
             use("")
     made.save(tmp_path / "map", force=True)

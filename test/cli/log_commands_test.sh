@@ -89,6 +89,9 @@ refuses 1 "joined by --pose slam" "$program" map room.log room.log --pose odomet
 refuses 1 "map.slam: is not there" "$program" map room.log --resume odometry --out none
 [ ! -e none ] || { echo "FAILED: a folder was left without a map"; failed=1; }
 
+mkdir -p taken/lines.csv
+refuses 1 "lines.csv: is there already" "$program" map room.log --out taken
+
 check "extract writes segments" "$program" extract room.log --out lines.csv
 refuses 1 "is there already" "$program" extract room.log --out lines.csv
 check "extract overwrites where it may" "$program" extract room.log --out lines.csv --force

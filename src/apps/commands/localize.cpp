@@ -134,7 +134,7 @@ void addLocalizeCommand(CLI::App& program) {
                    "looked for in the whole plan")
       ->delimiter(',')
       ->expected(3)
-      ->check(CLI::Range(-1e8, 1e8));
+      ->check(CLI::Range(-kFarthestPlan, kFarthestPlan));
   command
       ->add_option("--scale", options->scale,
                    "metres of a unit of the drawing, where it does not tell them")

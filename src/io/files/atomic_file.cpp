@@ -90,7 +90,7 @@ void AtomicFile::commit() {
 }
 
 void requireNew(const std::string& path, bool overwrite) {
-  if (overwrite || !fs::is_regular_file(path)) return;
+  if (overwrite || !fs::exists(path) || isDevice(path)) return;
   throw std::runtime_error(path + ": is there already (--force overwrites it)");
 }
 

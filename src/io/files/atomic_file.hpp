@@ -29,7 +29,8 @@ class AtomicFile {
   std::string path_, target_, temporary_;
 };
 
-/// @throws std::runtime_error where a file is there already that must not be overwritten.
+/// @throws std::runtime_error where something is there already that must not be overwritten; into
+/// devices and pipes anybody may write.
 void requireNew(const std::string& path, bool overwrite);
 
 /// Removes what AtomicFiles have left in a folder whose program was killed.

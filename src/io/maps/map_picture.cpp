@@ -26,6 +26,7 @@ constexpr double kRoomOpacity = 0.1;
 constexpr double kThinnest = 0.5;  // of the strokes on a sheet of 1600 pixels
 
 constexpr Colour kUnknown{0.906, 0.922, 0.933}, kFree{1.0, 1.0, 1.0}, kHit{0.55, 0.62, 0.67};
+// On paper: a contrast of 14 and 5, for which WCAG 2.1 asks 7 (AAA) and 4.5 (AA).
 constexpr Colour kDarkInk{0.13, 0.17, 0.21}, kSoftInk{0.38, 0.44, 0.49}, kPaper{1.0, 1.0, 1.0};
 constexpr Colour kTrajectory{0.93, 0.55, 0.14, 0.85};
 constexpr Colour kStart{0.16, 0.63, 0.29}, kEnd{0.84, 0.15, 0.16};

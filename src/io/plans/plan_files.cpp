@@ -55,7 +55,8 @@ NamedFiles planTexts(const FloorPlan& plan, const std::string& title,
 void writePlanFiles(const std::string& folder, const NamedFiles& files, bool overwrite) {
   for (const auto& [name, content] : files) {
     const std::string path = (fs::path(folder) / name).string();
-    if (!fs::exists(path) || contentOf(path) != content) requireNew(path, overwrite);
+    const bool is_same = !overwrite && fs::exists(path) && contentOf(path) == content;
+    requireNew(path, overwrite || is_same);
   }
   makeFolder(folder);
   for (const auto& [name, content] : files) writeFile((fs::path(folder) / name).string(), content);

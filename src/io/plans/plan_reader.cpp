@@ -16,7 +16,6 @@
 namespace cca {
 namespace {
 
-constexpr double kFarthestPlan = 1e8;  // m, from (0, 0): beyond, it is in other units
 // m: whoever localises in it keeps a grid over all of it, 1.4 GB for so much. Drawings with
 // coordinates of a country often have something left at (0, 0).
 constexpr double kWidestPlan = 1000.0;

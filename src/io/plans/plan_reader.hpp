@@ -19,6 +19,8 @@ struct PlanFile {
   std::vector<LineSigma> sigmas;  ///< one a line, where the file tells (.csv of ours); else empty
 };
 
+inline constexpr double kFarthestPlan = 1e8;  ///< m, from (0, 0): beyond, it is in other units
+
 /// The plan that a map_server grid is. @throws std::runtime_error naming the file and the reason.
 PlanFile readGridPlan(const std::string& yaml_path);
 
