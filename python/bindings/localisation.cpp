@@ -12,7 +12,9 @@
 #include <vector>
 
 #include "apps/logs/localized_log.hpp"
+#include "apps/runs/interruption.hpp"
 #include "arguments.hpp"
+#include "io/lines/line_formats.hpp"
 #include "io/logs/undistorted_log.hpp"
 #include "io/plans/plan_reader.hpp"
 #include "io/plans/plan_reader_formats.hpp"
@@ -48,12 +50,14 @@ nb::object tupleOf(const LocalizedLog& log, const PlanFile& plan, const std::str
   put("poses.csv", posesCsv(poses));
   put("poses.tum", posesTum(poses));
   return nb::make_tuple(ownedArray(std::move(numbers), poses.size(), 4), summary.dump(), files,
-                        log.warnings(), poses.empty() ? log.whyNot() : "");
+                        log.warnings(), log.shortcoming(plan, plan_path));
 }
 
 /// @param records  an iterable that can be gone through twice.
+/// @param until_interrupted  Ctrl-C ends the reading instead of raising KeyboardInterrupt.
 nb::object localizeRecords(nb::handle records, const std::string& plan_path,
-                           const std::optional<GridArrays>& grid, nb::handle start, double scale) {
+                           const std::optional<GridArrays>& grid, nb::handle start, double scale,
+                           bool until_interrupted) {
   std::optional<OccupancyRaster> raster;
   if (grid) raster = rasterOf(std::get<0>(*grid), std::get<1>(*grid), std::get<2>(*grid));
   std::optional<Pose2> T_map_start;
@@ -65,11 +69,13 @@ nb::object localizeRecords(nb::handle records, const std::string& plan_path,
   PlanFile plan;
   try {
     const nb::gil_scoped_release others_may_run;
+    std::optional<apps::Interruption> interruption;
+    if (until_interrupted) interruption.emplace();
     plan = readPlan(plan_path, scale, [&raster](const std::string&) { return gridPlan(*raster); });
     log.emplace(plan.lines, plan.sigmas, T_map_start);
     const std::unique_ptr<LogReader> reader =
         undistortedLog([&] { return repeated.open(); }, std::nullopt);
-    log->take(*reader, [] { return true; });
+    log->take(*reader, [&] { return !(interruption && interruption->requested()); });
   } catch (const std::runtime_error& error) {
     throw nb::value_error(error.what());
   }
@@ -82,9 +88,10 @@ void addLocalisation(nb::module_& module) {
   module.def(
       "localize_records", &localizeRecords, nb::arg("records"), nb::arg("plan"),
       nb::arg("grid").none(), nb::arg("start").none(), nb::arg("scale"),
+      nb::arg("until_interrupted"),
       nb::sig("def localize_records(records: collections.abc.Iterable[LogRecord], plan: str, "
               "grid: tuple[numpy.typing.NDArray[numpy.uint8], float, tuple[float, float]] | None, "
-              "start: tuple[float, float, float] | None, scale: float) -> "
+              "start: tuple[float, float, float] | None, scale: float, until_interrupted: bool) -> "
               "tuple[numpy.typing.NDArray[numpy.float64], str, dict[str, bytes], str, str]"),
       "Poses of scans in a plan: see `cca_mrpt.localize`.");
 }

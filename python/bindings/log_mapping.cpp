@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "apps/logs/session_warnings.hpp"
-#include "apps/runs/on_all_cores.hpp"
+#include "apps/runs/interruption.hpp"
 #include "arguments.hpp"
 #include "cca_mrpt/session/earlier_drive.hpp"
 #include "io/logs/sound_log.hpp"
@@ -69,15 +69,21 @@ class LogMapping {
 
   /// Whether the log's own poses are taken where its first scan has corrected ones.
   bool prefers_corrected = false;
-  std::optional<std::string> resumed;  ///< folder of a map to go on with
+  std::optional<std::string> resumed;                ///< folder of a map to go on with
+  const apps::Interruption* interruption = nullptr;  ///< ends the reading; null: nothing does
   /// Called with the session when it has been made.
   std::function<void(Mapping&)> begun = [](Mapping&) {};
 
   /// Maps all. Without the interpreter's lock.
   MappedScans run() {
     std::string warnings;
-    while (takeNext(warnings)) continue;
-    mapping_->finish();
+    while (!isInterrupted() && takeNext(warnings)) continue;
+    if (isInterrupted()) {
+      apps::tellOfSaving();
+      mapping_->stop();
+    } else {
+      mapping_->listening([this] { mapping_->finish(); });
+    }
     MappedScans result = resultOf(*mapping_);
     apps::appendWarning(result.warnings, warnings);
     result.warnings = warnings;
@@ -85,6 +91,8 @@ class LogMapping {
   }
 
  private:
+  bool isInterrupted() const { return interruption && interruption->requested(); }
+
   /// @return  false after the last log.
   bool takeNext(std::string& warnings) {
     std::unique_ptr<LocalLog> log;
@@ -118,8 +126,9 @@ class LogMapping {
   }
 
   void take(LocalLog& log) {
-    const auto isPaused = [this] { return mapping_->isPaused(); };
-    while (auto record = log.next()) {
+    const auto isPaused = [this] { return !isInterrupted() && mapping_->isPaused(); };
+    // One scan is mapped always.
+    for (auto record = log.next(); record; record = isInterrupted() ? std::nullopt : log.next()) {
       if (isPaused()) {
         const nb::gil_scoped_acquire turn;
         waitForViewers(isPaused);
@@ -139,10 +148,11 @@ class LogMapping {
 /// @param origin  (latitude, longitude, turn) of the map, degrees; None: nobody says.
 /// @param page    where a page is to be served; nothing: there is none.
 /// @param told    called with its address.
+/// @param until_interrupted  Ctrl-C ends the reading instead of raising KeyboardInterrupt.
 nb::object mapLogs(const std::vector<NamedLog>& logs, const std::string& pose,
                    const std::optional<std::string>& resume, const std::string& title,
                    nb::handle origin, const std::optional<std::pair<std::string, int>>& page,
-                   nb::handle told, nb::kwargs keywords) {
+                   nb::handle told, bool until_interrupted, nb::kwargs keywords) {
   CcaParameters parameters;
   readParameters(keywords, parameters);
   const std::optional<GeoReference> place = readOrigin(origin);
@@ -167,6 +177,8 @@ nb::object mapLogs(const std::vector<NamedLog>& logs, const std::string& pose,
   std::optional<MappedScans> result;
   try {
     const nb::gil_scoped_release others_may_run;
+    std::optional<apps::Interruption> interruption;
+    if (until_interrupted) mapping.interruption = &interruption.emplace();
     result = mapping.run();
   } catch (const std::runtime_error& error) {
     throw nb::value_error(error.what());
@@ -188,11 +200,13 @@ nb::object mergeMaps(const std::vector<std::string>& maps, nb::kwargs keywords) 
     mapping.origin = stored.front().origin;
     std::vector<const SlamMemory*> drives;
     for (const StoredMemory& map : stored) drives.push_back(&map.memory);
-    const auto apart = joinDrives(drives, *mapping.slam, *mapping.session, apps::doOnAllCores);
-    if (apart) {
-      throw std::runtime_error(maps[*apart] + ": no place of it was found in " + maps.front());
-    }
-    mapping.complete();
+    mapping.listening([&] {
+      const auto apart = joinDrives(drives, *mapping.slam, *mapping.session, mapping.doAll());
+      if (apart) {
+        throw std::runtime_error(maps[*apart] + ": no place of it was found in " + maps.front());
+      }
+      mapping.complete();
+    });
     result = resultOf(mapping);
     result->products.graph = mapping.slam->slam().memory().graph;
     result->products.summary["key_frames"] = result->products.graph.size();
@@ -210,11 +224,11 @@ void addLogMapping(nb::module_& module) {
       "pose: str, "
       "resume: str | None, title: str, origin: collections.abc.Sequence[float] | None, page: "
       "tuple[str, int] | None, told: "
-      "collections.abc.Callable[[str], object]",
+      "collections.abc.Callable[[str], object], until_interrupted: bool",
       "tuple[dict[str, typing.Any], dict[str, bytes]]");
   module.def("map_logs", &mapLogs, nb::arg("logs"), nb::arg("pose"), nb::arg("resume").none(),
              nb::arg("title"), nb::arg("origin").none(), nb::arg("page").none(), nb::arg("told"),
-             nb::arg("parameters"), nb::sig(signature.c_str()),
+             nb::arg("until_interrupted"), nb::arg("parameters"), nb::sig(signature.c_str()),
              "What a map of logs holds, and its files by name: see `cca_mrpt.map`.");
   static const std::string merging =
       parameterSignature<CcaParameters>("merge_maps(maps: collections.abc.Sequence[str]",

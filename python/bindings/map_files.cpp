@@ -86,6 +86,19 @@ nb::list arcsOf(const std::vector<MapArc>& arcs) {
 
 void addMapFiles(nb::module_& module) {
   module.def(
+      "read_lines_csv",
+      [](const std::string& csv, const std::string& name) {
+        try {
+          return lineArray(readLinesCsv(csv, name));
+        } catch (const std::runtime_error& error) {
+          throw nb::value_error(error.what());
+        }
+      },
+      nb::arg("csv"), nb::arg("name"),
+      nb::sig("def read_lines_csv(csv: str, name: str) -> numpy.typing.NDArray[numpy.void]"),
+      "The lines of a lines.csv; covariances without their mixed term.");
+  module.attr("FARTHEST_PLAN") = kFarthestPlan;
+  module.def(
       "read_chains",
       [](const std::string& geojson, const std::string& name) {
         return readLinesGeoJson(geojson, name).poly_lines;

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "scan_mapping.hpp"
 
+#include <chrono>
 #include <functional>
+#include <future>
 #include <utility>
 
 #include "apps/logs/session_warnings.hpp"
@@ -13,6 +15,8 @@
 
 namespace cca::python {
 namespace {
+
+constexpr std::chrono::milliseconds kListening{50};  // nobody feels that Ctrl-C waits for it
 
 std::unique_ptr<Localiser> localiserOf(PoseSource source) {
   if (source == PoseSource::kSlam) return std::make_unique<SlamLocaliser>();
@@ -87,15 +91,46 @@ void Mapping::beginDrive() {
 }
 
 void Mapping::finish() {
-  session->finish(apps::doOnAllCores);
+  session->finish(doAll());
   complete();
-  if (earlier && slam->slam().isInMemory()) origin = earlier->origin;
   if (page) page->finish(session->lineMap().lines(), "all is mapped");
+}
+
+DoAll Mapping::doAll() const {
+  return [own = recorder.get()](int count, const std::function<void(int)>& task) {
+    apps::doOnAllCores(count, [own, &task](int k) {
+      own->goOn();
+      task(k);
+    });
+  };
+}
+
+void Mapping::listening(const std::function<void()>& work) {
+  std::future<void> done = std::async(std::launch::async, work);
+  while (done.wait_for(kListening) != std::future_status::ready) {
+    const nb::gil_scoped_acquire turn;
+    if (PyErr_CheckSignals() == 0) continue;
+    recorder->stop();
+    {
+      const nb::gil_scoped_release others_may_run;
+      done.wait();
+    }
+    throw nb::python_error();
+  }
+  done.get();
+}
+
+void Mapping::stop() {
+  session->mapAsItIs();
+  complete();
+  finished = false;
+  if (page) page->finish(session->lineMap().lines(), "interrupted");
 }
 
 void Mapping::complete() {
   if (background) background->wait();
   finished = true;
+  if (earlier && slam->slam().isInMemory()) origin = earlier->origin;
 }
 
 std::string Mapping::serve(LivePageSettings settings) {

@@ -4,6 +4,7 @@
 #include <nanobind/nanobind.h>
 
 #include <chrono>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -38,6 +39,13 @@ struct Mapping {
   /// Another log begins: its drive may begin anywhere in the place of the first one.
   void beginDrive();
   void finish();
+  /// The map of the scans so far, without a last pass: the rest is left.
+  void stop();
+  /// On all cores, as long as somebody wants the map.
+  DoAll doAll() const;
+  /// Does the last of the work on a map, which asks no interpreter, and listens to Ctrl-C
+  /// meanwhile. Without the interpreter's lock. @throws what Ctrl-C raises: there is no map then.
+  void listening(const std::function<void()>& work);
   /// After the session's last pass: all scans are in the map.
   void complete();
   std::string serve(LivePageSettings settings);

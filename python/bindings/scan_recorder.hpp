@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <atomic>
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
@@ -29,6 +31,7 @@ class ScanRecorder : public MapRecorder {
     if (page_) page_->restart();
   }
   void record(const MappedScan& mapped, const LineMap& map) override {
+    goOn();
     raster_.insert(mapped.scan);
     if (!is_replayed_ || mapped.is_of_earlier_drive) return;
     ReplayMoment moment;
@@ -43,6 +46,12 @@ class ScanRecorder : public MapRecorder {
     if (step < apps::kLongestStep) distance_ += step;
     moment.distance = distance_;
     replay_.add(moment, mapped.scan, map);
+  }
+  /// Of any thread: nobody wants the map any more.
+  void stop() { is_stopped_ = true; }
+  /// @throws std::runtime_error after stop().
+  void goOn() const {
+    if (is_stopped_) throw std::runtime_error("stopped");
   }
   std::optional<OccupancyRaster> raster() const { return raster_.raster(); }
 
@@ -77,6 +86,7 @@ class ScanRecorder : public MapRecorder {
   std::string title_;
   Replay replay_;
   bool is_replayed_ = false;
+  std::atomic<bool> is_stopped_{false};
   std::optional<Pose2> last_moment_;
   double distance_ = 0.0;  ///< m, up to the last moment
   LivePage* page_ = nullptr;

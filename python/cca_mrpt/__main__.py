@@ -12,9 +12,10 @@ from typing import Any, Callable, Dict, List, Optional, Sequence, Tuple
 from ._core import origin_of, version, write_files_into
 from .evaluation import evaluation_json
 from .floor_plans import floor_plan
+from .folders import require_writable
 from .localisation import localize
 from .logs import read_log
-from .maps import POSES, Map, merge
+from .maps import FILES, POSES, Map, merge
 from .maps import map as map_log
 from .replays import replay_page
 
@@ -46,23 +47,19 @@ def reading_of(options: argparse.Namespace) -> Dict[str, Any]:
                 upside_down=upside_down)
 
 
-def require_new(folder: Path, force: bool, *names: str) -> None:
-    """Before the work, not after it."""
-    for name in names:
-        if (folder / name).exists() and not force:
-            raise FileExistsError(f"{folder / name}: is there already (--force overwrites it)")
-
-
 def require_sound(result: Any, out: Path, what: str) -> None:
+    """Say how the saved result falls short. `what` is a sentence with a place for "so far"."""
+    if not result.summary.get("finished", True):
+        raise RuntimeError(f"interrupted after {result.summary['scans']} scans; {what.format(' so far')} in {out}")
     if result.shortcoming:
-        raise Shortcoming(f"{result.shortcoming}; {what} in {out}")
+        raise Shortcoming(f"{result.shortcoming}; {what.format('')} in {out}")
 
 
 def save_map(made: Map, out: Path, options: argparse.Namespace, told: str) -> str:
     made.save(out, force=options.force)
     if not options.quiet:
         print(f"{told}; {out} holds the map")
-    require_sound(made, out, "the map is")
+    require_sound(made, out, "the map{} is")
     return ""
 
 
@@ -70,9 +67,9 @@ def run_map(options: argparse.Namespace) -> str:
     """Write the line map of a log into a folder; what was done, in a sentence."""
     first = options.logs[0]
     out = options.out or Path("out") / Path(first).name.split(".")[0]
-    require_new(out, options.force, "lines.csv", "summary.json")
+    require_writable(out, [*FILES, "summary.json"], options.force)
     made = map_log(options.logs, options.pose, resume=options.resume, origin=options.origin, serve=options.serve,
-                   serve_address=options.serve_address, **reading_of(options))
+                   serve_address=options.serve_address, until_interrupted=True, **reading_of(options))
     if made.warnings:
         print(f"{first}: {made.warnings}", file=sys.stderr)
     return save_map(made, out, options, f"{len(made)} lines from {len(made.trajectory)} scans over "
@@ -83,7 +80,7 @@ def run_merge(options: argparse.Namespace) -> str:
     """Write one map of several; what was done, in a sentence."""
     if len(options.maps) < 2:
         raise Usage("MAP: two or more are needed")
-    require_new(options.out, options.force, "lines.csv", "summary.json")
+    require_writable(options.out, [*FILES, "summary.json"], options.force)
     made = merge(options.maps)
     return save_map(made, options.out, options, f"{len(made)} lines from {len(options.maps)} maps, "
                                                 f"{made.summary['loops']} loops between and within them")
@@ -91,15 +88,16 @@ def run_merge(options: argparse.Namespace) -> str:
 
 def run_localize(options: argparse.Namespace) -> str:
     """Write where a log was taken in a plan; what was done, in a sentence."""
-    require_new(options.out, options.force, "poses.csv", "poses.tum", "summary.json")
-    found = localize(read_log(options.log, **reading_of(options)), options.plan, options.start, options.scale)
+    require_writable(options.out, ["poses.csv", "poses.tum", "summary.json"], options.force)
+    found = localize(read_log(options.log, **reading_of(options)), options.plan, options.start, options.scale,
+                     until_interrupted=True)
     if found.warnings:
         print(f"{options.log}: {found.warnings}", file=sys.stderr)
     found.save(options.out, force=options.force)
     if not options.quiet:
         print(f"{len(found)} of {found.summary['scans']} scans localised, lost {found.summary['lost_times']} time(s); "
               f"{options.out} holds the poses")
-    require_sound(found, options.out, "the summary is")
+    require_sound(found, options.out, "the poses{} are")
     return ""
 
 
@@ -111,6 +109,8 @@ def run_render(options: argparse.Namespace) -> str:
         out = run / "replay.html"
     if out is None or out.suffix != ".html":
         raise Usage("--out: a page that ends in .html is needed")
+    is_made_anew = options.out is None
+    require_writable(out.parent, [out.name], options.force or is_made_anew)
     write_files_into(str(out.parent), {out.name: replay_page(run, options.beside).encode()})
     return f"{out} replays the run"
 
@@ -136,8 +136,8 @@ def run_plan(options: argparse.Namespace) -> str:
 
 def run_evaluate(options: argparse.Namespace) -> str:
     """Print, or write, how good a map is."""
-    if options.out is not None and options.out.is_file():
-        require_new(options.out.parent, options.force, options.out.name)
+    if options.out is not None:
+        require_writable(options.out.parent, [options.out.name], options.force)
     figures = evaluation_json(options.map, options.log, options.world)
     if options.out is None:
         return figures.rstrip("\n")
@@ -239,6 +239,16 @@ def parse_origin(text: str) -> Tuple[float, float, float]:
         raise argparse.ArgumentTypeError(str(error)) from None
 
 
+def parse_scale(text: str) -> float:
+    try:
+        scale = float(text)
+    except ValueError:
+        scale = math.nan
+    if not 1e-6 <= scale <= 1e6:
+        raise argparse.ArgumentTypeError(f"{text!r}: metres in [1e-6, 1e6] are needed")
+    return scale
+
+
 def parse_folder(text: str) -> Path:
     """An empty one would be the folder that one is in: a shell variable that was never set."""
     if not text:
@@ -287,7 +297,7 @@ def add_commands(commands: Any) -> None:
                          help="a map's folder, its lines.csv or map.slam; .geojson, .dxf, .svg; .yaml of map_server")
     command.add_argument("--start", type=parse_start, metavar="X,Y,DEG",
                          help="where the log begins, to half a metre and 15 degrees (default: anywhere)")
-    command.add_argument("--scale", type=float, default=0.0, help="metres of a unit of the drawing (default: as it tells)")
+    command.add_argument("--scale", type=parse_scale, metavar="METRES", default=0.0, help="metres of a unit of the drawing or .csv (default: as it tells)")
     add_output(command, True, "the poses")
     command = commands.add_parser("map", help="line map of a whole log, or of several")
     add_log(command, many=True)
@@ -322,6 +332,7 @@ def add_commands(commands: Any) -> None:
     command.add_argument("--html", action="store_true", help="as the program calls it; there is nothing else here")
     command.add_argument("--beside", metavar="DIR", help="folder of a second run, to be seen beside it")
     command.add_argument("--out", type=parse_folder, help="page to write (default: the folder's replay.html)")
+    command.add_argument("--force", action="store_true", help="overwrite what --out names")
     add_batch(commands)
 
 

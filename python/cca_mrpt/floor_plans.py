@@ -10,7 +10,7 @@ from typing import Any, Dict, List, NamedTuple, Optional, Sequence, Tuple, Union
 import numpy as np
 
 from ._core import floor_plan_files, floor_plan_geojson, title_of_folder, write_plan_files
-from .folders import folder_of
+from .folders import folder_of, text_of
 from .grids import Grid
 from .maps import Map, load
 
@@ -180,5 +180,5 @@ def floor_plan(source: Union[Map, str, "os.PathLike[str]"], labels: "Optional[Un
         FileNotFoundError: that folder holds no map, or there are no such labels.
         ValueError: a file is damaged; or the map has no grid, without which there are no rooms.
     """
-    text = None if labels is None else (Path(labels).read_text(encoding="utf-8"), os.fspath(labels))
+    text = None if labels is None else (text_of(Path(labels)), os.fspath(labels))
     return FloorPlan(_source_of(source), text)

@@ -9,6 +9,8 @@ from typing import NamedTuple, Optional, Tuple
 import numpy as np
 from numpy.typing import NDArray
 
+from .folders import text_of
+
 
 class Grid(NamedTuple):
     """Which places are free, and which are not."""
@@ -35,13 +37,13 @@ def read_map_yaml(yaml: Path) -> Grid:
     """A grid of map_server. Raises ValueError naming the file that is damaged, and FileNotFoundError."""
     if not yaml.exists():
         raise FileNotFoundError(f"{yaml}: no such file")
-    text = yaml.read_text()
-    number = r"\s*([-+0-9.eE]+)\s*"
+    text = text_of(yaml)
+    number = r"[ \t]*([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)[ \t\r]*"
     image = re.search(r"^image:\s*(\S+)\s*$", text, re.MULTILINE)
     resolution = re.search(rf"^resolution:{number}$", text, re.MULTILINE)
     origin = re.search(rf"^origin:\s*\[{number},{number}(?:,{number})?\]", text, re.MULTILINE)
     if not (resolution and origin and image):
-        raise ValueError(f"{yaml}: is damaged, or no map of map_server")
+        raise ValueError(f"{yaml}: is damaged, or no map of map_server, which has image, resolution and origin")
     if float(origin[3] or 0) != 0:
         raise ValueError(f"{yaml}: origin: a turned map (yaw {origin[3]}) is not read")
 

@@ -41,7 +41,7 @@ class Localisation:
 
         Raises:
             FileExistsError: one of them is there already, and `force` is not given.
-            RuntimeError: it cannot be written, or another run is writing there; names the file and the reason.
+            OSError, RuntimeError: it cannot be written, or another run is writing there; names the file and the reason.
         """
         where = folder_of(folder)
         names = [*self._files, "summary.json"]
@@ -59,7 +59,7 @@ class Localisation:
 
 
 def localize(log: "Union[str, os.PathLike[str], Iterable[LogRecord]]", plan: "Union[str, os.PathLike[str]]",
-             start: Optional[Tuple[float, float, float]] = None, scale: float = 0.0) -> Localisation:
+             start: Optional[Tuple[float, float, float]] = None, scale: float = 0.0, until_interrupted: bool = False) -> Localisation:
     """Find where a log was taken in a finished map or a drawn plan: the same poses as `cca-mrpt localize`.
 
     Args:
@@ -67,7 +67,10 @@ def localize(log: "Union[str, os.PathLike[str], Iterable[LogRecord]]", plan: "Un
         plan: the folder of a map, its lines.csv or map.slam, a .geojson, .dxf or .svg, or the .yaml of a map_server grid
             (its image a binary PGM).
         start: (x, y, theta) where the log begins, to half a metre and 15 degrees; m, m, rad. None: anywhere.
-        scale: metres of a unit of the drawing; 0: as it tells.
+        scale: metres of a unit of the drawing or the .csv; 0: as it tells. Refused of what tells its own metres: a
+            map.slam, a grid, GeoJSON in degrees.
+        until_interrupted: Ctrl-C ends the reading, and the poses so far are given (`summary["finished"]` is False),
+            instead of KeyboardInterrupt.
 
     Raises:
         FileNotFoundError, ImportError, ValueError: as `read_log`; also where the plan holds no line, or is damaged.
@@ -81,10 +84,9 @@ def localize(log: "Union[str, os.PathLike[str], Iterable[LogRecord]]", plan: "Un
     if path.suffix.lower() in (".yaml", ".yml"):
         grid = read_map_yaml(path)
     records = repeatable(log)
-    table, summary, files, warnings, why_not = localize_records(records, name, grid, start, scale)
+    table, summary, files, warnings, shortcoming = localize_records(records, name, grid, start, scale, until_interrupted)
     told: Dict[str, Any] = json.loads(summary)
     if isinstance(records, Log):
         told = {"log": records.path, **told}
         warnings = "; ".join(filter(None, [records.warnings, warnings]))
-    shortcoming = f"the robot was never localised in {name}" + (f": {why_not}" if why_not else "")
-    return Localisation(table, told, files, warnings, "" if len(table) else shortcoming)
+    return Localisation(table, told, files, warnings, shortcoming)

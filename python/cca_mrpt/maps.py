@@ -4,19 +4,21 @@ from __future__ import annotations
 
 import csv
 import io
+import itertools
 import json
 import math
 import os
 import sys
 from collections import abc
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Dict, Iterable, List, NamedTuple, NoReturn, Optional, Sequence, Tuple, Union, cast
+from typing import TYPE_CHECKING, Any, Dict, Iterable, Iterator, List, NamedTuple, NoReturn, Optional, Sequence, Tuple, Union, cast
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ._core import MAP_LINE, Estimate, LogRecord, MappingSession, PolyLine, map_logs, merge_maps, pictures_of_map, read_chains, write_files_into
-from .folders import folder_of, kept_for_one_run
+from ._core import (FARTHEST_PLAN, Estimate, LogRecord, MappingSession, PolyLine, map_logs, merge_maps, pictures_of_map, read_chains,
+                    read_lines_csv, write_files_into)
+from .folders import folder_of, kept_for_one_run, text_of
 from .grids import Grid, read_grid
 from .logs import Log, read_log
 from .plotting import plot
@@ -88,7 +90,8 @@ class Map:
         """Write the map into a folder, which is made where it is missing; each file whole or not at all.
 
         Args:
-            force: overwrite a map that is there.
+            force: overwrite a map that is there. Only where `map` was to go on with a map, and found no place of it, the
+                map.slam that is there, which may be that map's, is kept as earlier.slam.
 
         Returns:
             The files' names: lines.csv, arcs.csv, lines.geojson, .svg, .dxf, map.pgm and .yaml, map.png (where the
@@ -98,7 +101,7 @@ class Map:
         Raises:
             FileExistsError: one of them is there already, or another file of a map, which would go.
             ValueError: the folder has no name.
-            RuntimeError: it cannot be written, or another run is writing there; names the file and the reason.
+            OSError, RuntimeError: it cannot be written, or another run is writing there; names the file and the reason.
         """
         where, contents = folder_of(folder), dict(self._files)
         if self._replay:
@@ -106,6 +109,9 @@ class Map:
         names = [*contents, "summary.json"]
         with kept_for_one_run(where, [*names, *FILES], force):
             (where / "summary.json").unlink(missing_ok=True)  # it says that all is there
+            if self.summary.get("found_in_memory") is False and (where / "map.slam").exists():
+                kept = (where / ("earlier.slam" if k == 1 else f"earlier-{k}.slam") for k in itertools.count(1))
+                (where / "map.slam").rename(next(path for path in kept if not path.exists()))
             write_files_into(os.fspath(where), contents)
             for name in set(FILES) - set(contents):  # what an earlier run left would be taken for this one's
                 (where / name).unlink(missing_ok=True)
@@ -167,7 +173,7 @@ def map(path: "Union[Source, Sequence[Source]]", pose: str = "auto", *,
         resume: "Optional[Union[str, os.PathLike[str]]]" = None, topic: Optional[str] = None,
         base_frame: Optional[str] = None, odom_frame: Optional[str] = None, mount: Optional[Sequence[float]] = None,
         upside_down: bool = False, origin: Optional[Sequence[float]] = None, serve: Optional[int] = None, serve_address: str = "127.0.0.1",
-        **parameters: Unpack[MapParameters]) -> Map:
+        until_interrupted: bool = False, **parameters: Unpack[MapParameters]) -> Map:
     """The line map of a whole log, or of several: the same as the program `cca-mrpt map` makes, byte for byte.
 
     Args:
@@ -183,6 +189,8 @@ def map(path: "Union[Source, Sequence[Source]]", pose: str = "auto", *,
             east to the left; lines.geojson and plan.geojson are in degrees then, and the plan's sheet shows north.
         serve: a port: the map is shown in browsers as it grows, at the address that is printed on stderr. See
             `Mapper.serve`; while a viewer pauses, no scan is read.
+        until_interrupted: Ctrl-C ends the reading, and the map so far is given (`summary["finished"]` is False), instead
+            of KeyboardInterrupt.
         parameters: of `LineMap`.
 
     Raises:
@@ -198,7 +206,7 @@ def map(path: "Union[Source, Sequence[Source]]", pose: str = "auto", *,
     page = None if serve is None else (serve_address, serve)
     earlier = None if resume is None else os.fspath(resume)
     held, files = map_logs(list(zip(paths, logs)), pose, earlier, Path(paths[0] if paths and paths[0] else "scans").name, origin,
-                           page, _tell_address, **parameters)
+                           page, _tell_address, until_interrupted, **parameters)
     result = Map(held, files, "; ".join(log.warnings for log in logs if isinstance(log, Log) and log.warnings))
     if not len(result.trajectory):
         raise ValueError("records: no scan is among them, of which a map could be made")
@@ -283,33 +291,29 @@ class Mapper:
         return f"Mapper({len(self)} scans, {len(self.lines)} lines)"
 
 
-def _table(text: str, path: Path) -> List[Dict[str, float]]:
-    reader, rows = csv.DictReader(io.StringIO(text)), []
-    if not reader.fieldnames:
-        raise ValueError(f"{path}: is empty, or no file of a map")
+def _table(text: str, path: Path, needed: Sequence[str]) -> Iterator[Dict[str, Any]]:
+    """The rows of a table: finite numbers; `line_ids` a list of them."""
+    reader = csv.DictReader(io.StringIO(text))
+    missing = set(needed) - set(reader.fieldnames or ())
+    if missing:
+        raise ValueError(f"{path}: is no file of a map: no column {min(missing)}")
     for row in reader:
-        if None in row or None in row.values():
-            raise ValueError(f"{path}, line {reader.line_num}: is damaged: {len(reader.fieldnames)} values are needed")
         try:
-            numbers = {name: float(value) for name, value in row.items() if name not in ("line_ids", "kind")}
+            if None in row or None in row.values():
+                raise ValueError(f"{len(reader.fieldnames or ())} values are needed")
+            numbers: Dict[str, Any] = {name: float(row[name]) for name in needed if name != "line_ids"}
+            if not all(abs(number) <= (FARTHEST_PLAN if name in "xy" else sys.float_info.max) for name, number in numbers.items()):
+                raise ValueError("finite numbers are needed, and places within 1e8 m")
+            if "line_ids" in needed:
+                numbers["line_ids"] = [int(name) for name in row["line_ids"].split()]
         except ValueError as error:
-            raise ValueError(f"{path}, line {reader.line_num}: is damaged, or no file of a map ({error})") from None
-        if not all(math.isfinite(number) for number in numbers.values()):
-            raise ValueError(f"{path}, line {reader.line_num}: is damaged: finite numbers are needed")
-        rows.append(numbers)
-    return rows
-
-
-def _text_of(content: bytes, path: Path) -> str:
-    try:
-        return content.decode()
-    except UnicodeDecodeError as error:
-        raise ValueError(f"{path}: is damaged: no text ({error})") from None
+            raise ValueError(f"{path}, line {reader.line_num}: is damaged: {error}") from None
+        yield numbers
 
 
 def _summary_of(path: Path) -> Dict[str, Any]:
     try:
-        summary = json.loads(_text_of(path.read_bytes(), path))
+        summary = json.loads(text_of(path))
     except json.JSONDecodeError as error:
         raise ValueError(f"{path}: is damaged: no JSON ({error})") from None
     unplaced = summary.get("unplaced_scans", []) if isinstance(summary, dict) else None
@@ -318,48 +322,35 @@ def _summary_of(path: Path) -> Dict[str, Any]:
     return cast("Dict[str, Any]", summary)
 
 
-def _lines_of(rows: List[Dict[str, float]], path: Path) -> NDArray[np.void]:
-    lines = np.zeros(len(rows), MAP_LINE)
-    try:
-        for line, row in zip(lines, rows):
-            line["id"], line["returns"] = int(row["id"]), row["support"]
-            line["ends"] = [[row["x1"], row["y1"]], [row["x2"], row["y2"]]]
-            line["covariance"] = np.diag([row["sigma_offset"] ** 2, np.radians(row["sigma_angle_deg"]) ** 2])
-    except KeyError as error:
-        raise ValueError(f"{path}: not a line map: no column {error}") from None
-    return lines
-
-
 def load(folder: Union[str, "os.PathLike[str]"]) -> Map:
     """Read the folder of a map back, whoever has written it: `Map.save`, or the program.
 
     Numbers are those of the files: ends to .1 mm; covariances without their mixed term.
 
     Raises:
-        FileNotFoundError: there is no map.
+        FileNotFoundError, NotADirectoryError: there is no map.
         ValueError: a file of it is damaged; names it and the reason.
     """
     where = folder_of(folder)
+    if where.exists() and not where.is_dir():
+        raise NotADirectoryError(f"{where}: is no folder of a map")
     if not (where / "lines.csv").exists():
         raise FileNotFoundError(f"{where / 'lines.csv'}: no such file")
     files = {name: (where / name).read_bytes() for name in FILES if (where / name).exists()}
-    text = {name: _text_of(files[name], where / name) for name in files if name.endswith((".csv", ".geojson", ".svg"))}
-    held: Dict[str, Any] = {"lines": _lines_of(_table(text["lines.csv"], where / "lines.csv"), where / "lines.csv"),
-                            "poly_lines": [], "arcs": [], "summary": {}}
-    try:
-        if "lines.geojson" in text:
-            held["poly_lines"] = read_chains(text["lines.geojson"], str(where / "lines.geojson"))
-        for row in csv.DictReader(io.StringIO(text.get("arcs.csv", ""))):
-            held["arcs"].append(MapArc((float(row["x"]), float(row["y"])), float(row["radius"]),
-                                       float(np.radians(float(row["start_deg"]))), float(np.radians(float(row["sweep_deg"]))),
-                                       [int(name) for name in row["line_ids"].split()]))
-    except (KeyError, TypeError, RuntimeError, ValueError) as error:
-        raise ValueError(f"{where}: is damaged, or no folder of a map ({error!r})") from None
+    text = {name: text_of(where / name) for name in files if name.endswith((".csv", ".geojson", ".svg"))}
+    held: Dict[str, Any] = {"lines": read_lines_csv(text["lines.csv"], str(where / "lines.csv")), "poly_lines": [], "arcs": [],
+                            "summary": {}}
+    if "lines.geojson" in text:
+        held["poly_lines"] = read_chains(text["lines.geojson"], str(where / "lines.geojson"))
+    if "arcs.csv" in text:
+        columns = "x", "y", "radius", "start_deg", "sweep_deg", "line_ids"
+        held["arcs"] = [MapArc((row["x"], row["y"]), row["radius"], math.radians(row["start_deg"]), math.radians(row["sweep_deg"]),
+                               row["line_ids"]) for row in _table(text["arcs.csv"], where / "arcs.csv", columns)]
     if (where / "summary.json").exists():
         held["summary"] = _summary_of(where / "summary.json")
     else:
         held["warnings"] = "summary.json is missing: the folder may hold half of a map"
-    poses = _table(text["poses.csv"], where / "poses.csv") if "poses.csv" in text else []
+    poses = list(_table(text["poses.csv"], where / "poses.csv", ("stamp", "x", "y", "theta"))) if "poses.csv" in text else []
     held["trajectory"] = np.array([[row["x"], row["y"], row["theta"]] for row in poses]).reshape(-1, 3)
     held["times"] = [row["stamp"] for row in poses]
     held["grid"] = read_grid(where)

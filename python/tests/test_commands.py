@@ -11,6 +11,7 @@ import shutil
 import signal
 import subprocess
 import sys
+import time
 
 import numpy as np
 import pytest
@@ -200,7 +201,7 @@ def test_nothing_is_localised_where_two_places_look_alike(log, tmp_path, capsys)
     plan = tmp_path / "room.csv"
     plan.write_text("x1,y1,x2,y2\n-3,-2,3,-2\n3,-2,3,2\n3,2,-3,2\n-3,2,-3,-2\n")
     found = cca_mrpt.localize(log, plan)
-    assert len(found) == 0 and "never localised" in found.shortcoming
+    assert len(found) == 0 and "never localised" in found.shortcoming and "4 lines within 6.0 x 4.0 m" in found.shortcoming
     assert main(["localize", str(log), "--in", str(plan), "--out", str(tmp_path / "out")]) == 3
     assert "never localised" in capsys.readouterr().err
     assert json.loads((tmp_path / "out" / "summary.json").read_text())["localised"] == 0
@@ -234,6 +235,27 @@ def test_a_grid_of_somebody_else_is_read_by_its_own_thresholds(log, tmp_path):
         assert by(what, "localize", log, "--in", tmp_path / "plan" / "map.yaml", "--start", "-1,-0.3,0", "--out",
                   tmp_path / what) == (0, "")
     assert (tmp_path / "program" / "poses.csv").read_bytes() == (tmp_path / "python" / "poses.csv").read_bytes()
+
+
+def test_our_own_sheet_is_a_plan_in_metres_of_the_map(log, plan):
+    drawing, sheet = (cca_mrpt.localize(log, plan / f"plan.{kind}", START) for kind in ("dxf", "svg"))
+    assert len(sheet) == 20 and sheet.summary["plan"]["lines"] == drawing.summary["plan"]["lines"]
+    assert sheet.summary["plan"]["extent_m"] == pytest.approx(drawing.summary["plan"]["extent_m"], abs=1e-3)
+    assert sheet.poses == pytest.approx(drawing.poses, abs=1e-3)
+
+
+def test_a_scale_is_heeded_or_refused(log, plan, tmp_path):
+    with open(plan / "lines.csv") as file:
+        rows = [row.split(",")[:4] for row in file.read().split()]
+    for row in rows[1:]:
+        row[:] = [f"{1000 * float(number):.1f}" for number in row]
+    (tmp_path / "mm.csv").write_text("\n".join(",".join(row) for row in rows) + "\n")
+    assert len(cca_mrpt.localize(log, tmp_path / "mm.csv", START, scale=1e-3)) == 20
+    cca_mrpt.map(log, origin=(52.5, 13.4, 0.0)).save(tmp_path / "earth")
+    cca_mrpt.map(log, pose="slam").save(tmp_path / "slam")
+    for refused in plan / "map.yaml", tmp_path / "slam" / "map.slam", tmp_path / "earth" / "lines.geojson":
+        with pytest.raises(ValueError, match=f"{refused.name}: .*a scale is for"):
+            cca_mrpt.localize(log, refused, START, scale=2.0)
 
 
 @pytest.mark.parametrize("arguments, named", [
@@ -273,7 +295,7 @@ def test_the_program_renders_the_same_page(log, tmp_path):
         cca_mrpt.map(log, pose=pose).save(tmp_path / name)
     for beside in [], ["--beside", tmp_path / "b"]:
         for what in "program", "python":
-            status, said = by(what, "render", tmp_path / "a", "--html", *beside, "--out", tmp_path / f"{what}.html")
+            status, said = by(what, "render", tmp_path / "a", "--html", *beside, "--force", "--out", tmp_path / f"{what}.html")
             assert status == 0, said
         assert (tmp_path / "program.html").read_bytes() == (tmp_path / "python.html").read_bytes()
     assert cca_mrpt.replay_page(tmp_path / "a", tmp_path / "b" / "replay.html") == (tmp_path / "python.html").read_text()
@@ -330,6 +352,17 @@ def test_nothing_is_overwritten_unasked(log, plan, tmp_path, capsys):
     shutil.rmtree(tmp_path / "poses")
 
 
+@pytest.mark.parametrize("what", ["python", pytest.param("program", marks=needs_program)])
+def test_a_map_in_which_no_place_was_found_is_not_lost(log, tmp_path, what):
+    cca_mrpt.map(log, pose="slam").save(tmp_path / "map")
+    before = (tmp_path / "map" / "map.slam").read_bytes()
+    for _ in range(2):
+        status, said = by(what, "map", log, "--resume", tmp_path / "map", "--out", tmp_path / "map", "--force")
+        assert status == 0 and "this is the map of the log alone" in said
+    assert (tmp_path / "map" / "earlier.slam").read_bytes() == before
+    assert (tmp_path / "map" / "earlier-2.slam").exists()
+
+
 class Stopped(Exception):
     pass
 
@@ -349,6 +382,57 @@ def test_ctrl_c_ends_what_reads_a_log(two_drives):
         signal.setitimer(signal.ITIMER_REAL, 0)
         signal.signal(signal.SIGALRM, before)
     assert operator.length_hint(scans) > 0
+
+
+def test_ctrl_c_ends_the_last_pass(two_drives):
+    end = [0.0]
+
+    def stop(*_):
+        raise Stopped
+
+    def records(alarm):
+        for _ in range(30):
+            yield from two_drives[0]
+        end[0] = time.monotonic()
+        signal.setitimer(signal.ITIMER_REAL, alarm)
+
+    before = signal.signal(signal.SIGALRM, stop)
+    try:
+        cca_mrpt.map(records(0), pose="slam")
+        pass_s = time.monotonic() - end[0]
+        with pytest.raises(Stopped):
+            cca_mrpt.map(records(0.1 * pass_s), pose="slam")
+        assert time.monotonic() - end[0] < 0.5 * pass_s
+    finally:
+        signal.setitimer(signal.ITIMER_REAL, 0)
+        signal.signal(signal.SIGALRM, before)
+
+
+class InterruptedLog(cca_mrpt.logs.Log):
+    """A log at whose fiftieth scan somebody presses Ctrl-C."""
+
+    def __iter__(self):
+        for number, record in enumerate(super().__iter__()):
+            if number == 50:
+                os.kill(os.getpid(), signal.SIGINT)
+            yield record
+
+
+@pytest.mark.parametrize("words, said", [
+    (["map", "LOG"], "the map so far is in"), (["localize", "LOG", "--in", "MAP"], "the poses so far are in"),
+])
+def test_an_interrupted_command_saves_what_it_has(monkeypatch, capsys, tmp_path, two_logs, two_maps, words, said):
+    for module in "maps", "__main__":
+        monkeypatch.setattr(f"cca_mrpt.{module}.read_log", lambda path, **_: InterruptedLog(os.fspath(path)))
+    before = signal.getsignal(signal.SIGINT)
+    words = [{"LOG": str(two_logs[0]), "MAP": str(two_maps[0])}.get(word, word) for word in words]
+    assert main([*words, "--out", str(tmp_path / "out")]) == 1
+    summary = json.loads((tmp_path / "out" / "summary.json").read_text())
+    assert not summary["finished"] and 0 < summary["scans"] < 80 and (tmp_path / "out" / "poses.csv").exists()
+    assert f"interrupted after {summary['scans']} scans; {said}" in capsys.readouterr().err
+    assert signal.getsignal(signal.SIGINT) is before
+    with pytest.raises(KeyboardInterrupt):  # what is no command is told at once
+        cca_mrpt.map(InterruptedLog(str(two_logs[0])))
 
 
 def test_an_interrupted_command_says_so(monkeypatch, capsys, tmp_path, two_logs):
@@ -377,12 +461,18 @@ def test_two_runs_do_not_mix_their_files(two_maps, two_logs, tmp_path):
     (2, "argument --out: is empty", ["plan", "MAP", "--out", ""]),
     (1, "labels.csv: No such file or directory", ["plan", "MAP", "--out", "plan", "--labels", "labels.csv"]),
     (1, "nowhere: No such file or directory", ["render", "nowhere", "--out", "page.html"]),
+    (1, "empty.html: is there already (--force overwrites it)", ["render", "MAP", "--out", "empty.html"]),
+    (1, "empty.html: is no folder", ["map", "LOG", "--out", "empty.html"]),
+    (1, "empty.html: is no folder", ["localize", "LOG", "--in", "MAP", "--out", "empty.html/poses"]),
+    (1, "a.json: is a folder", ["evaluate", "MAP", "--log", "LOG", "--out", "a.json", "--force"]),
     (1, "empty.log: is empty", ["map", "empty.log", "--out", "out"]),
     (1, "map/lines.csv: is there already (--force overwrites it)", ["map", "LOG", "--out", "map"]),
 ])
 def test_what_is_wrong_is_named(status, told, words, two_maps, two_logs, tmp_path, monkeypatch, capsys):
     monkeypatch.chdir(tmp_path)
-    (tmp_path / "empty.log").touch()
+    for name in "empty.log", "empty.html":
+        (tmp_path / name).touch()
+    (tmp_path / "a.json").mkdir()
     shutil.copytree(two_maps[0], "map")
     with contextlib.ExitStack() as stack:
         got = None

@@ -2,6 +2,7 @@
 """The one pipeline, from Python: the same map as the program's, whoever brings the scans."""
 import copy
 import json
+import os
 import pickle
 import shutil
 import subprocess
@@ -108,6 +109,16 @@ def test_maps_are_not_overwritten_unasked(log, tmp_path):
     assert not (tmp_path / "map" / "graph.g2o").exists()
 
 
+@pytest.mark.parametrize("name", ["lines.svg", "map.slam", "summary.json"])
+def test_a_folder_that_has_the_name_of_a_file_stops_all(log, tmp_path, name):
+    """Found when half of the files are written, it would leave two maps mixed."""
+    (tmp_path / "map" / name).mkdir(parents=True)
+    made = cca_mrpt.map(log)
+    with pytest.raises(IsADirectoryError, match=f"{name}: is a folder"):
+        made.save(tmp_path / "map", force=True)
+    assert os.listdir(tmp_path / "map") == [name]
+
+
 def test_what_is_no_map_is_named(tmp_path):
     with pytest.raises(FileNotFoundError, match="lines.csv: no such file"):
         cca_mrpt.load(tmp_path)
@@ -117,12 +128,20 @@ def test_what_is_no_map_is_named(tmp_path):
 
 
 @pytest.mark.parametrize("name, damage, message", [
-    ("lines.csv", b"", "is empty"),
-    ("poses.csv", b"", "is empty"),
+    ("lines.csv", b"", "not a line map"),
+    ("poses.csv", b"", "no column stamp"),
+    ("poses.csv", b"stamp,x,y,heading\n1,2,3,4\n", "no column theta"),
     ("lines.csv", b"id,x1\n1,\x80\n", "no text"),
-    ("lines.csv", b"id,x1\n1,2\n3\n", "line 3: is damaged: 2 values are needed"),
+    ("lines.csv", b"x1,y1,x2,y2\n1,2,3,4\n5\n", "row 3, column y1: missing"),
+    ("lines.csv", b"x1,y1,x2,y2\n1,2,3,1e300\n", r"row 2, column y2: '1e300' must be a number in \[-1e8, 1e8\] m"),
+    ("poses.csv", b"stamp,x,y,theta\n1,2\n", "line 2: is damaged: 4 values are needed"),
+    ("poses.csv", b"stamp,x,y,theta\n1,1e300,3,4\n", "line 2: is damaged: finite numbers are needed"),
+    ("arcs.csv", b"", "no column line_ids"),
+    ("arcs.csv", b"x,y,radius,start_deg,sweep_deg,line_ids\n1,2,3,4,5,6 7\n1,2,3,4,5,six\n", "line 3: is damaged: .*six"),
+    ("map.yaml", b"\x80\x00\xff", "no text"),
+    ("map.yaml", b"image: map.pgm\nresolution: 1.2.3\norigin: [0, 0, 0]\n", "no map of map_server"),
     ("poses.csv", b"stamp,x,y,theta\n1,2,nan,4\n", "line 2: is damaged: finite numbers are needed"),
-    ("poses.csv", b"stamp,x,y,theta\n1,2,a,4\n", "line 2: is damaged, or no file of a map"),
+    ("poses.csv", b"stamp,x,y,theta\n1,2,a,4\n", "line 2: is damaged: could not convert"),
     ("summary.json", b"{", "no JSON"),
     ("summary.json", b"[]", "is no summary of a map"),
     ("summary.json", b'{"unplaced_scans": 5}', "is no summary of a map"),

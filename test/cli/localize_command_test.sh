@@ -21,7 +21,7 @@ open("room.yaml", "w").write("image: room.pgm\nresolution: 0.05\norigin: [-0.5, 
 EOF
 check "a room is explored" "$program" explore room.yaml --out map --quiet
 
-for plan in room.yaml map map/map.slam map/lines.geojson map/lines.svg map/lines.dxf map/map.yaml; do
+for plan in room.yaml map map/map.slam map/lines.geojson map/lines.svg map/lines.dxf map/map.yaml map/plan.dxf map/plan.svg; do
   out=in_$(echo "$plan" | tr / _)
   check "the drive is localised in $plan" "$program" localize map/run.rawlog --in $plan --out "$out"
   check "it is right in $plan" python3 - "$out" <<'EOF'
@@ -80,13 +80,16 @@ echo "x1,y1,x2,y2
 0,11,0,0
 1,3,2,3
 1,3,1,4" >other.csv
-refuses 3 "was never localised in other.csv" "$program" localize map/run.rawlog --in other.csv --out elsewhere
+refuses 3 "was never localised in other.csv (6 lines within 3.0 x 11.0 m)" "$program" localize map/run.rawlog --in other.csv --out elsewhere
 [ -s elsewhere/summary.json ] || { echo "FAILED: no summary.json of a robot that was not found"; failed=1; }
 
 refuses 1 "nowhere.dxf: cannot be read" "$program" localize map/run.rawlog --in nowhere.dxf --out none
 refuses 1 "is no plan by its name" "$program" localize map/run.rawlog --in room.pgm --out none
 printf 'x1,y1,x2\n0,0,1\n' >short.csv
 refuses 1 "short.csv: not a line map: no column y2" "$program" localize map/run.rawlog --in short.csv --out none
+refuses 1 "room.yaml: tells its own metres" "$program" localize map/run.rawlog --in room.yaml --scale 2 --out none
+printf '\200\000\377' >bytes.yaml
+refuses 1 "bytes.yaml: " "$program" localize map/run.rawlog --in bytes.yaml --out none
 refuses 1 "nothing.log" "$program" localize nothing.log --in room.yaml --out none
 refuses 2 "--in" "$program" localize map/run.rawlog --out none
 refuses 2 "--start" "$program" localize map/run.rawlog --in room.yaml --out none --start 1,2

@@ -49,6 +49,10 @@ for w in walls:
 END
 refuses 1 "is there already" "$program" map room.log --out map
 check "--force overwrites" "$program" map room.log --out map --force
+cp -r map mixed && rm mixed/rooms.csv && mkdir mixed/rooms.csv
+refuses 1 "rooms.csv: is a folder" "$program" map room.log --out mixed --pose odometry --force
+check "and left the map that is there" cmp mixed/lines.csv map/lines.csv
+check "its summary, too" cmp mixed/summary.json map/summary.json
 check "the same log gives the same bytes" "$program" map room.log.gz --out again --quiet
 for file in lines.csv arcs.csv lines.geojson lines.svg lines.dxf map.pgm map.png; do
   cmp -s "map/$file" "again/$file" || [ $file = map.png ] || { echo "FAILED: $file differs"; failed=1; }
@@ -90,7 +94,7 @@ refuses 1 "map.slam: is not there" "$program" map room.log --resume odometry --o
 [ ! -e none ] || { echo "FAILED: a folder was left without a map"; failed=1; }
 
 mkdir -p taken/lines.csv
-refuses 1 "lines.csv: is there already" "$program" map room.log --out taken
+refuses 1 "lines.csv: is a folder" "$program" map room.log --out taken
 
 check "extract writes segments" "$program" extract room.log --out lines.csv
 refuses 1 "is there already" "$program" extract room.log --out lines.csv
@@ -102,6 +106,10 @@ check "evaluate overwrites where it may" "$program" evaluate map/lines.csv --log
 head -1 lines.csv | grep -q '^scan_id,x1,y1,x2,y2' || { echo "FAILED: header of extract"; failed=1; }
 
 check "render draws a map over its scans" "$program" render map/lines.csv --log room.log --out a.png --size 500
+cp a.png drawn.png
+refuses 1 "a.png: is there already" "$program" render map/lines.csv --out a.png
+check "and left it" cmp a.png drawn.png
+check "render --force overwrites" "$program" render map/lines.csv --log room.log --out a.png --size 500 --force
 check "render draws a part" "$program" render map/lines.csv --view 0,0,3,2 --out b.png --size 300
 check "render draws it solid" "$program" render map/lines.csv --3d --out c.png --size 400
 check "render draws a part solid" "$program" render map/lines.csv --3d --view 0,0,3,2 --out part.png --size 400

@@ -318,6 +318,20 @@ TEST(MapFolder, NoFileThatIsThereIsOverwrittenUnasked) {
   }
 }
 
+// Found when half of the files are written, it would leave two maps mixed.
+TEST(MapFolder, AFolderThatHasTheNameOfAFileIsRefusedBeforeAll) {
+  for (const char* name : {"lines.svg", "rooms.png", "run.rawlog"}) {
+    const TemporaryFolder folder;
+    fs::create_directory(folder / name);
+    try {
+      static_cast<void>(prepareMapFolder(folder.path(), true, {"run.rawlog"}));
+      FAIL() << name;
+    } catch (const std::runtime_error& error) {
+      EXPECT_THAT(error.what(), HasSubstr(folder / name + ": is a folder"));
+    }
+  }
+}
+
 TEST(MapFolder, HoldsNothingOfTheMapThatItHeldBefore) {
   const TemporaryFolder folder;
   for (const char* name : {"map.slam", "poses.tum", "graph.g2o", "poses.csv", "run.rawlog"}) {

@@ -9,6 +9,7 @@
 
 #include "io/files/atomic_file.hpp"
 #include "io/lines/line_formats.hpp"
+#include "io/plans/plan_formats.hpp"
 #include "temporary_folder.hpp"
 
 namespace cca {
@@ -138,9 +139,10 @@ TEST(PlanReader, ReadsTheShapesOfAnSvgByTheTransformsOfItsGroups) {
     <line transform="rotate(90)" x1="1" y1="0" x2="2" y2="0"/>
     <polygon points="0,0 3,0 3,3"/>
     <path d="M10 0h2v1H10zm0 5 l1,0 1 0"/>
+    <g id="furniture"><path d="M20 0h1"/></g>
     <text x="1" y="1">a &gt; b</text>
     </svg>)svg");
-  EXPECT_EQ(plan.lines.size(), 11U);
+  EXPECT_EQ(plan.lines.size(), 12U);
   EXPECT_TRUE(holds(plan, {1, -2}, {3, -2}));
   EXPECT_TRUE(holds(plan, {0, -1}, {0, -2}));
   EXPECT_TRUE(holds(plan, {3, -3}, {0, 0}));
@@ -159,13 +161,82 @@ TEST(PlanReader, SaysWhatIsWrongWithAnSvg) {
               HasSubstr("1 paths with C"));
 }
 
+/// A wall of two faces, one of one face, a presumed one; a room, a door and a table, far from (0,
+/// 0).
+FloorPlan smallPlan() {
+  const Eigen::Vector2d p(4321.0, -98765.0);
+  FloorPlan plan;
+  plan.walls.resize(3);
+  plan.walls[0] = {1, p, p + Eigen::Vector2d(8, 0), 0.2, {}, {}, false};
+  plan.walls[1] = {2, p + Eigen::Vector2d(8, 0), p + Eigen::Vector2d(8, 5), 0.0, {}, {}, false};
+  plan.walls[2] = {3, p + Eigen::Vector2d(0, 5), p + Eigen::Vector2d(1, 4), 0.0, {}, {}, true};
+  PlanRoom room;
+  room.id = 1;
+  room.outline = {p, p + Eigen::Vector2d(8, 0), p + Eigen::Vector2d(8, 5),
+                  p + Eigen::Vector2d(0, 5)};
+  room.area = 40.0;
+  room.label = p + Eigen::Vector2d(4, 2);
+  plan.rooms = {room};
+  PlanOpening door;
+  door.a = p + Eigen::Vector2d(0, 1);
+  door.b = p + Eigen::Vector2d(0, 2);
+  plan.openings = {door};
+  PlanFurniture table;
+  table.outline = {p + Eigen::Vector2d(2, 2), p + Eigen::Vector2d(3, 2), p + Eigen::Vector2d(3, 3)};
+  plan.furniture = {table};
+  return plan;
+}
+
+TEST(PlanReader, OurOwnSheetGivesTheLinesOfOurOwnDrawingInTheMapsFrame) {
+  const FloorPlan plan = smallPlan();
+  const PlanFile sheet = readAs("plan.svg", planSvg(plan, "walls", GeoReference{52.5, 13.4, 20.0}));
+  const PlanFile drawing = readAs("plan.dxf", planDxf(plan));
+  ASSERT_EQ(sheet.lines.size(), 9U);
+  ASSERT_EQ(drawing.lines.size(), 9U);
+  EXPECT_EQ(sheet.not_understood, "");
+  for (const PlanLine& line : drawing.lines) {
+    EXPECT_TRUE(std::any_of(sheet.lines.begin(), sheet.lines.end(), [&](const PlanLine& drawn) {
+      return (drawn.first - line.first).norm() < 2e-4 && (drawn.second - line.second).norm() < 2e-4;
+    })) << line.first.transpose();
+  }
+}
+
+TEST(PlanReader, AScaleIsHeededOrRefused) {
+  const TemporaryFolder folder;
+  writeFile(folder / "lines.csv", "x1,y1,x2,y2,sigma_offset,sigma_angle_deg\n0,0,300,100,2,1\n");
+  for (const std::string& path : {folder.path(), folder / "lines.csv"}) {
+    const PlanFile plan = readPlan(path, 0.01);
+    EXPECT_TRUE(holds(plan, {0, 0}, {3, 1}));
+    EXPECT_NEAR(plan.sigmas.at(0).offset, 0.02, 1e-12);
+  }
+  EXPECT_TRUE(
+      holds(readAs("a.svg", "<svg><line x2='200' y2='-100'/></svg>", 0.01), {0, 0}, {2, 1}));
+  const std::string line = R"({"type": "LineString", "coordinates": [[0, 0], [200, 100]])";
+  EXPECT_TRUE(holds(readAs("a.json", line + "}", 0.01), {0, 0}, {2, 1}));
+  const std::pair<const char*, std::string> refused[] = {
+      {"a.slam", ""}, {"a.yaml", ""}, {"a.json", line + R"(, "origin": [52.5, 13.4, 0]})"}};
+  for (const auto& [name, text] : refused) {
+    try {
+      readAs(name, text, 0.01);
+      ADD_FAILURE() << name;
+    } catch (const std::runtime_error& error) {
+      EXPECT_THAT(error.what(), AllOf(HasSubstr(name), HasSubstr("a scale is for"))) << name;
+    }
+  }
+}
+
+TEST(PlanReader, SaysHowMuchAPlanIs) {
+  EXPECT_EQ(sizeInWords({{{0, 0}, {3, 1}}, {{-1, 2}, {0, 0}}}), "2 lines within 4.0 x 2.0 m");
+}
+
 TEST(PlanReader, TellsWhichEndingsItKnows) {
   EXPECT_THAT(whyNot("a.pdf", "%PDF"), HasSubstr("allowed are"));
   EXPECT_THROW(readPlan("/nowhere/a.dxf"), std::runtime_error);
 }
 
 TEST(PlanReader, RefusesNumbersThatAreFarFromAnyBuilding) {
-  EXPECT_THAT(whyNot("a.csv", "x1,y1,x2,y2\n0,0,1e12,0\n"), HasSubstr("1e8 m"));
+  EXPECT_THAT(whyNot("a.csv", "x1,y1,x2,y2\n0,0,1e12,0\n"), HasSubstr("[-1e8, 1e8] m"));
+  EXPECT_THAT(whyNot("a.svg", "<svg><line x1='1e12'/></svg>"), HasSubstr("1e8 m"));
   EXPECT_THAT(
       whyNot("a.csv", "x1,y1,x2,y2\n0,0,1,0\n4e5,5.8e6,4e5,5.9e6\n"),
       AllOf(HasSubstr("between (0, 0) and (400000, 5.9e+06) m"), HasSubstr("1000 m apart")));

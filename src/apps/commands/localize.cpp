@@ -17,6 +17,7 @@
 #include "commands.hpp"
 #include "io/files/atomic_file.hpp"
 #include "io/files/stray_places.hpp"
+#include "io/lines/line_formats.hpp"
 #include "io/logs/measurements.hpp"
 #include "io/maps/map_folder.hpp"
 #include "io/maps/map_picture.hpp"
@@ -58,9 +59,9 @@ void write(const LocalizeOptions& options, const PlanFile& plan, const Localized
 }
 
 void report(const LocalizeOptions& options, const PlanFile& plan, const LocalizedLog& log) {
-  std::printf("%zu lines of %s (%s); %zu of %zu scans localised, lost %d time(s)\n",
-              plan.lines.size(), options.plan.c_str(), plan.kind.c_str(), log.poses().size(),
-              log.scans(), log.timesLost());
+  std::printf("%s: %s (%s); %zu of %zu scans localised, lost %d time(s)\n", options.plan.c_str(),
+              sizeInWords(plan.lines).c_str(), plan.kind.c_str(), log.poses().size(), log.scans(),
+              log.timesLost());
   if (!plan.not_understood.empty()) {
     std::printf("the plan also holds %s, which is no line\n", plan.not_understood.c_str());
   }
@@ -105,8 +106,7 @@ void localize(const LocalizeOptions& options) {
                              " scans; the poses so far are in " + options.out);
   }
   if (log.poses().empty()) {
-    throw Shortcoming(options.log + ": the robot was never localised in " + options.plan +
-                      (log.whyNot().empty() ? "" : ": " + log.whyNot()));
+    throw Shortcoming(options.log + ": " + log.shortcoming(plan, options.plan));
   }
 }
 
@@ -137,7 +137,7 @@ void addLocalizeCommand(CLI::App& program) {
       ->check(CLI::Range(-kFarthestPlan, kFarthestPlan));
   command
       ->add_option("--scale", options->scale,
-                   "metres of a unit of the drawing, where it does not tell them")
+                   "metres of a unit of the drawing or .csv, instead of those that it tells")
       ->check(CLI::Range(1e-6, 1e6));
   command->add_flag("--force", options->force, "overwrite what is there");
   command->add_flag("--quiet", options->quiet, "print nothing but errors");

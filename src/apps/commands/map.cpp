@@ -90,6 +90,14 @@ std::unique_ptr<LivePage> openPage(const MapOptions& options, const LocalLog& fi
   return serve(*options.serve, settings);
 }
 
+/// Where no place of the earlier map was found, its memory may be the one that is in the way.
+void keepEarlier(const MapOptions& options, const MapProducts& map) {
+  if (options.resume.empty() || map.summary["found_in_memory"].get<bool>()) return;
+  const std::string kept = keepMemory(options.out);
+  if (kept.empty()) return;
+  std::fprintf(stderr, "cca-mrpt: the map.slam that was there is kept: %s\n", kept.c_str());
+}
+
 void makeMap(const MapOptions& options, const Parameters& parameters) {
   const auto begin = std::chrono::steady_clock::now();
   const Interruption interruption;
@@ -114,6 +122,7 @@ void makeMap(const MapOptions& options, const Parameters& parameters) {
   map.place = options.place;
   const std::chrono::duration<double> mapping = std::chrono::steady_clock::now() - begin;
   map.summary["mapping_s"] = mapping.count();
+  keepEarlier(options, map);
   writeMapFolder(options.out, map);
   if (page) page->finish(map.lines, mapped->isInterrupted() ? "interrupted" : "all is mapped");
   const std::chrono::duration<double> all = std::chrono::steady_clock::now() - begin;

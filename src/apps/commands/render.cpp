@@ -37,7 +37,7 @@ struct RenderOptions {
   PictureOptions picture;
   int size = 0;  ///< pixels; 0: by kind
   bool no_background = false, no_trajectory = false, no_caption = false, video = false,
-       solid = false, html = false;
+       solid = false, html = false, force = false;
   double seconds = 10.0;
 };
 
@@ -158,6 +158,7 @@ void renderPage(const RenderOptions& options) {
 }
 
 void render(RenderOptions options, const Parameters& parameters) {
+  if (!options.out.empty()) requireNew(options.out, options.force);
   options.picture.longest_side = options.size > 0 ? options.size : options.video ? 800 : 1600;
   if (options.solid && options.picture.longest_side > kLargestSolidPicture) {
     throw CLI::ValidationError("--size", "a picture in 3-D has at most " +
@@ -209,6 +210,7 @@ void addRenderCommand(CLI::App& program) {
   command->add_option("--out", options->out,
                       "PNG to write; with --video a .gif or .mp4; with --html a page "
                       "[the folder's replay.html]");
+  command->add_flag("--force", options->force, "overwrite what --out names");
   command->add_option("--size", options->size, "pixels of the longer side [1600; video 800]")
       ->check(CLI::Range(kSmallestPicture, kLargestPicture));
   command->add_option("--view", options->view, "X0,Y0,X1,Y1: what to show, m; default: all")

@@ -62,12 +62,22 @@ std::string LocalizedLog::whyNot() const {
   return std::to_string(places.size()) + " places look like what was seen";
 }
 
+std::string LocalizedLog::shortcoming(const PlanFile& plan, const std::string& path) const {
+  if (!poses_.empty()) return {};
+  return "the robot was never localised in " + path + " (" + sizeInWords(plan.lines) +
+         "): " + whyNot();
+}
+
 void LocalizedLog::describe(const PlanFile& plan, const std::string& path,
                             nlohmann::ordered_json& summary) const {
   double length = 0.0;
   for (const auto& [a, b] : plan.lines) length += (b - a).norm();
-  summary["plan"] = {
-      {"file", path}, {"kind", plan.kind}, {"lines", plan.lines.size()}, {"length_m", length}};
+  const Eigen::Vector2d extent = boundsOf(plan.lines).sizes();
+  summary["plan"] = {{"file", path},
+                     {"kind", plan.kind},
+                     {"lines", plan.lines.size()},
+                     {"length_m", length},
+                     {"extent_m", {extent.x(), extent.y()}}};
   if (!plan.not_understood.empty()) summary["plan"]["not_understood"] = plan.not_understood;
   summary["finished"] = !interrupted_;
   summary["scans"] = scans_;

@@ -36,8 +36,8 @@ class LocalizedLog {
   double residual() const { return std::sqrt(residual_sq_.mean()); }  ///< m, rms
   bool isInterrupted() const { return interrupted_; }
   const std::string& warnings() const { return warnings_; }
-  /// Why the robot is not localised now, for people; empty where nothing is known of it.
-  std::string whyNot() const;
+  /// Where the robot was localised nowhere: why, for people; else empty. @param path  of the plan.
+  std::string shortcoming(const PlanFile& plan, const std::string& path) const;
   /// What summary.json tells of it. @param path  of the plan.
   void describe(const PlanFile& plan, const std::string& path,
                 nlohmann::ordered_json& summary) const;
@@ -51,6 +51,7 @@ class LocalizedLog {
     }
     double mean() const { return count > 0.0 ? sum / count : 0.0; }
   };
+  std::string whyNot() const;
   void note(const Estimate& estimate, const LogRecord& record);
 
   KnownMap localiser_;

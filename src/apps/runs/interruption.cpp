@@ -3,12 +3,15 @@
 
 #include <csignal>
 #include <cstdio>
+#include <iterator>
 
 namespace cca::apps {
 namespace {
 
 volatile std::sig_atomic_t interrupted = 0;
 constexpr int kSignals[] = {SIGINT, SIGTERM, SIGHUP};
+
+struct sigaction before[std::size(kSignals)];
 
 extern "C" void remember(int signal) {
   interrupted = 1;
@@ -19,16 +22,15 @@ extern "C" void remember(int signal) {
 
 Interruption::Interruption() {
   interrupted = 0;
-  for (const int signal : kSignals) {
-    const bool ignored = std::signal(signal, remember) == SIG_IGN;
-    if (ignored && signal == SIGHUP) std::signal(signal, SIG_IGN);  // nohup
+  for (std::size_t k = 0; k < std::size(kSignals); ++k) {
+    sigaction(kSignals[k], nullptr, &before[k]);
+    const bool is_nohup = kSignals[k] == SIGHUP && before[k].sa_handler == SIG_IGN;
+    if (!is_nohup) std::signal(kSignals[k], remember);
   }
 }
 
 Interruption::~Interruption() {
-  for (const int signal : kSignals) {
-    if (std::signal(signal, SIG_DFL) == SIG_IGN) std::signal(signal, SIG_IGN);
-  }
+  for (std::size_t k = 0; k < std::size(kSignals); ++k) sigaction(kSignals[k], &before[k], nullptr);
 }
 
 bool Interruption::requested() const { return interrupted != 0; }

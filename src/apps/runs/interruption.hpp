@@ -3,8 +3,9 @@
 
 namespace cca::apps {
 
-/// While one exists, Ctrl-C, SIGTERM and a terminal that is closed do not end the program but are
-/// remembered, so that it can save what it has; a second one ends it at once.
+/// While one exists, Ctrl-C, SIGTERM and a terminal that is closed do not end the process but are
+/// remembered, so that it can save what it has; a second one ends it at once. Afterwards they do
+/// what they did before. One at a time.
 class Interruption {
  public:
   Interruption();

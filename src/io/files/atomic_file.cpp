@@ -90,6 +90,7 @@ void AtomicFile::commit() {
 }
 
 void requireNew(const std::string& path, bool overwrite) {
+  if (fs::is_directory(path)) throw std::runtime_error(path + ": is a folder");
   if (overwrite || !fs::exists(path) || isDevice(path)) return;
   throw std::runtime_error(path + ": is there already (--force overwrites it)");
 }

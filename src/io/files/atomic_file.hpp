@@ -29,8 +29,8 @@ class AtomicFile {
   std::string path_, target_, temporary_;
 };
 
-/// @throws std::runtime_error where something is there already that must not be overwritten; into
-/// devices and pipes anybody may write.
+/// @throws std::runtime_error where something is there already that must not be overwritten, or a
+/// folder, which nothing overwrites; into devices and pipes anybody may write.
 void requireNew(const std::string& path, bool overwrite);
 
 /// Removes what AtomicFiles have left in a folder whose program was killed.

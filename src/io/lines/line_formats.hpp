@@ -10,6 +10,8 @@
 
 namespace cca {
 
+inline constexpr double kFarthestPlan = 1e8;  ///< m, from (0, 0): beyond, it is in other units
+
 /// A line map as CSV, header
 /// `x1,y1,x2,y2,id,support,length,sigma_offset,sigma_angle_deg,kind,share`: end points [m, map
 /// frame], stable id, laser returns, length [m], the standard deviations of the line's lateral
@@ -19,7 +21,8 @@ std::string linesCsv(const std::vector<MapLine>& lines);
 
 /// Reads linesCsv() back, and any CSV whose header names x1, y1, x2 and y2.
 /// @param name  of the file, for messages.
-/// @throws std::runtime_error naming file, row and column of what is missing or no finite number.
+/// @throws std::runtime_error naming file, row and column of what is missing, no number, or farther
+///         than kFarthestPlan.
 std::vector<MapLine> readLinesCsv(const std::string& text, const std::string& name);
 
 /// A line map as a GeoJSON FeatureCollection: longitude and latitude where the place of the map on

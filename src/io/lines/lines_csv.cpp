@@ -48,12 +48,13 @@ std::array<std::size_t, kColumns.size()> findColumns(const std::vector<std::stri
   return at;
 }
 
-double number(const std::string& cell, const std::string& where) {
+double number(const std::string& cell, double largest, const std::string& where) {
   double value = 0.0;
   const char* const end = cell.data() + cell.size();
   const auto result = std::from_chars(cell.data(), end, value);
-  if (result.ec != std::errc() || result.ptr != end || !(std::abs(value) <= kLargestValue)) {
-    throw std::runtime_error(where + ": '" + cell + "' must be a number in [-1e16, 1e16]");
+  if (result.ec != std::errc() || result.ptr != end || !(std::abs(value) <= largest)) {
+    throw std::runtime_error(where + ": '" + cell + "' must be a number in " +
+                             (largest < kLargestValue ? "[-1e8, 1e8] m" : "[-1e16, 1e16]"));
   }
   return value;
 }
@@ -114,7 +115,7 @@ std::vector<MapLine> readLinesCsv(const std::string& text, const std::string& na
       const std::string where =
           name + ", row " + std::to_string(number_of_row) + ", column " + kColumns[k];
       if (at[k] >= values.size()) throw std::runtime_error(where + ": missing");
-      value[k] = number(values[at[k]], where);
+      value[k] = number(values[at[k]], k < kNeeded ? kFarthestPlan : kLargestValue, where);
     }
     MapLine line;
     line.segment.start = {value[0], value[1]};

@@ -33,7 +33,15 @@ std::string roomsCsv(const FloorPlan& plan);
 /// (presumed ones), A-DOOR, A-OPNG, A-AREA (rooms), A-AREA-IDEN (their names and areas), A-FURN.
 std::string planDxf(const FloorPlan& plan);
 
-/// A floor plan to scale as SVG, with names, areas, widths of doors, dimensions and a legend.
+/// How a plan of ours is known among other drawings, and which groups of it a laser may see.
+inline constexpr const char *kPlanSvgId = "cca_mrpt_plan", *kWallLayer = "walls",
+                            *kFurnitureLayer = "furniture";
+/// Its attribute that places the sheet: from millimetres of the sheet to metres of the map frame, y
+/// down, as a transform.
+inline constexpr const char* kPlanSvgPlace = "data-to-metres";
+
+/// A floor plan to scale as SVG, with names, areas, widths of doors, dimensions and a legend; in
+/// groups by what they show.
 /// @param title  for people.
 /// @param place  an arrow shows where north is; nothing: no arrow. A scale bar is always there.
 std::string planSvg(const FloorPlan& plan, const std::string& title,

@@ -4,6 +4,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
@@ -37,19 +38,22 @@ std::string endingOf(const std::filesystem::path& path) {
   return ending;
 }
 
-std::vector<PlanLine> planLinesOf(const std::vector<MapLine>& lines) {
+/// @param scale  m, of their unit.
+std::vector<PlanLine> planLinesOf(const std::vector<MapLine>& lines, double scale = 1.0) {
   std::vector<PlanLine> plan;
-  for (const MapLine& line : lines) plan.emplace_back(line.segment.start, line.segment.end);
+  for (const MapLine& line : lines) {
+    plan.emplace_back(scale * line.segment.start, scale * line.segment.end);
+  }
   return plan;
 }
 
 /// Nothing where the file tells none: a plan that is true.
-std::vector<LineSigma> sigmasOf(const std::vector<MapLine>& lines) {
+std::vector<LineSigma> sigmasOf(const std::vector<MapLine>& lines, double scale) {
   std::vector<LineSigma> sigmas;
   for (const MapLine& line : lines) {
     const Eigen::Matrix2d& covariance = line.segment.covariance;
     if (!(covariance(0, 0) > 0.0 && covariance(1, 1) > 0.0)) return {};
-    sigmas.push_back({std::sqrt(covariance(0, 0)), std::sqrt(covariance(1, 1))});
+    sigmas.push_back({scale * std::sqrt(covariance(0, 0)), std::sqrt(covariance(1, 1))});
   }
   return sigmas;
 }
@@ -69,9 +73,14 @@ PlanFile readMemoryPlan(const std::string& path) {
 PlanFile read(const std::filesystem::path& path, double scale,
               const std::function<PlanFile(const std::string&)>& read_grid) {
   const std::string name = path.string(), ending = endingOf(path);
+  const bool is_grid = ending == ".yaml" || ending == ".yml";
+  if (scale > 0.0 && (is_grid || ending == ".slam")) {
+    throw std::runtime_error(name + ": tells its own metres; a scale is for drawings and .csv");
+  }
   if (ending == ".csv") {
     const std::vector<MapLine> lines = readLinesCsv(planText(path), name);
-    return {"CSV", planLinesOf(lines), "", sigmasOf(lines)};
+    const double unit = scale > 0.0 ? scale : 1.0;
+    return {"CSV", planLinesOf(lines, unit), "", sigmasOf(lines, unit)};
   }
   if (ending == ".slam") return readMemoryPlan(name);
   if (ending == ".geojson" || ending == ".json") {
@@ -79,7 +88,7 @@ PlanFile read(const std::filesystem::path& path, double scale,
   }
   if (ending == ".dxf") return readDxfPlan(planText(path), name, scale);
   if (ending == ".svg") return readSvgPlan(planText(path), name, scale);
-  if (ending == ".yaml" || ending == ".yml") return read_grid(name);
+  if (is_grid) return read_grid(name);
   throw std::runtime_error(name +
                            ": is no plan by its name; allowed are a map's folder, .csv, .slam, "
                            ".geojson, .json, .dxf, .svg and .yaml");
@@ -87,20 +96,20 @@ PlanFile read(const std::filesystem::path& path, double scale,
 
 /// @param lines  one at least.
 void checkExtent(const std::vector<PlanLine>& lines, const std::string& path) {
-  Eigen::AlignedBox2d bounds;
   for (const auto& [a, b] : lines) {
     const double farthest = std::max(a.cwiseAbs().maxCoeff(), b.cwiseAbs().maxCoeff());
     if (!(farthest <= kFarthestPlan)) {
       throw std::runtime_error(path +
                                ": a line ends more than 1e8 m from (0, 0), or at no finite place");
     }
-    bounds.extend(a).extend(b);
   }
+  const Eigen::AlignedBox2d bounds = boundsOf(lines);
   if (bounds.sizes().maxCoeff() <= kWidestPlan) return;
   std::ostringstream text;
-  text << path << ": its lines lie between (" << bounds.min().x() << ", " << bounds.min().y()
-       << ") and (" << bounds.max().x() << ", " << bounds.max().y() << ") m, more than "
-       << kWidestPlan << " m apart: it is in other units, or a line of it is astray";
+  text << path << ": its " << lines.size() << " lines lie between (" << bounds.min().x() << ", "
+       << bounds.min().y() << ") and (" << bounds.max().x() << ", " << bounds.max().y()
+       << ") m, more than " << kWidestPlan
+       << " m apart: it is in other units, or a line of it is astray";
   throw std::runtime_error(text.str());
 }
 
@@ -144,6 +153,20 @@ PlanFile readPlan(const std::string& path, double scale,
   }
   checkExtent(plan.lines, path);
   return plan;
+}
+
+Eigen::AlignedBox2d boundsOf(const std::vector<PlanLine>& lines) {
+  Eigen::AlignedBox2d bounds;
+  for (const auto& [a, b] : lines) bounds.extend(a).extend(b);
+  return bounds;
+}
+
+std::string sizeInWords(const std::vector<PlanLine>& lines) {
+  const Eigen::Vector2d size = boundsOf(lines).sizes();
+  char text[96];
+  std::snprintf(text, sizeof text, "%zu lines within %.1f x %.1f m", lines.size(), size.x(),
+                size.y());
+  return text;
 }
 
 std::vector<MapLine> mapLinesOf(const std::vector<PlanLine>& plan) {

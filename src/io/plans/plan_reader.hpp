@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <Eigen/Geometry>
 #include <functional>
 #include <string>
 #include <vector>
@@ -19,8 +20,6 @@ struct PlanFile {
   std::vector<LineSigma> sigmas;  ///< one a line, where the file tells (.csv of ours); else empty
 };
 
-inline constexpr double kFarthestPlan = 1e8;  ///< m, from (0, 0): beyond, it is in other units
-
 /// The plan that a map_server grid is. @throws std::runtime_error naming the file and the reason.
 PlanFile readGridPlan(const std::string& yaml_path);
 
@@ -34,15 +33,22 @@ PlanFile readGridPlan(const std::string& yaml_path);
 ///   ($INSUNITS; metres where it tells none). Layers that are off or frozen, and those of doors,
 ///   openings, areas, notes and of our trajectory, are left out;
 /// - .svg: line, polyline, polygon, rect and path (M, L, H, V, Z), by the transforms of its groups;
-///   y points down the page, and a user unit is a metre;
+///   y points down the page, and a user unit is a metre; of our plan.svg walls and furniture alone,
+///   where the map has them;
 /// - .yaml: a map_server grid: the faces of its occupied cells towards free ones.
 ///
-/// @param scale  m, of a unit of the drawing; 0: as the file tells, see above.
+/// @param scale  m, of a unit of the drawing or .csv; 0: as the file tells, see above.
 /// @param read_grid  how .yaml is read.
 /// @throws std::runtime_error naming the file and the rule that it breaks; also where it holds no
-///         line.
+///         line, and where it tells its own metres (.slam, .yaml, degrees) and a scale is given.
 PlanFile readPlan(const std::string& path, double scale = 0.0,
                   const std::function<PlanFile(const std::string&)>& read_grid = readGridPlan);
+
+/// m, map frame: the box that holds all. @param lines  one at least.
+Eigen::AlignedBox2d boundsOf(const std::vector<PlanLine>& lines);
+
+/// "12 lines within 8.0 x 6.0 m"
+std::string sizeInWords(const std::vector<PlanLine>& lines);
 
 /// The same lines as those of a map, for what draws such: numbered from 0, without support.
 std::vector<MapLine> mapLinesOf(const std::vector<PlanLine>& plan);

@@ -15,8 +15,13 @@ const std::set<std::string> kNoWalls{"trajectory", "poly_line", "arc", "room", "
 
 class GeoJsonPlan {
  public:
-  GeoJsonPlan(const nlohmann::json& document, double scale) : scale_(scale > 0.0 ? scale : 1.0) {
+  /// @param name  of the file, for messages.
+  GeoJsonPlan(const nlohmann::json& document, const std::string& name, double scale)
+      : scale_(scale > 0.0 ? scale : 1.0) {
     if (document.contains("origin")) {
+      if (scale > 0.0) {
+        throw std::runtime_error(name + ": is in degrees; a scale is for lengths");
+      }
       const auto& origin = document.at("origin");
       place_ = {origin.at(0).get<double>(), origin.at(1).get<double>(), origin.at(2).get<double>()};
     }
@@ -93,7 +98,7 @@ class GeoJsonPlan {
 }  // namespace
 
 PlanFile readGeoJsonPlan(const std::string& text, const std::string& name, double scale) try {
-  return GeoJsonPlan(nlohmann::json::parse(text), scale).plan();
+  return GeoJsonPlan(nlohmann::json::parse(text), name, scale).plan();
 } catch (const nlohmann::json::exception& error) {
   throw std::runtime_error(name + ": is no GeoJSON (RFC 7946) of lines: " + error.what());
 }

@@ -5,13 +5,15 @@
 #include <set>
 #include <stdexcept>
 
+#include "io/plans/plan_formats.hpp"
 #include "plan_reader_formats.hpp"
 
 namespace cca {
 namespace {
 
-/// Of our own files: no walls.
+/// Of our own line maps: no walls. Of our own floor plans: the only ones.
 const std::set<std::string> kNoWallIds{"trajectory", "scale", "north", "arcs"};
+const std::set<std::string> kPlanWallIds{kWallLayer, kFurnitureLayer};
 const std::set<std::string> kGroups{"svg", "g", "a", "switch"};
 /// What draws nothing where it stands.
 const std::set<std::string> kHidden{"defs", "symbol", "clipPath", "mask", "pattern", "marker"};
@@ -145,16 +147,16 @@ class SvgPlan {
     return value;
   }
 
-  Eigen::Affine2d transform() const {
+  Eigen::Affine2d transform(const char* key) const {
     Eigen::Affine2d all = Eigen::Affine2d::Identity();
-    const auto found = attributes_.find("transform");
+    const auto found = attributes_.find(key);
     if (found == attributes_.end()) return all;
     const std::string& text = found->second;
     for (std::size_t at = 0; at < text.size();) {
       const std::size_t open = text.find('(', at);
       if (open == std::string::npos) break;
       const std::size_t close = text.find(')', open);
-      if (close == std::string::npos) fail("transform=\"" + text + "\" lacks a )");
+      if (close == std::string::npos) fail(std::string(key) + "=\"" + text + "\" lacks a )");
       std::string kind = text.substr(at, open - at);
       kind.erase(0, std::min(kind.find_first_not_of(" ,\t\r\n"), kind.size()));
       std::vector<double> v;
@@ -187,10 +189,15 @@ class SvgPlan {
   }
 
   void take() {
-    const auto id = attributes_.find("id");
-    const bool is_hidden = levels_.back().is_hidden || kHidden.count(tag_) > 0 ||
-                           (id != attributes_.end() && kNoWallIds.count(id->second) > 0);
-    const Eigen::Affine2d here = levels_.back().transform * transform();
+    const std::string id = attributes_["id"];
+    bool is_hidden =
+        levels_.back().is_hidden || kHidden.count(tag_) > 0 || kNoWallIds.count(id) > 0;
+    Eigen::Affine2d here = levels_.back().transform * transform("transform");
+    if (tag_ == "svg" && id == kPlanSvgId) {
+      is_our_plan_ = is_hidden = true;
+      here = here * transform(kPlanSvgPlace);
+    }
+    if (is_our_plan_ && kPlanWallIds.count(id) > 0) is_hidden = false;
     if (kGroups.count(tag_) > 0 || kHidden.count(tag_) > 0) {
       if (!is_alone_) levels_.push_back({here, is_hidden, tag_});
       return;
@@ -278,7 +285,7 @@ class SvgPlan {
   Counts rest_;
   std::size_t at_ = 0;
   std::string tag_;
-  bool closes_ = false, is_alone_ = false;
+  bool closes_ = false, is_alone_ = false, is_our_plan_ = false;
   std::map<std::string, std::string> attributes_;
   std::vector<Level> levels_;
   Eigen::Affine2d here_ = Eigen::Affine2d::Identity();

@@ -7,6 +7,7 @@
 #include <cstdio>
 
 #include "geometry/cross.hpp"
+#include "io/plans/plan_formats.hpp"
 
 namespace cca {
 namespace {
@@ -108,11 +109,17 @@ class Layout {
     SheetShape paper;
     paper.rings = {{{0, 0}, {sheet_.width, 0}, {sheet_.width, sheet_.height}, {0, sheet_.height}}};
     paper.fill = {1, 1, 1};
-    sheet_.shapes.push_back(paper);
+    sheet_.p_map_corner = corner_ + Eigen::Vector2d(-offset_.x(), offset_.y()) / mm_per_metre_;
+    add(paper);
+    layer_ = "rooms";
     drawRooms();
+    layer_ = kFurnitureLayer;
     drawFurniture();
+    layer_ = kWallLayer;
     drawWalls();
+    layer_ = "openings";
     drawOpenings();
+    layer_ = "notes";
     drawRoomTexts();
     drawDimensions(box);
     drawHeader(title);
@@ -134,6 +141,7 @@ class Layout {
   }
 
   SheetShape& add(SheetShape shape) {
+    shape.layer = layer_;
     sheet_.shapes.push_back(std::move(shape));
     return sheet_.shapes.back();
   }
@@ -187,18 +195,16 @@ class Layout {
   /// A wall of two faces is filled, half its thickness longer at both ends so that corners close.
   void drawWalls() {
     for (const PlanWall& wall : plan_.walls) {
-      const Eigen::Vector2d along = (wall.end - wall.start).normalized();
-      const Eigen::Vector2d left(-along.y(), along.x());
       if (wall.is_presumed) {
         line(paper(wall.start), paper(wall.end), kPlanInk, kOpeningStroke).is_dashed = true;
         continue;
       }
       if (wall.thickness <= 0.0) {
-        // The face itself is the inner border of its stroke.
-        const Eigen::Vector2d outwards = -0.5 * kFaceStroke / mm_per_metre_ * left;
-        line(paper(wall.start + outwards), paper(wall.end + outwards), kPlanInk, kFaceStroke);
+        line(paper(wall.start), paper(wall.end), kPlanInk, kFaceStroke);
         continue;
       }
+      const Eigen::Vector2d along = (wall.end - wall.start).normalized();
+      const Eigen::Vector2d left(-along.y(), along.x());
       const Eigen::Vector2d half = 0.5 * wall.thickness * left;
       SheetShape shape;
       shape.rings = {
@@ -333,6 +339,7 @@ class Layout {
   PlanSheet sheet_;
   double mm_per_metre_ = 10.0;
   Eigen::Vector2d corner_, offset_;
+  std::string layer_ = "paper";
 };
 
 }  // namespace

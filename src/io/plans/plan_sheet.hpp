@@ -24,12 +24,14 @@ struct SheetShape {
   double text_size = 0.0;  ///< mm
   bool is_bold = false, is_left_aligned = false;
   std::string title;  ///< what a pointer that rests on it is told; may be empty
+  std::string layer;  ///< what it shows: one of kWallLayer, kFurnitureLayer and others
 };
 
 /// A drawing to scale. One shape lies above those before it.
 struct PlanSheet {
-  double width = 0.0, height = 0.0;  ///< mm
-  int scale = 100;                   ///< 1 : scale
+  double width = 0.0, height = 0.0;                        ///< mm
+  int scale = 100;                                         ///< 1 : scale
+  Eigen::Vector2d p_map_corner = Eigen::Vector2d::Zero();  ///< m: where its upper left corner lies
   std::vector<SheetShape> shapes;
 };
 

@@ -73,12 +73,23 @@ std::string planSvg(const FloorPlan& plan, const std::string& title,
                     const std::optional<GeoReference>& place) {
   const PlanSheet sheet = layOutPlan(plan, title, place);
   const std::string width = decimal(sheet.width), height = decimal(sheet.height);
-  std::string svg = "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"" + width +
+  const double metres = 0.001 * sheet.scale;
+  char place_on_map[128];  // a coordinate of 1e8 m to the micrometre takes 16 characters
+  std::snprintf(place_on_map, sizeof place_on_map, "translate(%.6f %.6f) scale(%.3f)",
+                sheet.p_map_corner.x(), -sheet.p_map_corner.y(), metres);
+  std::string svg = "<svg xmlns=\"http://www.w3.org/2000/svg\" id=\"" + std::string(kPlanSvgId) +
+                    "\" " + kPlanSvgPlace + "=\"" + place_on_map + "\" width=\"" + width +
                     "mm\" height=\"" + height + "mm\" viewBox=\"0 0 " + width + " " + height +
                     "\" font-family=\"sans-serif\" fill-rule=\"evenodd\">\n";
-  for (const SheetShape& shape : sheet.shapes)
+  std::string layer;
+  for (const SheetShape& shape : sheet.shapes) {
+    if (shape.layer != layer) {
+      svg += (layer.empty() ? "<g id=\"" : "</g>\n<g id=\"") + shape.layer + "\">\n";
+      layer = shape.layer;
+    }
     svg += shape.text.empty() ? pathElement(shape) : textElement(shape);
-  return svg + "</svg>\n";
+  }
+  return svg + "</g>\n</svg>\n";
 }
 
 }  // namespace cca
