@@ -101,7 +101,11 @@ void addMapFiles(nb::module_& module) {
   module.def(
       "read_chains",
       [](const std::string& geojson, const std::string& name) {
-        return readLinesGeoJson(geojson, name).poly_lines;
+        try {
+          return readLinesGeoJson(geojson, name).poly_lines;
+        } catch (const std::runtime_error& error) {
+          throw nb::value_error(error.what());
+        }
       },
       nb::arg("geojson"), nb::arg("name"), "The poly-lines of a lines.geojson, in metres.");
   module.def(

@@ -184,6 +184,8 @@ MappedScans resultOf(const Mapping& mapping) {
 
 LivePageSettings pageAt(const std::string& address, int port, const std::string& title) {
   if (port < 0 || port > 65535) throw nb::value_error("port: must be in [0, 65535]");
+  if (address.empty())
+    throw nb::value_error("address: is empty, which would be all of this machine's");
   LivePageSettings settings;
   settings.address = address;
   settings.port = port;

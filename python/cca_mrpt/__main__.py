@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 import math
+import os
 import re
 import sys
 from pathlib import Path
@@ -222,6 +223,17 @@ def told(work: Callable[[], str]) -> int:
     return 0
 
 
+def with_output(status: int) -> int:
+    """What was printed may not have arrived: a full disk behind `> FILE` is told at the end only."""
+    try:
+        sys.stdout.flush()
+    except OSError as error:
+        print(f"cca_mrpt: standard output: {error.strerror}", file=sys.stderr)
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())  # it is flushed once more when Python ends
+        return status or 1
+    return status
+
+
 def parse_start(text: str) -> Tuple[float, float, float]:
     """X,Y,DEG."""
     try:
@@ -354,7 +366,7 @@ def main(arguments: Optional[Sequence[str]] = None) -> int:
     options = parser.parse_args(_with_places_told(sys.argv[1:] if arguments is None else arguments))
     run = {"batch": run_batch, "map": run_map, "evaluate": run_evaluate, "info": run_info, "localize": run_localize, "merge": run_merge,
            "plan": run_plan, "render": run_render}[options.command]
-    return told(lambda: run(options))
+    return with_output(told(lambda: run(options)))
 
 
 if __name__ == "__main__":

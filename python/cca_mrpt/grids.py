@@ -2,6 +2,7 @@
 """The grid of a map's folder: map.yaml and map.pgm, as map_server has them."""
 from __future__ import annotations
 
+import math
 import re
 from pathlib import Path
 from typing import NamedTuple, Optional, Tuple
@@ -44,6 +45,8 @@ def read_map_yaml(yaml: Path) -> Grid:
     origin = re.search(rf"^origin:\s*\[{number},{number}(?:,{number})?\]", text, re.MULTILINE)
     if not (resolution and origin and image):
         raise ValueError(f"{yaml}: is damaged, or no map of map_server, which has image, resolution and origin")
+    if not 0 < float(resolution[1]) < math.inf:
+        raise ValueError(f"{yaml}: resolution: {resolution[1]} m: must be above 0")
     if float(origin[3] or 0) != 0:
         raise ValueError(f"{yaml}: origin: a turned map (yaw {origin[3]}) is not read")
 

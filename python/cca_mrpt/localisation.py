@@ -75,8 +75,8 @@ def localize(log: "Union[str, os.PathLike[str], Iterable[LogRecord]]", plan: "Un
     Raises:
         FileNotFoundError, ImportError, ValueError: as `read_log`; also where the plan holds no line, or is damaged.
     """
-    if not (np.isfinite(scale) and (scale == 0.0 or 1e-6 <= scale <= 1e6)):
-        raise ValueError(f"scale: {scale} m a unit: must be 0, or in [1e-6, 1e6]")
+    if not (isinstance(scale, (int, float)) and (scale == 0.0 or 1e-6 <= scale <= 1e6)):
+        raise ValueError(f"scale: {scale!r} m a unit: must be 0, or in [1e-6, 1e6]")
     path, name = Path(plan), os.fspath(plan)
     if not path.exists():
         raise FileNotFoundError(f"{name}: no such file")
@@ -86,6 +86,8 @@ def localize(log: "Union[str, os.PathLike[str], Iterable[LogRecord]]", plan: "Un
     records = repeatable(log)
     table, summary, files, warnings, shortcoming = localize_records(records, name, grid, start, scale, until_interrupted)
     told: Dict[str, Any] = json.loads(summary)
+    if not told["scans"]:
+        raise ValueError("records: no scan is among them")
     if isinstance(records, Log):
         told = {"log": records.path, **told}
         warnings = "; ".join(filter(None, [records.warnings, warnings]))

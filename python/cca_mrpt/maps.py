@@ -139,8 +139,9 @@ class Map:
         """The text of lines.csv."""
         return self._files["lines.csv"].decode()
 
-    def _repr_svg_(self) -> str:
-        return self._files["lines.svg"].decode()
+    def _repr_svg_(self) -> Optional[str]:
+        svg = self._files.get("lines.svg")  # None: the folder that it is from has none
+        return svg.decode() if svg else None
 
     def __len__(self) -> int:
         return len(self.lines)
@@ -203,7 +204,11 @@ def map(path: "Union[Source, Sequence[Source]]", pose: str = "auto", *,
                "upside_down": upside_down or None}
     logs = [_log_of(source, reading) for source in _sources_of(path)]
     paths = [log.path if isinstance(log, Log) else "" for log in logs]
+    if isinstance(serve, bool):
+        raise ValueError(f"serve: a port is needed, such as 8048, not {serve}")
     page = None if serve is None else (serve_address, serve)
+    if resume is not None:
+        folder_of(resume)
     earlier = None if resume is None else os.fspath(resume)
     held, files = map_logs(list(zip(paths, logs)), pose, earlier, Path(paths[0] if paths and paths[0] else "scans").name, origin,
                            page, _tell_address, until_interrupted, **parameters)

@@ -259,13 +259,18 @@ def test_a_scale_is_heeded_or_refused(log, plan, tmp_path):
 
 
 @pytest.mark.parametrize("arguments, named", [
-    (dict(scale=-1.0), "scale"), (dict(scale=np.nan), "scale"), (dict(start=(1.0, 2.0)), "start"),
+    (dict(scale=-1.0), "scale"), (dict(scale="1"), "scale: '1'"), (dict(scale=np.nan), "scale"), (dict(start=(1.0, 2.0)), "start"),
     (dict(start=(np.nan, 0.0, 0.0)), "start"), (dict(start=(1e9, 0.0, 0.0)), "start: x and y"),
     (dict(start=(0.0, 0.0, 90.0)), "are these degrees"),
 ])
 def test_wrong_arguments_are_named(log, plan, arguments, named):
     with pytest.raises(ValueError, match=named):
         cca_mrpt.localize(log, plan, **arguments)
+
+
+def test_no_scan_is_nowhere(plan):
+    with pytest.raises(ValueError, match="no scan is among them"):
+        cca_mrpt.localize([], plan)
 
 
 def test_what_is_no_plan_is_named(log, tmp_path):
@@ -454,6 +459,15 @@ def test_two_runs_do_not_mix_their_files(two_maps, two_logs, tmp_path):
     os.close(held)
     assert (two_maps[0] / "summary.json").exists()
     found.save(two_maps[0], force=True)
+
+
+@pytest.mark.parametrize("what", ["python", pytest.param("program", marks=needs_program)])
+def test_output_that_does_not_arrive_is_told(log, what):
+    command = [installed_program()] if what == "program" else [sys.executable, "-m", "cca_mrpt"]
+    buffered = {name: value for name, value in os.environ.items() if name != "PYTHONUNBUFFERED"}
+    with open("/dev/full", "w") as full:
+        done = subprocess.run([*command, "info", str(log)], stdout=full, stderr=subprocess.PIPE, text=True, env=buffered)
+    assert done.returncode == 1 and "standard output: " in done.stderr and "Exception" not in done.stderr
 
 
 @pytest.mark.parametrize("status, told, words", [

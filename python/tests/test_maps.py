@@ -136,9 +136,11 @@ def test_what_is_no_map_is_named(tmp_path):
     ("lines.csv", b"x1,y1,x2,y2\n1,2,3,1e300\n", r"row 2, column y2: '1e300' must be a number in \[-1e8, 1e8\] m"),
     ("poses.csv", b"stamp,x,y,theta\n1,2\n", "line 2: is damaged: 4 values are needed"),
     ("poses.csv", b"stamp,x,y,theta\n1,1e300,3,4\n", "line 2: is damaged: finite numbers are needed"),
+    ("lines.geojson", b'{"type": "FeatureCollection", "features": [{"geometry": null}]}', "not a line map's GeoJSON"),
     ("arcs.csv", b"", "no column line_ids"),
     ("arcs.csv", b"x,y,radius,start_deg,sweep_deg,line_ids\n1,2,3,4,5,6 7\n1,2,3,4,5,six\n", "line 3: is damaged: .*six"),
     ("map.yaml", b"\x80\x00\xff", "no text"),
+    ("map.yaml", b"image: map.pgm\nresolution: 0.0\norigin: [0, 0, 0]\n", "resolution: 0.0 m: must be above 0"),
     ("map.yaml", b"image: map.pgm\nresolution: 1.2.3\norigin: [0, 0, 0]\n", "no map of map_server"),
     ("poses.csv", b"stamp,x,y,theta\n1,2,nan,4\n", "line 2: is damaged: finite numbers are needed"),
     ("poses.csv", b"stamp,x,y,theta\n1,2,a,4\n", "line 2: is damaged: could not convert"),
@@ -157,7 +159,9 @@ def test_half_a_map_is_told(log, tmp_path):
     cca_mrpt.map(log).save(tmp_path / "map")
     assert cca_mrpt.load(tmp_path / "map").warnings == ""
     (tmp_path / "map" / "summary.json").unlink()
-    assert "half of a map" in cca_mrpt.load(tmp_path / "map").warnings
+    (tmp_path / "map" / "lines.svg").unlink()
+    half = cca_mrpt.load(tmp_path / "map")
+    assert "half of a map" in half.warnings and half._repr_svg_() is None
 
 
 @pytest.mark.parametrize("source, pose, named", [
@@ -169,6 +173,15 @@ def test_half_a_map_is_told(log, tmp_path):
 def test_wrong_arguments_are_named(source, pose, named):
     with pytest.raises(ValueError, match=named):
         cca_mrpt.map(source, pose)
+
+
+@pytest.mark.parametrize("arguments, named", [
+    (dict(resume=""), "folder: a name is needed"), (dict(serve=True), "serve: a port is needed"),
+    (dict(serve=0, serve_address=""), "address: is empty"),
+])
+def test_wrong_keywords_are_named(log, arguments, named):
+    with pytest.raises(ValueError, match=named):
+        cca_mrpt.map(log, **arguments)
 
 
 def test_an_error_of_the_caller_comes_through():

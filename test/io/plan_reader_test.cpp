@@ -157,6 +157,7 @@ TEST(PlanReader, SaysWhatIsWrongWithAnSvg) {
   EXPECT_THAT(whyNot("a.svg", "<svg><polyline points='1 2 3'/></svg>"), HasSubstr("odd number"));
   EXPECT_THAT(whyNot("a.svg", "<svg><g transform='skewX(3)'></g></svg>"), HasSubstr("skewX"));
   EXPECT_THAT(whyNot("a.svg", "<svg><line x1='0'"), HasSubstr("ends within a tag"));
+  EXPECT_THAT(whyNot("a.svg", "<svg id='cca_mrpt_plan'></svg>"), HasSubstr("data-to-metres"));
   EXPECT_THAT(readAs("a.svg", "<svg><path d='M0 0 L1 0 C 1 1 2 2 3 3'/></svg>").not_understood,
               HasSubstr("1 paths with C"));
 }

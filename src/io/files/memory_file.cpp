@@ -127,7 +127,7 @@ std::string packedMemory(const StoredMemory& stored) {
 
 StoredMemory loadMemory(const std::string& path) {
   const std::string file = fs::is_directory(path) ? (fs::path(path) / kMemoryFile).string() : path;
-  if (!fs::exists(file)) {
+  if (!fs::is_regular_file(file)) {
     throw std::runtime_error(file + ": is not there; runs with --pose slam leave it");
   }
   const std::size_t size = lengthInGzipTrailer(file);

@@ -195,6 +195,9 @@ class SvgPlan {
     Eigen::Affine2d here = levels_.back().transform * transform("transform");
     if (tag_ == "svg" && id == kPlanSvgId) {
       is_our_plan_ = is_hidden = true;
+      if (attributes_[kPlanSvgPlace].find('(') == std::string::npos) {
+        fail(std::string("of our plan lacks ") + kPlanSvgPlace + ", where it lies in the map");
+      }
       here = here * transform(kPlanSvgPlace);
     }
     if (is_our_plan_ && kPlanWallIds.count(id) > 0) is_hidden = false;
