@@ -266,11 +266,26 @@ TEST(Furniture, IsNotCutWhereAnotherRoomLiesInside) {
   rooms.columns = 140;
   rooms.rows = 100;
   rooms.values.assign(14000, 1);
-  EXPECT_TRUE(cutLeaning(outline, rooms).empty());
+  EXPECT_TRUE(cutLeaning(outline, rooms, {}).empty());
   EXPECT_EQ(outline.size(), 8u);
   rooms.values.assign(14000, 0);
-  EXPECT_EQ(cutLeaning(outline, rooms).size(), 1u);
+  EXPECT_EQ(cutLeaning(outline, rooms, {}).size(), 1u);
   EXPECT_EQ(outline.size(), 4u);
+}
+
+TEST(Furniture, IsNotTheWallBetweenTwoDoors) {
+  // A corridor whose doors stand in the middle of a wall of 0.5 m.
+  const Polygon corridor{{0, 0}, {1, 0}, {1, 0.25}, {4, 0.25}, {4, 0}, {5, 0}, {5, 2}, {0, 2}};
+  const std::vector<Passage> doors{{{0, 0}, {1, 0}, PassageEvidence::kCollinear},
+                                   {{4, 0}, {5, 0}, PassageEvidence::kCollinear}};
+  Raster<int> rooms;
+  rooms.columns = 120;
+  rooms.rows = 60;
+  rooms.values.assign(7200, 0);
+  Polygon outline = corridor;
+  EXPECT_TRUE(cutLeaning(outline, rooms, doors).empty());
+  EXPECT_EQ(outline.size(), corridor.size());
+  EXPECT_EQ(cutLeaning(outline, rooms, {}).size(), 1u);
 }
 
 TEST(RoomOutline, FollowsTheLinesAndNotTheCells) {
