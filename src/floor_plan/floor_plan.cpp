@@ -142,9 +142,9 @@ PlanWall presumedWall(const PlanFurniture& piece) {
 }
 
 /// Cuts what leans on the walls of a room from its outline, where that leaves it valid.
-void takeLeaning(PlanRoom& room, FloorPlan& plan) {
+void takeLeaning(const std::vector<Passage>& openings, PlanRoom& room, FloorPlan& plan) {
   Polygon outline = room.outline;
-  std::vector<PlanFurniture> leaning = cutLeaning(outline, plan.room_of);
+  std::vector<PlanFurniture> leaning = cutLeaning(outline, plan.room_of, openings);
   if (leaning.empty() || !isValidPolygon(outline, room.holes)) return;
   room.outline = outline;
   for (PlanFurniture& piece : leaning) {
@@ -277,8 +277,9 @@ FloorPlan floorPlan(const OccupancyRaster& whole, const std::vector<MapLine>& ma
   for (std::size_t k = 0; k < plan.rooms.size(); ++k) {
     PlanRoom& room = plan.rooms[k];
     room.id = static_cast<int>(k) + 1;
-    drawRoom(regions.labels, borders[k], lines, passagesOf(regions, static_cast<int>(k)), room);
-    takeLeaning(room, plan);
+    const std::vector<Passage> openings = passagesOf(regions, static_cast<int>(k));
+    drawRoom(regions.labels, borders[k], lines, openings, room);
+    takeLeaning(openings, room, plan);
     room.area = areaOf(room.outline, room.holes);
     room.perimeter = perimeterOf(room.outline, room.holes);
     room.open_border = openBorder(obstacles, regions.labels, borders[k]);

@@ -14,8 +14,18 @@ namespace {
 
 constexpr double kSquareSide = 0.26;  // cosine of 75 degrees: nothing stands more aslant on a wall
 
+bool isOnOpening(const Eigen::Vector2d& p, const std::vector<Passage>& openings,
+                 const FurnitureTuning& tuning) {
+  return std::any_of(openings.begin(), openings.end(), [&](const Passage& opening) {
+    const Eigen::Vector2d way = opening.b - opening.a;
+    const double along = (p - opening.a).dot(way) / way.squaredNorm();
+    return (opening.a + std::clamp(along, 0.0, 1.0) * way - p).norm() < tuning.in_line;
+  });
+}
+
 /// Whether corners k .. k + 5 go along a wall, around something that leans on it, and on.
-bool isStep(const Polygon& outline, std::size_t k, const FurnitureTuning& tuning) {
+bool isStep(const Polygon& outline, std::size_t k, const std::vector<Passage>& openings,
+            const FurnitureTuning& tuning) {
   const auto at = [&](std::size_t i) -> const Eigen::Vector2d& {
     return outline[(k + i) % outline.size()];
   };
@@ -36,7 +46,10 @@ bool isStep(const Polygon& outline, std::size_t k, const FurnitureTuning& tuning
   // Into the room, along the wall, and back.
   if (cross(way[0], way[1]) < 0.0 || cross(way[0], way[3]) > 0.0) return false;
   if (way[2].dot(way[0]) < kCosOneWall || way[4].dot(way[0]) < kCosOneWall) return false;
-  return std::abs(cross(way[0], Eigen::Vector2d(at(4) - at(1)))) < tuning.in_line;
+  if (std::abs(cross(way[0], Eigen::Vector2d(at(4) - at(1)))) >= tuning.in_line) return false;
+  const Eigen::Vector2d before = at(1) - 0.5 * tuning.wall_beside * way[0];
+  const Eigen::Vector2d after = at(4) + 0.5 * tuning.wall_beside * way[4];
+  return !isOnOpening(before, openings, tuning) && !isOnOpening(after, openings, tuning);
 }
 
 /// Whether no room was found inside.
@@ -72,6 +85,7 @@ std::vector<PlanFurniture> freeStanding(const Mask& furniture, const FurnitureTu
 }
 
 std::vector<PlanFurniture> cutLeaning(Polygon& outline, const Raster<int>& room_of,
+                                      const std::vector<Passage>& openings,
                                       const FurnitureTuning& tuning) {
   std::vector<PlanFurniture> found;
   for (std::size_t k = 0; outline.size() >= 8 && k < outline.size();) {
@@ -79,7 +93,7 @@ std::vector<PlanFurniture> cutLeaning(Polygon& outline, const Raster<int>& room_
     PlanFurniture piece;
     piece.leans = true;
     for (std::size_t i = 4; i >= 1; --i) piece.outline.push_back(outline[(k + i) % n]);
-    if (!isStep(outline, k, tuning) || !isEmpty(room_of, piece.outline)) {
+    if (!isStep(outline, k, openings, tuning) || !isEmpty(room_of, piece.outline)) {
       ++k;
       continue;
     }

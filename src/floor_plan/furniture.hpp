@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "cca_mrpt/floor_plan/floor_plan.hpp"
+#include "floor_plan/passages.hpp"
 
 namespace cca {
 
@@ -20,9 +21,12 @@ std::vector<PlanFurniture> freeStanding(const Mask& furniture, const FurnitureTu
 
 /// Where a room's outline steps off a wall's line and comes back to the same line, something leans
 /// on it. The steps are cut from the outline, so that it follows the presumed wall, and returned as
-/// furniture. A step whose inside has been seen to be something else stays.
-/// @param room_of  label of the room of each cell; 0: none.
+/// furniture. A step whose inside has been seen to be something else stays, as does one beside an
+/// opening: between two doors the wall itself steps into the room, by half of its thickness.
+/// @param room_of   label of the room of each cell; 0: none.
+/// @param openings  of the room.
 std::vector<PlanFurniture> cutLeaning(Polygon& outline, const Raster<int>& room_of,
+                                      const std::vector<Passage>& openings,
                                       const FurnitureTuning& tuning = {});
 
 }  // namespace cca

@@ -260,7 +260,8 @@ class RegionGraph {
     const int a = root(border.rooms[0]), b = root(border.rooms[1]);
     const double width = border.passage.width();
     // A shallow room with its door in the long side is as wide as a square of its area.
-    const bool is_gap = border.passage.evidence != PassageEvidence::kNarrowing;
+    const bool is_gap = border.passage.evidence != PassageEvidence::kNarrowing ||
+                        border.passage.support >= tuning_.in_wall;
     const auto besideOf = [&](std::size_t side, bool is_door) {  // m
       const std::size_t region = at(side ? b : a);
       const double extent = is_door && is_gap

@@ -7,14 +7,17 @@
 
 #include "floor_plan/distance_transform.hpp"
 #include "floor_plan/room_regions.hpp"
+#include "geometry/cross.hpp"
 
 namespace cca {
 namespace {
 
 constexpr double kBeyondWall = 0.15;  // m; lines end that much beyond their wall
 constexpr double kOpposite =
-    0.5;  // cosine; walls on two sides run to 60 degrees against each other
-constexpr double kIntoCorner = 1.42;  // a disc's radius to the corner that it fits into
+    0.5;                  // cosine; walls on two sides run to 60 degrees against each other
+constexpr int kFace = 1;  // cells to each side of a line, that noise fills
+constexpr double kTouching = kFace + 2.0;  // cells from a line to the centre of what touches these
+constexpr double kIntoCorner = 1.42;       // a disc's radius to the corner that it fits into
 
 /// m, the longest line of each component.
 std::vector<double> longestLines(const Components& parts, const std::vector<MapLine>& lines) {
@@ -23,6 +26,7 @@ std::vector<double> longestLines(const Components& parts, const std::vector<MapL
     const LineSegment& s = line.segment;
     const double length = s.length();
     for (const Cell c : cellsAlong(parts.labels, s.start, s.end)) {
+      if (parts.labels[c] < 0) continue;  // of what stands in front of a wall
       double& known = longest[static_cast<std::size_t>(parts.labels[c])];
       known = std::max(known, length);
     }
@@ -99,6 +103,62 @@ std::vector<char> furnitureAmong(const Components& parts, const std::vector<MapL
     if (is_between[k] && is_pillar) is_furniture[k] = 0;
   }
   return is_furniture;
+}
+
+/// Whether an island touches a wall on its viewer's side, and the wall's line goes on behind it to
+/// both sides, by more than lines err. What is thinner along the wall may be the stub of another
+/// one.
+bool isInFrontOf(const LineSegment& wall, const std::vector<Eigen::Vector2d>& island,
+                 double resolution, double thinnest) {
+  const double beside = PassageTuning{}.end_error;
+  const Eigen::Vector2d along = wall.direction();
+  Eigen::AlignedBox2d box;  // along the wall, and away from it
+  for (const Eigen::Vector2d& p : island) {
+    const Eigen::Vector2d off = p - wall.start;
+    box.extend(Eigen::Vector2d(off.dot(along), cross(along, off)));
+  }
+  return box.min().y() > 0.0 && box.min().y() < kTouching * resolution &&
+         box.sizes().x() + resolution >= thinnest && box.min().x() > beside &&
+         box.max().x() < wall.length() - beside;
+}
+
+/// What stands in front of walls: islands up to `pillar` once the cells on the walls' lines are
+/// left out.
+Mask inFrontOfWalls(const Mask& blocked, const std::vector<MapLine>& lines,
+                    const StructureTuning& tuning) {
+  std::vector<LineSegment> walls;
+  Mask rest = blocked;
+  for (const MapLine& line : lines) {
+    if (line.segment.length() < tuning.pillar) continue;
+    walls.push_back(line.segment);
+    for (const Cell c : cellsAlong(blocked, line.segment.start, line.segment.end)) {
+      for (int y = -kFace; y <= kFace; ++y) {
+        for (int x = -kFace; x <= kFace; ++x) {
+          if (rest.at(c + Cell{x, y}, 0)) rest[c + Cell{x, y}] = 0;
+        }
+      }
+    }
+  }
+  const Components parts = connectedComponents(rest, 8);
+  const std::vector<double> extent = extents(parts);
+  std::vector<std::vector<Eigen::Vector2d>> islands(parts.sizes.size());
+  for (std::size_t k = 0; k < rest.values.size(); ++k) {
+    if (!rest.values[k]) continue;
+    const auto part = static_cast<std::size_t>(parts.labels.values[k]);
+    if (extent[part] <= tuning.pillar) islands[part].push_back(rest.centreOf(rest.cell(k)));
+  }
+  std::vector<char> is_in_front(parts.sizes.size(), 0);
+  for (std::size_t k = 0; k < islands.size(); ++k) {
+    is_in_front[k] =
+        !islands[k].empty() &&
+        std::any_of(walls.begin(), walls.end(), [&](const LineSegment& wall) {
+          return isInFrontOf(wall, islands[k], rest.resolution, tuning.thinnest_pillar);
+        });
+  }
+  for (std::size_t k = 0; k < rest.values.size(); ++k)
+    rest.values[k] =
+        rest.values[k] && is_in_front[static_cast<std::size_t>(parts.labels.values[k])];
+  return rest;
 }
 
 Mask maskOf(const OccupancyRaster& grid, Occupancy value) {
@@ -213,16 +273,19 @@ Structure tellStructure(const OccupancyRaster& grid, const std::vector<MapLine>&
     const bool is_floor = grid.values[k] == Occupancy::kFree || between.values[k];
     blocked.values[k] = crossed.values[k] || !is_floor;
   }
+  const Mask in_front = inFrontOfWalls(blocked, lines, tuning);
+  for (std::size_t k = 0; k < blocked.values.size(); ++k)
+    blocked.values[k] &= static_cast<std::uint8_t>(!in_front.values[k]);
   const Components parts = connectedComponents(blocked, 8);
   const std::vector<char> is_furniture = furnitureAmong(parts, lines, tuning);
   Structure found{grid.alike(std::uint8_t{0}), grid.alike(std::uint8_t{0}),
                   grid.alike(std::uint8_t{0})};
   for (std::size_t k = 0; k < grid.values.size(); ++k) {
     const int label = parts.labels.values[k];
-    const bool is_small = label >= 0 && is_furniture[static_cast<std::size_t>(label)];
-    found.open.values[k] = label < 0 && !between.values[k];
-    found.furniture.values[k] = is_small;
-    found.solid.values[k] = label >= 0 && !is_small;
+    const bool is_island = label >= 0 && is_furniture[static_cast<std::size_t>(label)];
+    found.furniture.values[k] = is_island || in_front.values[k];
+    found.open.values[k] = label < 0 && !in_front.values[k] && !between.values[k];
+    found.solid.values[k] = label >= 0 && !is_island;
   }
   return found;
 }

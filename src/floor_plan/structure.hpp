@@ -14,7 +14,9 @@ struct StructureTuning {
   /// m; a free-standing obstacle of at most this extent is furniture whatever its lines: pillars
   /// and table legs alike part no rooms, unless walls lead up to them from two sides.
   double pillar = 1.0;
-  double thinnest_pillar = 0.35;  ///< m; below it what stands between walls is a leg, or a person
+  /// m; below it what stands between walls is a leg, or a person, and what stands before a wall may
+  /// be the stub of a wall beside a door.
+  double thinnest_pillar = 0.35;
   /// m; one of at most this extent is furniture if none of its lines is as long as `pillar`: a ring
   /// of chairs, a plant with its shadow.
   double group = 2.5;
@@ -28,8 +30,8 @@ struct StructureTuning {
 
 /// The building and what stands in it.
 struct Structure {
-  Mask solid;      ///< walls, what leans on them, and the unknown behind them
-  Mask furniture;  ///< free-standing obstacles with the unknown inside of them
+  Mask solid;      ///< walls, what is built, and the unknown behind them
+  Mask furniture;  ///< obstacles that stand free or before a wall, with the unknown inside of them
   Mask open;       ///< neither: seen free; what is in no mask is unknown floor between beams
 };
 
@@ -42,9 +44,10 @@ OccupancyRaster cropToKnown(const OccupancyRaster& grid, int margin_cells);
 /// Cells that are not free, and those that a line crosses, are joined to components
 /// (8-connected). What hangs together with the unknown outside is the building; an island is
 /// furniture by its extent and its lines. A pillar that the lines of walls, of `pillar` and more,
-/// lead up to from two sides is building: it stands between two openings of one wall.
+/// lead up to from two sides is building: it stands between two openings of one wall. What is no
+/// larger than a pillar and stands before a wall, whose line goes on behind it, is furniture.
 /// @param grid  cropToKnown(), at least one cell of margin.
-/// Cost: O(cells + cells of the lines).
+/// Cost: O(cells + cells of the lines + cells of islands x lines).
 Structure tellStructure(const OccupancyRaster& grid, const std::vector<MapLine>& lines,
                         const StructureTuning& tuning = {});
 

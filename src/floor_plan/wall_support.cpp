@@ -9,8 +9,8 @@
 namespace cca {
 namespace {
 
-/// m of wall that leads up to a jamb from beyond, in the line of the passage. A wall goes on beyond
-/// its doors.
+/// m of wall that leads up to a jamb from beyond, in the line of the passage: it ends there, as
+/// well as lines have their ends. A wall goes on beyond its doors.
 double wallBeyond(const Eigen::Vector2d& jamb, const Eigen::Vector2d& outwards,
                   const std::vector<MapLine>& lines, const PassageTuning& tuning) {
   std::vector<std::pair<double, double>> pieces;  // m from the jamb: begin, end
@@ -27,7 +27,7 @@ double wallBeyond(const Eigen::Vector2d& jamb, const Eigen::Vector2d& outwards,
   std::sort(pieces.begin(), pieces.end());
   double length = 0.0, reached = 0.0;
   for (const auto& [begin, end] : pieces) {
-    if (begin > reached + tuning.widest_door) break;
+    if (begin > reached + (length > 0.0 ? tuning.widest_door : tuning.end_error)) break;
     length += std::max(0.0, end - std::max(begin, reached));
     reached = std::max(reached, end);
   }

@@ -81,6 +81,25 @@ TEST(Structure, TellsAPillarFromAWallInTheMiddleOfAHall) {
   EXPECT_TRUE(at(found.open, 8.0, 4.0));
 }
 
+TEST(Structure, TellsAPlantBeforeAWallFromTheStubOfAWall) {
+  const Pose2 T{0.013, 0.021, 0.4};
+  const Polygon corridor{{0, 0}, {9, 0}, {9, 2}, {0, 2}};
+  const auto block = [](double from, double to) {
+    return Polygon{{from, 0}, {from, 0.5}, {to, 0.5}, {to, 0}};
+  };
+  // A plant, a stub, and a block in the corner, behind which no line goes on.
+  const DrawnMap map = drawMap({corridor, block(3, 3.5), block(6, 6.2), block(8.5, 9)}, T);
+  const Structure found = tellStructure(cropToKnown(map.grid, 2), map.lines);
+  const auto isSolid = [&](double x, double y) {
+    return found.solid[found.solid.cellOf(T * Eigen::Vector2d(x, y))] != 0;
+  };
+  EXPECT_FALSE(isSolid(3.25, 0.3));
+  EXPECT_TRUE(found.furniture[found.solid.cellOf(T * Eigen::Vector2d(3.25, 0.3))]);
+  EXPECT_TRUE(isSolid(6.1, 0.3));
+  EXPECT_TRUE(isSolid(8.75, 0.3));
+  EXPECT_TRUE(isSolid(3.25, -0.04));
+}
+
 TEST(Structure, CountsNarrowUnknownStripesBetweenBeamsAsFloor) {
   OccupancyRaster grid;
   grid.columns = 60;
@@ -155,6 +174,8 @@ TEST(WallSupport, GoesOnBeyondADoorOfTheSameWall) {
   EXPECT_NEAR(wallSupport(gap, {line(2.0, 3.0)}), 1.0 / 3.0, 1e-9);
   EXPECT_NEAR(wallSupport(gap, {line(2.0, 3.0), line(3.9, 6.9)}), 4.0 / 6.0, 1e-9);
   EXPECT_NEAR(wallSupport(gap, {line(2.0, 3.0), line(5.0, 9.0)}), 1.0 / 3.0, 1e-9);
+  // A wall that ends 0.5 m before the jamb does not lead up to it.
+  EXPECT_EQ(wallSupport(gap, {line(2.5, 6.0)}), 0.0);
 }
 
 TEST(SmallLoops, AreCutWhereTheRingCrossesItself) {
@@ -242,6 +263,26 @@ TEST(RoomRegions, AreNotPartedByTheNoiseOfCellsInANarrowCorridor) {
   EXPECT_EQ(partitionIntoRooms(space, clearanceOf(space), nothingHidden(space), {narrow}).count, 1);
 }
 
+TEST(RoomRegions, ArePartedAtANarrowingInAWallByTheirAreas) {
+  // A shallow room along a corridor of 2 m, its front of 1.5 m in the long side: a narrowing is
+  // compared with twice the depth of the room, one in a wall with the side of a square.
+  Mask space;
+  space.columns = 242;
+  space.rows = 83;
+  space.values.assign(242 * 83, 0);
+  for (int y = 1; y < 82; ++y) {
+    for (int x = 1; x < 241; ++x)
+      space[{x, y}] = y < 41 || (y > 43 && x > 60 && x < 200) || (x > 100 && x < 131);
+  }
+  Passage front{{5.05, 2.12}, {6.55, 2.12}, PassageEvidence::kNarrowing};
+  const auto count = [&] {
+    return partitionIntoRooms(space, clearanceOf(space), nothingHidden(space), {front}).count;
+  };
+  EXPECT_EQ(count(), 1);
+  front.support = 0.5;
+  EXPECT_EQ(count(), 2);
+}
+
 TEST(Walls, OfOneFaceHaveNoThickness) {
   const DrawnMap map = drawMap({{{0, 0}, {5, 0}, {5, 4}, {0, 4}}}, {0.0, 0.0, 0.0});
   const Structure found = tellStructure(cropToKnown(map.grid, 2), map.lines);
@@ -266,11 +307,26 @@ TEST(Furniture, IsNotCutWhereAnotherRoomLiesInside) {
   rooms.columns = 140;
   rooms.rows = 100;
   rooms.values.assign(14000, 1);
-  EXPECT_TRUE(cutLeaning(outline, rooms).empty());
+  EXPECT_TRUE(cutLeaning(outline, rooms, {}).empty());
   EXPECT_EQ(outline.size(), 8u);
   rooms.values.assign(14000, 0);
-  EXPECT_EQ(cutLeaning(outline, rooms).size(), 1u);
+  EXPECT_EQ(cutLeaning(outline, rooms, {}).size(), 1u);
   EXPECT_EQ(outline.size(), 4u);
+}
+
+TEST(Furniture, IsNotTheWallBetweenTwoDoors) {
+  // A corridor whose doors stand in the middle of a wall of 0.5 m.
+  const Polygon corridor{{0, 0}, {1, 0}, {1, 0.25}, {4, 0.25}, {4, 0}, {5, 0}, {5, 2}, {0, 2}};
+  const std::vector<Passage> doors{{{0, 0}, {1, 0}, PassageEvidence::kCollinear},
+                                   {{4, 0}, {5, 0}, PassageEvidence::kCollinear}};
+  Raster<int> rooms;
+  rooms.columns = 120;
+  rooms.rows = 60;
+  rooms.values.assign(7200, 0);
+  Polygon outline = corridor;
+  EXPECT_TRUE(cutLeaning(outline, rooms, doors).empty());
+  EXPECT_EQ(outline.size(), corridor.size());
+  EXPECT_EQ(cutLeaning(outline, rooms, {}).size(), 1u);
 }
 
 TEST(RoomOutline, FollowsTheLinesAndNotTheCells) {
