@@ -17,12 +17,13 @@ NAP = 0.005  # s
 
 
 class FakeRobot:
-    """Drives by cmd_vel among the given walls. Faults: sends_scans, sends_transforms, leap (m that the
+    """Drives by cmd_vel among the given walls. Faults: sends_scans, sends_transforms, is_held, leap (m that the
     localisation is off in x), delay (s by which stamps lie in the past), period (s), spoil (changes a scan)."""
 
     def __init__(self, walls, x, y):
         self.walls, self.x, self.y, self.theta = walls, x, y, 0.0
         self.sends_scans = self.sends_transforms = True
+        self.is_held = False
         self.leap = self.delay = 0.0
         self.period = PERIOD
         self.spoil = lambda scan: None
@@ -86,7 +87,7 @@ class FakeRobot:
             time.sleep(max(0.0, begin + self.period - time.time()))
 
     def _drive(self):
-        if not self.moves():
+        if self.is_held or not self.moves():
             return
         _, v, w = self.commands[-1]
         self.x += v * self.period * math.cos(self.theta)

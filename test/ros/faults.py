@@ -98,6 +98,18 @@ class Faults(unittest.TestCase):
                                       "malformed")
         self.assertGreater(self.dropped("malformed"), 5)
 
+    def test_07f_scans_of_no_frame_and_of_no_time(self):
+        def nowhere(scan):
+            scan.header.frame_id = ""
+
+        def never(scan):
+            scan.header.stamp = rospy.Time(0)
+        for spoil, why in ((nowhere, "header.frame_id is empty"), (never, "header.stamp is 0")):
+            self.expect_stop_and_recovery(lambda spoil=spoil: setattr(self.robot, "spoil", spoil),
+                                          lambda: setattr(self.robot, "spoil", lambda scan: None),
+                                          "malformed")
+            self.assertTrue(any(why in m.msg for m in self.log.messages), why)
+
     def test_07a_a_covered_laser(self):
         def covered(scan):
             scan.ranges = [math.inf] * len(scan.ranges)
@@ -174,6 +186,14 @@ class Faults(unittest.TestCase):
         self.robot.listen()
         self.assertTrue(self.robot.wait_until_moves())
         self.expect_status("exploring")
+
+    def test_11a_motors_that_are_off_are_told(self):
+        self.assertTrue(self.robot.wait_until_moves())
+        self.robot.is_held = True
+        told = self.log.wait(lambda m: "told to move" in m.msg, 30)
+        self.robot.is_held = False
+        self.assertIsNotNone(told)
+        self.assertTrue(self.robot.wait_until_moves(), "goes on by itself")
 
     def test_12_the_stopped_robot_is_left_to_others(self):
         self.assertTrue(rospy.ServiceProxy("explore/stop", Trigger)().success)

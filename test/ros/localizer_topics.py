@@ -3,6 +3,7 @@
 """localizer_topics.py DEVEL_SPACE: a robot in a plan that is drawn as DXF: found without being told, then told."""
 import math
 import os
+import time
 
 import rospy
 from geometry_msgs.msg import PoseWithCovarianceStamped
@@ -12,6 +13,7 @@ from tf2_msgs.msg import TFMessage
 from own_master import OwnMaster, main, until
 from own_robot import transform
 
+HERE = os.path.dirname(os.path.abspath(__file__))
 # A room with a niche and a slanted wall: like none of its turns.
 CORNERS = [(0, 0), (8, 0), (8, 4), (6, 6), (3, 6), (3, 5), (0, 5)]
 TRUTH = (2.5, 2.0, 0.7)
@@ -88,6 +90,13 @@ class LocalizerTopics(OwnMaster):
         self.assertAlmostEqual(last.translation.x + math.cos(turn), TRUTH[0], 1)
         self.assertAlmostEqual(last.translation.y + math.sin(turn), TRUTH[1], 1)
 
+        # Told to be where no laser sees the plan from: that is not heeded.
+        astray = PoseWithCovarianceStamped()
+        astray.header.frame_id = "map"
+        astray.pose.pose.position.x, astray.pose.pose.orientation.w = 1e200, 1.0
+        told.publish(astray)
+        self.assertFalse(until(lambda: seen() and abs(poses[-1].pose.pose.position.x - TRUTH[0]) > 1.0, 3.0))
+
         # Told to be where it is not: its beams go through walls, it is lost, and found again.
         wrong = PoseWithCovarianceStamped()
         wrong.header.frame_id = "map"
@@ -97,6 +106,16 @@ class LocalizerTopics(OwnMaster):
         told.publish(wrong)
         self.assertTrue(until(lambda: seen() and abs(poses[-1].pose.pose.position.x - TRUTH[0]) > 1.0))
         self.assertTrue(until(lambda: seen() and abs(poses[-1].pose.pose.position.x - TRUTH[0]) < 0.1))
+
+    def test_a_robot_in_another_building_is_told_to_be_nowhere(self):
+        node = self.node("localizer", "_plan:=" + self.plan)
+        robot = self.start("python3", os.path.join(HERE, "own_robot.py"),
+                           os.path.join(HERE, "..", "..", "maps", "two_rooms.yaml"), "2,3,0", os.path.join(self.home.name, "report"))
+        self.assertTrue(until(lambda: "/scan" in (self.ask("rostopic", "list") or "")))
+        time.sleep(8.0)
+        for process in (robot, node):
+            process.terminate()
+        self.assertIn("not localised: looking for the robot in the whole of " + self.plan, node.communicate(timeout=60)[0])
 
     def test_a_plan_that_cannot_be_read_ends_the_node_with_its_name(self):
         node = self.node("localizer", "_plan:=/nowhere/plan.dxf")

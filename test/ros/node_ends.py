@@ -104,6 +104,11 @@ class NodeEnds(OwnMaster):
                 ("explore", "_seed:=1.5", ["/explore/seed", "1.5", "whole number in [0, 1000000000]"]),
                 ("explore", "office", ["'office' is not expected", "_name:=value"]),
                 ("explore", "_config:=/no/such.ini", ["/no/such.ini"]),
+                ("explore", "_base_frame:=", ["/explore/base_frame", "a frame of tf"]),
+                ("explore", "_out:=", ["/explore/out", "a folder"]),
+                ("explore", "record:=run.bag", ["run.bag", "_name:=value"]),
+                ("simulator", "_laser_model:=sick", ["/simulator/laser_model", "sick", "ld19"]),
+                ("simulator", "_map_frame:=/odom", ["/simulator/map_frame", "another frame"]),
                 ("simulator", "_scan_rate:=0", ["/simulator/scan_rate", "[1, 100] Hz"]),
                 ("line_mapper", "_similarity_cut:=7", ["/line_mapper/similarity_cut", "[0.01, 1]"])]:
             with self.subTest(argument):
@@ -111,6 +116,44 @@ class NodeEnds(OwnMaster):
                 self.expect_refusal(node, [argument], words)
         self.ask("rosparam", "delete", "/simulator")
         self.expect_refusal("simulator", ["_start_pose:=-50,-50,0", "_world:=two_rooms"], ["-50"])
+
+    def test_wrong_parameters_of_a_robot_are_told_at_once(self):
+        for arguments, words in [
+                (["_pose:=slam", "_map_frame:=odom"], ["/explore/map_frame", "another frame"]),
+                (["_pose:=slam", "_plan:=room.dxf"], ["~plan", "_pose:=tf"]),
+                (["_plan:=/no/such.dxf", "_pose:=auto"], ["/no/such.dxf"]),
+                (["_resume:=/no/such", "_pose:=auto"], ["/no/such"]),
+                (["_hazard_points:=a b"], ["/explore/hazard_points", "a b"]),
+                (["_scans:=[front rear]"], ["/explore/scans", "front rear"]),
+                (["pose:=slam", "_typo:=1"], ["the parameter is given as _pose:=slam"])]:
+            with self.subTest(arguments):
+                self.ask("rosparam", "delete", "/explore")
+                self.expect_refusal("explore", ["_world:=none"] + arguments, words)
+
+    def test_what_a_node_waits_for_is_told(self):
+        explore = self.node("explore", "_world:=none", "_pose:=tf", "_save_at_end:=false")
+        self.assertTrue(self.says("/status", "nobody listens to cmd_vel"))
+        self.start("rostopic", "echo", "/cmd_vel")
+        self.assertTrue(self.says("/status", "nobody publishes /scan"))
+        explore.send_signal(signal.SIGINT)
+        explore.wait(timeout=30)
+        for is_simulated, words in (("false", "nobody publishes /scan"), ("true", "nothing gives /clock")):
+            self.ask("rosparam", "set", "/use_sim_time", is_simulated)
+            mapper = self.node("line_mapper")
+            time.sleep(8.0)
+            mapper.send_signal(signal.SIGINT)
+            self.assertIn(words, mapper.communicate(timeout=30)[0])
+        check = self.node("check_robot", "_seconds:=1")
+        self.assertIn("nothing gives /clock", check.communicate(timeout=30)[0])
+        self.assertEqual(check.returncode, 1)
+
+    def test_a_goal_that_comes_too_early_is_answered(self):
+        node = self.node("explore", "_world:=none", "_pose:=auto", "_save_at_end:=false")
+        self.assertTrue(self.says("/status", "waiting"))
+        self.ask("rostopic", "pub", "-1", "/move_base_simple/goal", "geometry_msgs/PoseStamped",
+                 "{header: {frame_id: map}, pose: {orientation: {w: 1}}}")
+        node.send_signal(signal.SIGINT)
+        self.assertIn("it is not known yet where the robot is", node.communicate(timeout=30)[0])
 
     def test_parameters_without_effect_are_told(self):
         for node, arguments, idle in [
@@ -132,14 +175,23 @@ class NodeEnds(OwnMaster):
             self.assertIn(word, done.stdout)
             self.assertIn("similarity_cut" if name != "simulator" else "radius", done.stdout)
 
+    def services(self):
+        names = (self.ask("rosservice", "list") or "").split()
+        return {name for name in names if name.startswith(("/explore/", "/static_map", "/dynamic_map"))}
+
     def test_a_restarted_master_finds_the_node_again(self):
-        node = self.exploring()
+        self.node("simulator", "_world:=office")
+        node = self.node("explore", "_world:=none", "_pose:=tf", "_out:=" + self.out)
+        self.assertTrue(self.says("/status", "exploring"))
+        services = self.services()
+        self.assertIn("/explore/set_parameters", services)
         self.master.kill()
         self.master.wait()
         time.sleep(2.0)
         self.assertIsNone(node.poll(), "alive without a master")
         self.master = self.start_master()
         self.assertTrue(self.says("/status", ":"), "the topics are known to the new master")
+        self.assertTrue(until(lambda: self.services() == services), services - self.services())
         self.assertTrue(until(lambda: "success: True" in
                               (self.ask("rosservice", "call", "/explore/stop") or "")))
         self.assertIsNone(node.poll())

@@ -25,7 +25,7 @@ class BagRecorder {
   template <class Message>
   void write(const std::string& topic, const ros::Time& stamp, const Message& message,
              bool latched = false) {
-    if (!bag_.isOpen()) return;
+    if (!bag_) return;
     const auto header = boost::make_shared<ros::M_string>();
     (*header)["topic"] = topic;
     (*header)["type"] = ros::message_traits::datatype(message);
@@ -34,17 +34,18 @@ class BagRecorder {
     if (latched) (*header)["latching"] = "1";
     try {
       // Before the first word of a simulated clock it is no time yet.
-      bag_.write(topic, std::max(stamp, ros::TIME_MIN), message, header);
+      bag_->write(topic, std::max(stamp, ros::TIME_MIN), message, header);
     } catch (const rosbag::BagException& error) {
-      ROS_ERROR("%s: recording has ended: %s", path_.c_str(), error.what());
-      path_.clear();
-      bag_.close();
+      giveUp(error.what());
     }
   }
 
  private:
+  /// What has been written stays.
+  void giveUp(const char* why);
+
   std::string path_;
-  rosbag::Bag bag_;
+  std::unique_ptr<rosbag::Bag> bag_;
 };
 
 }  // namespace cca

@@ -58,7 +58,9 @@ void GoalServer::takeOfAction() {
 void GoalServer::takeOfTopic(const geometry_msgs::PoseStamped& goal) try {
   const Pose2 T_map_goal = inMap(goal);
   patrol_.reset();
-  exploration_.sendTo(T_map_goal, [](Exploration::ErrandOutcome, const std::string&) {});
+  exploration_.sendTo(T_map_goal, [](Exploration::ErrandOutcome, const std::string& how) {
+    ROS_INFO("the goal: %s", how.c_str());
+  });
 } catch (const std::runtime_error& error) {
   ROS_WARN("the goal is refused: %s", error.what());
 }
@@ -89,8 +91,10 @@ void GoalServer::goOnPatrol() {
   const Pose2 T_map_goal = patrol_->places[place];
   exploration_.sendTo(T_map_goal,
                       [this, place](Exploration::ErrandOutcome outcome, const std::string& how) {
-                        if (outcome == Exploration::ErrandOutcome::kCalledOff)
+                        if (outcome == Exploration::ErrandOutcome::kCalledOff) {
+                          ROS_INFO("the patrol is over: %s", how.c_str());
                           return patrol_.reset();
+                        }
                         const bool is_missed = outcome == Exploration::ErrandOutcome::kUnreachable;
                         if (is_missed) ROS_WARN("place %zu of the patrol: %s", place, how.c_str());
                         patrol_->missed = is_missed ? patrol_->missed + 1 : 0;

@@ -185,10 +185,18 @@ void RobotCheck::take(const nav_msgs::Odometry& odometry, const ros::Time& arriv
   odometry_.push_back({odometry, arrival});
 }
 
+void RobotCheck::take(const tf2_msgs::TFMessage& transforms, const std::string& sender) {
+  for (const auto& transform : transforms.transforms) {
+    const std::string parent = frameName(transform.header.frame_id);
+    senders_[frameName(transform.child_frame_id)].insert("'" + parent + "' by " + sender);
+  }
+}
+
 std::vector<Finding> RobotCheck::findings(const Transforms& transforms) const {
   std::vector<Finding> findings;
   checkOdometry(findings);
   checkFrames(transforms, findings);
+  checkSenders(findings);
   if (scans_.empty()) return findings;
   checkScans(findings);
   checkStamps(findings);
@@ -335,6 +343,24 @@ void RobotCheck::checkFrames(const Transforms& tf, std::vector<Finding>& finding
   } catch (const std::runtime_error& error) {
     findings.push_back(
         fault(std::string("tf: the laser: ") + error.what(), "scans of a level laser are needed"));
+  }
+}
+
+/// tf keeps one place of a frame: of two it is now here, now there.
+void RobotCheck::checkSenders(std::vector<Finding>& findings) const {
+  for (const auto& [child, senders] : senders_) {
+    if (senders.size() < 2) continue;
+    std::string list;
+    for (const std::string& sender : senders) list += (list.empty() ? "" : ", and in ") + sender;
+    findings.push_back(fault("tf: where '" + child + "' is, is told in " + list,
+                             "let one of them only: end the other, or its publish_tf"));
+  }
+  const double age = median(pose_ages_);
+  if (age > kLate) {
+    findings.push_back(
+        fault("tf: " + settings_.odom_frame + " -> " + settings_.base_frame +
+                  text(" is %.2f s old when a scan comes", age),
+              "send it 20 times a second or more; set the clocks by one another (chrony)"));
   }
 }
 

@@ -5,6 +5,8 @@
 #include <nav_msgs/Odometry.h>
 #include <sensor_msgs/LaserScan.h>
 
+#include <map>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -33,6 +35,10 @@ class RobotCheck {
   /// @param arrival  in ROS time.
   void take(const sensor_msgs::LaserScan& scan, const ros::Time& arrival);
   void take(const nav_msgs::Odometry& odometry, const ros::Time& arrival);
+  /// @param sender  the node.
+  void take(const tf2_msgs::TFMessage& transforms, const std::string& sender);
+  /// @param age  s, of tf's last odom -> base when a scan comes.
+  void takePoseAge(double age) { pose_ages_.push_back(age); }
 
   std::size_t scans() const { return scans_.size(); }
   bool hasOdometry() const { return !odometry_.empty(); }
@@ -53,6 +59,7 @@ class RobotCheck {
   void checkStamps(std::vector<Finding>& findings) const;
   void checkFrames(const Transforms& transforms, std::vector<Finding>& findings) const;
   void checkOdometry(std::vector<Finding>& findings) const;
+  void checkSenders(std::vector<Finding>& findings) const;
   void checkMotion(const Transforms& transforms, std::vector<Finding>& findings) const;
   void checkMount(const Transforms& transforms, const std::vector<Pose2>& by_scans,
                   const std::vector<Pose2>& by_wheels, std::vector<Finding>& findings) const;
@@ -60,6 +67,8 @@ class RobotCheck {
   Settings settings_;
   std::vector<Heard<sensor_msgs::LaserScan>> scans_;
   std::vector<Heard<nav_msgs::Odometry>> odometry_;
+  std::map<std::string, std::set<std::string>> senders_;  ///< of each child: "'parent' by node"
+  std::vector<double> pose_ages_;                         ///< s
 };
 
 }  // namespace cca

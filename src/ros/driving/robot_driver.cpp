@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "io/plans/plan_reader.hpp"
 #include "motion/commanded_motion.hpp"
 #include "ros/messages/pose_message.hpp"
 #include "ros/nodes/node_localisation.hpp"
@@ -21,6 +20,8 @@ constexpr double kWatchPeriod = 0.05;  // s
 constexpr double kOldestScan = 0.5;
 // s, of the odometry that is kept: no scan that is driven by is older.
 constexpr double kKept = kOldestScan + ScanPeriod::kLongest;
+// m, rad: localisations tremble by less. s: the slowest robot has gone as far.
+constexpr double kHeldWithin = 0.05, kHeldFor = 5.0;
 constexpr double kOldestOdometry = 0.3;  // s
 constexpr double kWorthTelling = 0.05;   // s, that commands act later than told
 // m, around the robot, of what other lasers see: it stands long before, from any speed.
@@ -77,7 +78,12 @@ RobotDriver::RobotDriver(ros::NodeHandle& node, ros::NodeHandle& private_node,
     ROS_WARN("_resume:=%s has no effect: the robot is told where it is", settings_.resume.c_str());
   }
   exploration_.begin(std::move(localiser), settings_.resume, [this] { standWhileCorrecting(); });
-  if (!settings_.plan.empty()) exploration_.knowPlan(readPlan(settings_.plan).lines);
+  if (settings_.pose == "tf" && !settings_.plan.empty()) {
+    exploration_.knowPlan(settings_.plan_lines);
+  } else if (!settings_.plan.empty()) {
+    ROS_WARN("_plan:=%s has no effect: nobody tells where the robot is in it",
+             settings_.plan.c_str());
+  }
   exploration_.note("pose", settings_.pose);
   if (settings_.driver == "move_base") {
     delegateDriving();
@@ -166,6 +172,25 @@ void RobotDriver::checkLatency() {
       shown.latency(), settings_.robot.latency);
 }
 
+/// The explorer sets aside one goal after another then; that it does not move, and why not, is for
+/// somebody else to see.
+void RobotDriver::tellIfHeld(const PlacedScan& placed) {
+  const double passed = std::clamp((placed.stamp - last_stamp_).toSec(), 0.0, kOldestScan);
+  last_stamp_ = placed.stamp;
+  const Pose2 moved = T_fixed_held_.inverse() * placed.T_fixed_robot;
+  if (moved.position().norm() > kHeldWithin || std::abs(wrapAngle(moved.theta)) > kHeldWithin) {
+    T_fixed_held_ = placed.T_fixed_robot;
+    held_for_ = 0.0;
+  } else if (command_.linear != 0.0 || command_.angular != 0.0) {
+    held_for_ += passed;
+  }
+  if (held_for_ <= kHeldFor) return;
+  ROS_WARN_THROTTLE(10.0,
+                    "the robot was told to move for %.0f s, and has not: motors off, an emergency "
+                    "stop, something else that is obeyed first?",
+                    held_for_);
+}
+
 void RobotDriver::use(const PlacedScan& placed) {
   tellSlowLaser(placed.topic);
   if (placed.topic != 0) return useBeside(placed);
@@ -197,6 +222,7 @@ void RobotDriver::use(const PlacedScan& placed) {
   // By a scan that has become old meanwhile nobody drives.
   if ((ros::WallTime::now() - begin).toSec() > settings_.scan_timeout) return;
   addObstacles(placed, observation);
+  tellIfHeld(placed);
   obey(exploration_.step(std::move(observation), placed.stamp));
   last_used_[0] = placed.arrival;
   diagnostics_.scanUsed((ros::WallTime::now() - begin).toSec(), exploration_.agreement());
@@ -293,7 +319,10 @@ void RobotDriver::watch() {
   for (ros::Time& used : last_used_) {
     if (now < used) used = ros::Time();  // the clock was set back
   }
-  if (silent && exploration_.drives() && !deaf()) waitForLaser(*silent);
+  if (silent && exploration_.drives()) {
+    const char* why = deaf();
+    why ? exploration_.wait(why) : waitForLaser(*silent);
+  }
   if (silent || !exploration_.drives()) {
     stand();
   } else if (!move_base_) {

@@ -37,10 +37,11 @@ class RobotDriver {
     std::vector<std::string> scans{"scan"};   ///< topics, a laser each
     std::string hazard_points, hazard_range;  ///< topics, see HazardFeed
     double scan_timeout = 0.3;                ///< s
-    std::string pose = "tf";  ///< of the robot in the map, from tf, odometry or slam
-    std::string resume;       ///< folder of an earlier map, see Exploration::begin()
-    std::string plan;         ///< file of a plan in the map's frame, see Exploration::knowPlan()
-    bool corrections = true;  ///< of the past where tf's map -> odom leaps
+    std::string pose = "tf";           ///< of the robot in the map, from tf, odometry or slam
+    std::string resume;                ///< folder of an earlier map, see Exploration::begin()
+    std::string plan;                  ///< file of a plan in the map's frame
+    std::vector<PlanLine> plan_lines;  ///< its, see Exploration::knowPlan()
+    bool corrections = true;           ///< of the past where tf's map -> odom leaps
     RobotParameters robot;
     std::string driver = "cmd_vel";  ///< or move_base
   };
@@ -79,6 +80,7 @@ class RobotDriver {
   void command(const Velocity& velocity);
   Velocity measuredVelocity(const ros::Time& stamp) const;
   void checkLatency();
+  void tellIfHeld(const PlacedScan& placed);
   void delegateDriving();
   std::vector<ReconfigureServer::Number> changeable();
   void publishMapToOdom(ros::NodeHandle& node);
@@ -89,6 +91,9 @@ class RobotDriver {
   ros::Subscriber odometry_;
   std::deque<nav_msgs::Odometry> lately_;  ///< odometry
   Velocity command_;
+  Pose2 T_fixed_held_;     ///< where the robot was when it last was elsewhere
+  double held_for_ = 0.0;  ///< s, since then, of being told to move
+  ros::Time last_stamp_;
   bool has_told_latency_ = false, has_told_rate_ = false;
   std::vector<ros::Time> last_used_;  ///< scan of each laser: when it came
   /// What the last scan of a laser but the first shows around the robot; m, fixed frame.

@@ -16,6 +16,7 @@ constexpr double kLongWait = 1.0;                // s; no localisation takes as 
 // Scans that have come, and that wait for tf: a mapper may be seconds behind a bag played 40 times
 // as fast. Who drives has no use for scans of seconds ago.
 constexpr std::uint32_t kQueue = 5000;
+const ros::WallDuration kPatience(5.0);  // launch files start mapper and robot together
 constexpr std::size_t kMostWaiting = 5000, kMostWaitingToDrive = 50;
 
 }  // namespace
@@ -43,6 +44,8 @@ ScanFeed::ScanFeed(ros::NodeHandle& node, Settings settings, Sink sink)
         settings_.topics[topic], kQueue, take, ros::VoidConstPtr(),
         ros::TransportHints().tcpNoDelay()));
   }
+  silence_timer_ =
+      node.createWallTimer(kPatience, [this](const ros::WallTimerEvent&) { tellSilence(); });
 }
 
 void ScanFeed::drop(const std::string& reason, const std::string& detail, const std::string& rule) {
@@ -54,6 +57,27 @@ void ScanFeed::drop(const std::string& reason, const std::string& detail, const 
   } else {
     ROS_WARN_STREAM_THROTTLE(5.0, text);
   }
+}
+
+std::string ScanFeed::whySilent() const {
+  if (ros::Time::isSimTime() && ros::Time::now().isZero()) {
+    return "use_sim_time is true, and nothing gives /clock";
+  }
+  for (const ros::Subscriber& scans : scans_) {
+    if (scans.getNumPublishers() == 0) return "nobody publishes " + scans.getTopic();
+  }
+  return "";
+}
+
+std::string ScanFeed::lastTrouble() const {
+  const std::string silence = whySilent();
+  return silence.empty() ? last_trouble_ : ": " + silence;
+}
+
+void ScanFeed::tellSilence() {
+  const std::string why = whySilent();
+  if (!why.empty() && why != told_silence_) ROS_WARN_STREAM(why);
+  told_silence_ = why;
 }
 
 void ScanFeed::startAnewIfClockWasSetBack() {
@@ -87,6 +111,8 @@ void ScanFeed::receive(const Event& event, std::size_t topic) {
                     frameName(message.header.frame_id),
                     topic};
     periods_[topic].add(message.header.stamp);
+    if (waiting.frame.empty()) return drop("malformed", "header.frame_id is empty", "frame_id");
+    if (waiting.stamp.isZero()) return drop("malformed", "header.stamp is 0", "stamp");
     if (drives()) {
       const std::string why = whyUnfit(waiting);
       if (!why.empty()) return drop(why);

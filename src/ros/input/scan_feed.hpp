@@ -72,8 +72,9 @@ class ScanFeed {
   /// Of the laser of that topic.
   const ScanPeriod& period(std::size_t topic) const { return periods_[topic]; }
   const std::map<std::string, long>& dropped() const { return dropped_; }
-  /// Why the last scan was dropped or still waits, as ": reason"; empty where it was used.
-  const std::string& lastTrouble() const { return last_trouble_; }
+  /// Why none can come, or the last scan was dropped or still waits, as ": reason"; empty where it
+  /// was used.
+  std::string lastTrouble() const;
 
  private:
   struct Waiting {
@@ -99,6 +100,9 @@ class ScanFeed {
   void drop(const std::string& reason, const std::string& detail = "",
             const std::string& rule = "");
   void startAnewIfClockWasSetBack();
+  /// Why none can come; empty where they can.
+  std::string whySilent() const;
+  void tellSilence();
 
   Settings settings_;
   PlacementFrames frames_;
@@ -116,6 +120,8 @@ class ScanFeed {
   std::set<std::string> told_;  ///< reasons and rules
   TransformFeed transforms_;    // these two last: they call what stands above
   std::vector<ros::Subscriber> scans_;
+  std::string told_silence_;
+  ros::WallTimer silence_timer_;  // by the wall: that there is no other time is one of the causes
 };
 
 }  // namespace cca

@@ -27,9 +27,9 @@ Settings readSettings() {
   Settings s;
   PrivateParameters parameters{ros::NodeHandle("~")};
   parameters.number("seconds", s.seconds, kShortest, kLongest, "s");
-  parameters.text("map_frame", s.check.map_frame);
-  parameters.text("odom_frame", s.check.odom_frame);
-  parameters.text("base_frame", s.check.base_frame);
+  parameters.frame("map_frame", s.check.map_frame);
+  parameters.frame("odom_frame", s.check.odom_frame);
+  parameters.frame("base_frame", s.check.base_frame);
   Parameters program;
   parameters.program(program, {"robot"});
   parameters.refuseUnknown();
@@ -79,9 +79,19 @@ bool check() {
   RobotCheck check(settings.check);
   ros::NodeHandle node;
   const TransformFeed tf(node, [] {});
+  std::string no_scan;
   using Event = ros::MessageEvent<const topic_tools::ShapeShifter>;
   const auto takeScan = [&](const Event& event) {
-    check.take(scanOf(*event.getConstMessage()), event.getReceiptTime());
+    try {
+      check.take(scanOf(*event.getConstMessage()), event.getReceiptTime());
+    } catch (const std::runtime_error& error) {
+      no_scan = error.what();
+    }
+    const auto pose = tf.transforms().latest(settings.check.odom_frame, settings.check.base_frame);
+    if (pose && !pose->isZero()) check.takePoseAge((event.getReceiptTime() - *pose).toSec());
+  };
+  const auto takeTransforms = [&](const ros::MessageEvent<const tf2_msgs::TFMessage>& event) {
+    check.take(*event.getConstMessage(), event.getPublisherName());
   };
   const auto takeOdometry = [&](const ros::MessageEvent<const nav_msgs::Odometry>& event) {
     check.take(*event.getConstMessage(), event.getReceiptTime());
@@ -90,6 +100,12 @@ bool check() {
   const auto odometry =
       node.subscribe<nav_msgs::Odometry, const ros::MessageEvent<const nav_msgs::Odometry>&>(
           "odom", 100, takeOdometry);
+  const auto transforms =
+      node.subscribe<tf2_msgs::TFMessage, const ros::MessageEvent<const tf2_msgs::TFMessage>&>(
+          "/tf", 1000, takeTransforms);
+  const auto fixed =
+      node.subscribe<tf2_msgs::TFMessage, const ros::MessageEvent<const tf2_msgs::TFMessage>&>(
+          "/tf_static", 1000, takeTransforms);
   const ros::Publisher commands = node.advertise<geometry_msgs::Twist>("cmd_vel", 1);
   const ros::WallTime begin = ros::WallTime::now();
   double left = settings.seconds;
@@ -98,9 +114,14 @@ bool check() {
   while (left > 0.0 && keepRunning(0.1)) {
     left = settings.seconds - (ros::WallTime::now() - begin).toSec();
   }
+  if (ros::Time::isSimTime() && ros::Time::now().isZero()) {
+    return report({{Finding::Kind::kFault, "clock: use_sim_time is true, and nothing gives /clock",
+                    "rosparam set use_sim_time false, if no simulation or bag is to give it"}});
+  }
   std::vector<Finding> findings = check.findings(tf.transforms());
   if (check.scans() == 0) {
     findings.push_back(silent("scan", {"sensor_msgs/LaserScan", "sensor_msgs/MultiEchoLaserScan"}));
+    if (!no_scan.empty()) findings.back().what = "scan: " + no_scan;
   }
   if (!check.hasOdometry()) findings.push_back(silent("odom", {"nav_msgs/Odometry"}));
   if (commands.getNumSubscribers() > 0) {

@@ -3,10 +3,13 @@
 // rosrun cca_mrpt explore [_world:=FILE.yaml _strategy:=NAME]: explores a simulated world in one
 // process; with `_world:=none`, explores with a robot that has `scan`, tf and `cmd_vel`.
 #include <filesystem>
+#include <stdexcept>
 
 #include "cca_mrpt/localisation/given_poses.hpp"
 #include "cca_mrpt/simulation/laser_models.hpp"
 #include "exploration.hpp"
+#include "io/files/memory_file.hpp"
+#include "io/plans/plan_reader.hpp"
 #include "node_diagnostics.hpp"
 #include "node_localisation.hpp"
 #include "node_main.hpp"
@@ -46,8 +49,8 @@ Settings readSettings() {
     parameters.text("plan", s.driver.plan);
     parameters.flag("corrections", s.driver.corrections);
     parameters.names("scans", s.driver.scans);
-    parameters.text("hazard_points", s.driver.hazard_points);
-    parameters.text("hazard_range", s.driver.hazard_range);
+    parameters.topic("hazard_points", s.driver.hazard_points);
+    parameters.topic("hazard_range", s.driver.hazard_range);
     parameters.choice("driver", s.driver.driver, {"cmd_vel", "move_base"});
     parameters.choice("pose", s.driver.pose, {"tf", "slam", "auto", "odometry"});
     parameters.text("record", s.record);
@@ -62,12 +65,17 @@ Settings readSettings() {
       parameters.withoutEffect(robots);
     }
   }
-  parameters.text("map_frame", s.driver.frames.map);
-  parameters.text("odom_frame", s.driver.frames.odom);
-  parameters.text("base_frame", s.driver.frames.base);
-  parameters.text("laser_frame", s.driver.frames.laser);
+  const bool is_told =
+      s.simulator.world == kNoWorld && (s.driver.pose == "tf" || s.driver.pose == "auto");
+  if (!s.driver.plan.empty() && !is_told) {
+    throw std::runtime_error("parameter ~plan needs _pose:=tf: it lies where localizer has it");
+  }
+  parameters.frame("odom_frame", s.driver.frames.odom);
+  parameters.frame("map_frame", s.driver.frames.map, is_told ? "" : s.driver.frames.odom);
+  parameters.frame("base_frame", s.driver.frames.base);
+  parameters.frame("laser_frame", s.driver.frames.laser);
   parameters.text("labels", s.exploration.labels);
-  parameters.text("out", s.exploration.out);
+  parameters.path("out", s.exploration.out, "a folder");
   parameters.flag("autostart", s.exploration.autostart);
   parameters.flag("save_at_end", s.exploration.save_at_end);
   parameters.flag("exit_at_end", s.exit_at_end);
@@ -136,6 +144,10 @@ void exploreWithRobot(const Settings& settings, ros::NodeHandle& node,
     goals.emplace(node, private_node, settings.driver.frames.map, exploration);
   }
   RobotDriver::Settings driver_settings = settings.driver;
+  // At once, where they cannot be read, and not when tf is there.
+  if (!driver_settings.plan.empty())
+    driver_settings.plan_lines = readPlan(driver_settings.plan).lines;
+  if (!driver_settings.resume.empty()) static_cast<void>(loadMemory(driver_settings.resume));
   driver_settings.pose = chosenPose(settings.driver, node, exploration);
   if (!driver_settings.pose.empty()) {
     RobotDriver driver(node, private_node, driver_settings, settings.program.mapping, exploration);

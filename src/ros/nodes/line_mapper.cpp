@@ -47,19 +47,19 @@ LineMapperParameters readParameters(const ros::NodeHandle& private_node) {
   PrivateParameters parameters(private_node);
   parameters.names("scans", p.scans);
   parameters.choice("pose", p.pose, {"tf", "slam"});
-  parameters.text("map_frame", p.frames.map);
   parameters.text("resume", p.resume);
   if (p.pose != "slam" && !p.resume.empty()) {
     throw std::runtime_error("parameter ~resume needs _pose:=slam");
   }
   parameters.flag("corrections", p.corrections);
-  parameters.text("odom_frame", p.frames.odom);
+  parameters.frame("odom_frame", p.frames.odom);
+  parameters.frame("map_frame", p.frames.map, p.pose == "slam" ? p.frames.odom : "");
   if (p.pose == "slam" || p.corrections) {
-    parameters.text("base_frame", p.frames.base);
+    parameters.frame("base_frame", p.frames.base);
   } else {
     parameters.withoutEffect("base_frame");
   }
-  parameters.text("out", p.out);
+  parameters.path("out", p.out, "a folder");
   parameters.flag("save_at_end", p.save_at_end);
   parameters.text("record", p.record);
   parameters.text("labels", p.labels);

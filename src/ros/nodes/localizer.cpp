@@ -25,6 +25,8 @@
 namespace cca {
 namespace {
 
+constexpr double kFarthestOff = 100.0;  // m; 2-D lasers see the plan's walls from no farther
+
 struct LocalizerParameters {
   FrameNames frames;
   std::vector<std::string> scans{"scan"};
@@ -38,9 +40,9 @@ LocalizerParameters readLocalizerParameters(const ros::NodeHandle& private_node)
   parameters.names("scans", p.scans);
   parameters.text("plan", p.plan);
   parameters.number("scale", p.scale, 0.0, 1e6, "m a unit");
-  parameters.text("map_frame", p.frames.map);
-  parameters.text("odom_frame", p.frames.odom);
-  parameters.text("base_frame", p.frames.base);
+  parameters.frame("odom_frame", p.frames.odom);
+  parameters.frame("map_frame", p.frames.map, p.frames.odom);
+  parameters.frame("base_frame", p.frames.base);
   parameters.refuseUnknown();
   if (p.plan.empty()) {
     throw std::runtime_error(
@@ -59,6 +61,7 @@ class Localizer {
   Localizer(ros::NodeHandle node, ros::NodeHandle private_node)
       : parameters_(readLocalizerParameters(private_node)),
         plan_(readPlan(parameters_.plan, parameters_.scale)),
+        bounds_(boundsOf(plan_.lines)),
         localiser_(plan_.lines, plan_.sigmas),
         lines_(node, parameters_.frames.map),
         pose_(node, parameters_.frames, "amcl_pose"),
@@ -102,14 +105,14 @@ class Localizer {
   }
 
   void tell(bool is_localised) {
-    if (is_localised == was_localised_) return;
-    was_localised_ = is_localised;
     diagnostics_.setState(is_localised ? "localised" : "not localised");
-    if (is_localised) {
+    if (!is_localised) {
+      ROS_WARN_THROTTLE(10.0, "not localised: looking for the robot in the whole of %s",
+                        parameters_.plan.c_str());
+    } else if (!was_localised_) {
       ROS_INFO("localised in %s", parameters_.plan.c_str());
-    } else {
-      ROS_WARN("lost: looking for the robot in the whole of %s", parameters_.plan.c_str());
     }
+    was_localised_ = is_localised;
   }
 
   void place(const geometry_msgs::PoseWithCovarianceStamped& message) {
@@ -127,6 +130,11 @@ class Localizer {
       ROS_WARN("initialpose is not finite: not heeded");
       return;
     }
+    if (bounds_.exteriorDistance(told.position()) > kFarthestOff) {
+      ROS_WARN("initialpose is %.0f m beside the plan: not heeded",
+               bounds_.exteriorDistance(told.position()));
+      return;
+    }
     // Who tells no covariance points with a mouse: rviz's own default.
     if (variances.minCoeff() <= 0.0) variances = {0.25, 0.25, 0.07};
     localiser_.place({told.x, told.y, wrapAngle(told.theta)}, variances.asDiagonal());
@@ -134,6 +142,7 @@ class Localizer {
 
   LocalizerParameters parameters_;
   PlanFile plan_;
+  Eigen::AlignedBox2d bounds_;  ///< m, map frame: of the plan
   KnownMap localiser_;
   MotionCompensation compensation_;
   ScanAgreement agreement_;

@@ -66,9 +66,11 @@ void registerAgain() {
       takePublishers(topic, answer);
     }
   }
+  // roscpp keeps no list that could be asked for: all that any of the nodes has.
   for (const char* name :
-       {"start", "stop", "pause", "home", "save", "reset", "get_loggers", "set_logger_level"}) {
-    const std::string service = ros::this_node::getName() + "/" + name;
+       {"~start", "~stop", "~pause", "~home", "~save", "~reset", "~room_at", "~drive_to_room",
+        "~set_parameters", "~get_loggers", "~set_logger_level", "static_map", "dynamic_map"}) {
+    const std::string service = ros::names::resolve(name);
     if (!ros::ServiceManager::instance()->lookupServicePublication(service)) continue;
     const std::string uri = "rosrpc://" + ros::network::getHost() + ":" +
                             std::to_string(ros::ConnectionManager::instance()->getTCPPort());

@@ -53,7 +53,14 @@ int runNode(int argc, char** argv, const NodeDescription& node, const std::funct
     return 0;
   }
   const std::string& name = node.name;
-  ros::init(argc, argv, name, ros::init_options::NoSigintHandler);
+  try {
+    ros::init(argc, argv, name, ros::init_options::NoSigintHandler);
+  } catch (const ros::Exception& error) {
+    std::fprintf(
+        stderr, "%s: %s\nother names of topics are given as old:=new, parameters as _name:=value\n",
+        name.c_str(), error.what());
+    return kUsage;
+  }
   if (argc > 1) {  // ROS has taken its own out
     std::fprintf(stderr, "%s: '%s' is not expected; parameters are given as _name:=value\n",
                  name.c_str(), argv[1]);

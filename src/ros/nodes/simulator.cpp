@@ -31,10 +31,10 @@ Settings readSettings() {
   parameters.text("world", s.simulator.world);
   readParameters(parameters, s.simulator, s.program);
   parameters.flag("localisation", s.localisation);
-  parameters.text("map_frame", s.frames.map);
-  parameters.text("odom_frame", s.frames.odom);
-  parameters.text("base_frame", s.frames.base);
-  parameters.text("laser_frame", s.frames.laser);
+  parameters.frame("odom_frame", s.frames.odom);
+  parameters.frame("map_frame", s.frames.map, s.localisation ? s.frames.odom : "");
+  parameters.frame("base_frame", s.frames.base);
+  parameters.frame("laser_frame", s.frames.laser);
   parameters.program(s.program, {"robot", "laser", "odometry"});
   parameters.refuseUnknown();
   return s;

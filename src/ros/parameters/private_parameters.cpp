@@ -7,6 +7,8 @@
 #include <stdexcept>
 #include <type_traits>
 
+#include "ros/input/transforms.hpp"
+
 namespace cca {
 namespace {
 
@@ -31,9 +33,12 @@ std::string textOf(XmlRpc::XmlRpcValue value) {
 
 /// Of `[a, b]` or `a`.
 std::vector<std::string> namesIn(std::string text) {
-  text.erase(std::remove_if(text.begin(), text.end(),
-                            [](char c) { return c == ' ' || c == '\'' || c == '"'; }),
-             text.end());
+  const auto trim = [](std::string& word) {
+    constexpr const char* kAround = " '\"";
+    word.erase(0, word.find_first_not_of(kAround));
+    word.erase(word.find_last_not_of(kAround) + 1);
+  };
+  trim(text);
   if (text.size() >= 2 && text.front() == '[' && text.back() == ']') {
     text = text.substr(1, text.size() - 2);
   }
@@ -45,6 +50,7 @@ std::vector<std::string> namesIn(std::string text) {
       names.back() += c;
     }
   }
+  for (std::string& name : names) trim(name);
   return names;
 }
 
@@ -68,6 +74,27 @@ bool PrivateParameters::given(const std::string& name, XmlRpc::XmlRpcValue& valu
 void PrivateParameters::text(const std::string& name, std::string& value) {
   XmlRpc::XmlRpcValue parameter;
   if (given(name, parameter)) value = textOf(parameter);
+}
+
+void PrivateParameters::path(const std::string& name, std::string& value, const std::string& what) {
+  text(name, value);
+  if (value.empty()) refuse(name, value, what);
+}
+
+void PrivateParameters::frame(const std::string& name, std::string& value,
+                              const std::string& other) {
+  std::string given = value;
+  text(name, given);
+  value = frameName(given);
+  if (value.empty() || value.find(' ') != std::string::npos) refuse(name, given, "a frame of tf");
+  if (value == other)
+    refuse(name, given, "another frame: this node tells where one is in the other");
+}
+
+void PrivateParameters::topic(const std::string& name, std::string& value) {
+  text(name, value);
+  std::string why;
+  if (!ros::names::validate(value, why)) refuse(name, value, "a topic: " + why);
 }
 
 void PrivateParameters::flag(const std::string& name, bool& value) {
@@ -171,6 +198,11 @@ void PrivateParameters::program(Parameters& p, const std::vector<std::string>& s
 }
 
 void PrivateParameters::refuseUnknown() const {
+  for (const auto& [from, to] : ros::names::getUnresolvedRemappings()) {
+    if (!contains(known_, from) && !contains(unused_, from)) continue;
+    ROS_WARN("%s:=%s gives a topic another name; the parameter is given as _%s:=%s", from.c_str(),
+             to.c_str(), from.c_str(), to.c_str());
+  }
   std::vector<std::string> names;
   if (!node_.getParamNames(names)) return;
   const std::string prefix = node_.getNamespace() + "/";

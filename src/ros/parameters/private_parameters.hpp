@@ -20,6 +20,12 @@ class PrivateParameters {
   // Each sets the value where the parameter is given.
   // @throws std::runtime_error naming the parameter, its value and what is allowed.
   void text(const std::string& name, std::string& value);
+  /// A text that is not empty. @param what  it is.
+  void path(const std::string& name, std::string& value, const std::string& what);
+  /// A frame of tf, without the slash that it may begin with. @param other  that it must not be.
+  void frame(const std::string& name, std::string& value, const std::string& other = "");
+  /// A topic; none where it is empty.
+  void topic(const std::string& name, std::string& value);
   void flag(const std::string& name, bool& value);
   void number(const std::string& name, double& value, double lowest, double highest,
               const std::string& unit);
@@ -35,6 +41,7 @@ class PrivateParameters {
   /// node's own were read: a short name that is one of these is not the program's.
   void program(Parameters& p, const std::vector<std::string>& sections);
 
+  /// Warns of parameters that lack their underscore: they give topics other names.
   /// @throws std::runtime_error naming what nobody asked for, and all that there is.
   void refuseUnknown() const;
 

@@ -42,7 +42,9 @@ Pose2 parseStart(const std::string& text) {
 
 void readParameters(PrivateParameters& parameters, SimulatorParameters& p, Parameters& program) {
   std::string model = laserModels().front().name;
-  parameters.text("laser_model", model);
+  std::vector<std::string> models;
+  for (const LaserModel& one : laserModels()) models.push_back(one.name);
+  parameters.choice("laser_model", model, models);
   program.laser = laserModel(model).laser;
   p.scan_rate = laserModel(model).rate;
   parameters.text("start_pose", p.start_pose);
