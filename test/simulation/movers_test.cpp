@@ -176,6 +176,9 @@ TEST(MoversFile, ErrorsNameTheMoverTheKeyAndWhatIsAllowed) {
   expect("movers:\n  - {shape: box, size: [1, 1], radius: 0.3, start: [1, 1]}\n",
          "movers[0]: radius: belongs to shape: disc");
   expect("movers:\n  - {start: [1, 1], loop: true}\n", "movers[0]: loop: belongs to way_points");
+  expect("movers: [\n", "is not valid YAML");
+  expect("movers:\n  - {start: [1, 1]\n", "is not valid YAML");
+  expect("movers:\n  - {start: [1, 1]}\n\t- {start: [2, 2]}\n", "is not valid YAML");
   expect("movers:\n  - {shape: cone, start: [1, 1]}\n", "'cone' is not one of: disc, box");
 }
 
