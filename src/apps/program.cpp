@@ -33,12 +33,17 @@ void tell(const CLI::App& program, const std::string& message) {
   std::fprintf(stderr, "%s: %s\n", program.get_name().c_str(), message.c_str());
 }
 
-/// An empty value is a shell variable that was never set.
-void refuseEmptyValues(CLI::App& program) {
+/// An empty value is a shell variable that was never set; a value that is an option of the command
+/// was forgotten.
+void refuseForgottenValues(CLI::App& program) {
   for (CLI::App* command : program.get_subcommands({})) {
     for (CLI::Option* option : command->get_options()) {
       if (option->get_expected_min() == 0) continue;
-      option->check([](const std::string& value) { return value.empty() ? "is empty" : ""; });
+      option->check([command](const std::string& value) -> std::string {
+        if (value.empty()) return "is empty";
+        const bool is_option = value.rfind("--", 0) == 0 && command->get_option_no_throw(value);
+        return is_option ? "its value is missing before " + value : "";
+      });
     }
   }
 }
@@ -71,7 +76,7 @@ int runProgram(CLI::App& program, int argc, char** argv) {
                  name.c_str());
     return kUsage;
   }
-  refuseEmptyValues(program);
+  refuseForgottenValues(program);
   try {
     program.parse(argc, argv);
   } catch (const CLI::RequiredError& error) {

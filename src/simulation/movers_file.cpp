@@ -17,10 +17,12 @@ void readShape(const YamlNode& entry, Body& body) {
   body.shape = entry.choice("shape", {"disc", "box"}, "disc") == "disc" ? Body::Shape::kDisc
                                                                         : Body::Shape::kBox;
   if (body.shape == Body::Shape::kDisc) {
+    if (entry.has("size")) entry.fail("size", "belongs to shape: box");
     const double radius = entry.number("radius", 0.05, 5.0, 0.25);
     body.half_size = {radius, radius};
     return;
   }
+  if (entry.has("radius")) entry.fail("radius", "belongs to shape: disc");
   const auto size = entry.numbers("size", 2);
   for (double side : size) {
     if (side < 0.1 || side > 10.0)
@@ -75,6 +77,7 @@ Mover readMover(const YamlNode& entry, const World& world) {
     if (mover.loop) requireFreeLeg(entry, world, way.back(), way.front(), radius);
     start = way.front();
   } else {
+    if (entry.has("loop")) entry.fail("loop", "belongs to way_points");
     start = place(entry, "start", entry.numbers("start", 2));
     requireFree(entry, "start", world, start, radius);
   }

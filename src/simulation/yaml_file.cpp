@@ -12,6 +12,7 @@
 #include <iterator>
 #include <sstream>
 #include <stdexcept>
+#include <utility>
 
 namespace cca {
 
@@ -103,6 +104,22 @@ void refuseRepeatedKeys(const std::string& path, const std::string& text,
   }
 }
 
+/// A key of our own behind all others. MRPT keeps what stands before an error in a text, and tells
+/// nobody but the error output: only where this key is read all has been.
+const std::string kLastKey = "end_of_the_text";
+
+/// The text with that key, at the depth of its first one; as it is where it has no lines of keys.
+std::string withLastKey(const std::string& text) {
+  std::istringstream lines(text);
+  for (std::string line; std::getline(lines, line);) {
+    const std::size_t begin = line.find_first_not_of(" \t\r");
+    if (begin == std::string::npos || line[begin] == '#' || line.rfind("---", 0) == 0) continue;
+    if (line[begin] == '{' || line[begin] == '-') break;
+    return text + "\n" + line.substr(0, begin) + kLastKey + ": 0\n";
+  }
+  return text;
+}
+
 }  // namespace
 
 YamlNode YamlNode::load(const std::string& path) {
@@ -121,8 +138,9 @@ YamlNode YamlNode::load(const std::string& path) {
   // It also calls itself once a level, until the stack ends.
   if (deepestNesting(text) > kDeepest) throw std::runtime_error(path + ": is nested too deep");
   yaml node;
+  const std::string whole = withLastKey(text);
   try {
-    node.loadFromText(text);
+    node.loadFromText(whole);
   } catch (const std::exception&) {
     const std::string key = keyWithoutValue(text);
     throw std::runtime_error(path + (key.empty() ? "" : ": " + key) +
@@ -131,8 +149,12 @@ YamlNode YamlNode::load(const std::string& path) {
   if (node.isNullNode() || !node.isMap()) {
     throw std::runtime_error(path + ": holds no 'key: value' lines");
   }
-  refuseRepeatedKeys(path, text, node.node());
-  return YamlNode(path, node.asMap());
+  if (whole.size() > text.size() && !node.has(kLastKey))
+    throw std::runtime_error(path + ": is not valid YAML");
+  refuseRepeatedKeys(path, whole, node.node());
+  auto entries = node.asMap();
+  entries.erase(yaml::node_t(kLastKey));
+  return YamlNode(path, std::move(entries));
 }
 
 void YamlNode::fail(const std::string& key, const std::string& complaint) const {

@@ -67,7 +67,21 @@ for line in driven:
 assert [line["time_s"] for line in lines] == sorted(line["time_s"] for line in lines)
 CHECK
 expect_error 1 "c.jsonl: is there already" explore "$maps/two_rooms.yaml" --out none --explain c.jsonl
-expect_error 1 "nowhere" explore "$maps/two_rooms.yaml" --out none --explain nowhere/d.jsonl
+expect_error 1 "nowhere/d.jsonl: cannot be written" explore "$maps/two_rooms.yaml" --out none --explain nowhere/d.jsonl
+cp "$maps/two_rooms.yaml" "$maps/two_rooms.png" .
+expect_error 1 "two_rooms.yaml: is named twice" explore two_rooms.yaml --out none --explain two_rooms.yaml --force
+cmp -s two_rooms.yaml "$maps/two_rooms.yaml" || fail "--explain wrote over the world"
+
+# A map made in an explored folder holds nothing of the drive; its scans stay.
+"$program" map a/run.rawlog --out mapped --quiet && cp -r a over || fail "map run.rawlog: status $?"
+"$program" map a/run.rawlog --out over --force --quiet || fail "map over an exploration: status $?"
+rm over/run.rawlog over/run_GT.txt || fail "map removed the scans"
+[ "$(ls over)" = "$(ls mapped)" ] || fail "the map holds files of the drive: $(ls over)"
+
+# A world of ours is judged by its name, too.
+"$program" evaluate a/lines.csv --world two_rooms >by_name.json || fail "evaluate --world two_rooms: status $?"
+"$program" evaluate a/lines.csv --world "$maps/two_rooms.yaml" | cmp - by_name.json || fail "the world by its name is another"
+expect_error 1 "two_roms: is no file, and no world of ours" evaluate a/lines.csv --world two_roms
 
 # A page is made anew from what it holds; two runs stand in one.
 "$program" render a --html --out again.html || fail "render --html: status $?"
@@ -150,6 +164,8 @@ print("P2 100 17 255", *(" ".join(map(str, row)) for row in rows), sep="\n")
 END
 sed 's/gap/tight/; s/^start.*/start: [1.5, 0.425, 0]/' gap.yaml >tight.yaml
 expect_error 3 "nothing around it is known to be free" explore tight.yaml --robot.safety_margin 0.1 --out tight --quiet
+# A laser that reaches no wall: in a simulation nothing will come back later.
+expect_error 1 "the laser's beams have told nothing for 60 s" explore gap.yaml --laser-range 0.6 --out blind --quiet
 # On wheels alone the pose is lost.
 expect_error 3 "scans contradict the map" explore "$maps/pillar_hall.yaml" --seed 1 --pose odometry --out lost --quiet
 grep -q '"agreement": 0.9' lost/summary.json || fail "summary.json does not say how far scans and map agree"
@@ -176,6 +192,7 @@ expect_error 1 "nothing beyond the robot's radius" explore "$maps/two_rooms.yaml
 expect_error 2 "start" explore "$maps/two_rooms.yaml" --start=nan,1,0 --out d
 expect_error 2 "beams" explore "$maps/two_rooms.yaml" --laser.beams 1 --out d
 expect_error 2 "explroe is no command" explroe "$maps/two_rooms.yaml"
+expect_error 2 "--laser: its value is missing before --out" explore "$maps/two_rooms.yaml" --laser --out d
 expect_error 2 "strategy" explore "$maps/two_rooms.yaml" --strategy clairvoyance --out d
 expect_error 2 "excludes" explore "$maps/two_rooms.yaml" --seed 1 --run.seed 2 --out d
 expect_error 2 "laser-range" explore "$maps/two_rooms.yaml" --laser-range -3 --out d

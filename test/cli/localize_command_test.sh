@@ -83,6 +83,11 @@ echo "x1,y1,x2,y2
 refuses 3 "was never localised in other.csv (6 lines within 3.0 x 11.0 m)" "$program" localize map/run.rawlog --in other.csv --out elsewhere
 [ -s elsewhere/summary.json ] || { echo "FAILED: no summary.json of a robot that was not found"; failed=1; }
 
+# A start that is told, from which nothing of the plan is seen, is no place that was found.
+refuses 3 "was never localised in other.csv" "$program" localize map/run.rawlog --in other.csv --out far --start 500,0,0
+
+refuses 1 "map: holds a map" "$program" localize map/run.rawlog --in map --out map --force
+check "the map is what it was" diff -r map untouched
 refuses 1 "nowhere.dxf: cannot be read" "$program" localize map/run.rawlog --in nowhere.dxf --out none
 refuses 1 "is no plan by its name" "$program" localize map/run.rawlog --in room.pgm --out none
 printf 'x1,y1,x2\n0,0,1\n' >short.csv

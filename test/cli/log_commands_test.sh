@@ -168,9 +168,40 @@ refuses 1 "not a line map" "$program" render room.log --out d.png
 # What is scored: comments and a header are passed over, what is no place in a building is refused.
 printf '# a comment\nx1,y1,x2,y2\n0,3,6,3\n' >one.csv
 check "evaluate takes a comment before the header" "$program" evaluate one.csv --log room.log
+for text in '\357\273\277x1,y1,x2,y2\r\n0.5,3,6,3\r\n' 'x1;y1;x2;y2\n0,5;3;6;3\n' 'x1,y1,x2,y2\n0.5,3,6,3\n'; do
+  # shellcheck disable=SC2059  # the text is a format
+  printf "$text" >sheet.csv
+  check "evaluate takes what a spreadsheet wrote" "$program" evaluate sheet.csv --log room.log
+  grep -q '"total_length_m": 5.5' last.out || { echo "FAILED: evaluate misread $text"; failed=1; }
+  check "render takes what a spreadsheet wrote" "$program" render sheet.csv --out sheet.png --size 300 --no-caption --force
+  cp sheet.png "sheet_${#text}.png"
+done
+for picture in sheet_*.png; do
+  cmp sheet.png "$picture" || { echo "FAILED: render drew other lines"; failed=1; }
+done
 refuses 1 "/dev/null: is empty" "$program" evaluate /dev/null --log room.log
 printf 'x1,y1,x2,y2\n0,0,1e9,0\n' >far.csv
 refuses 1 "far.csv:2" "$program" evaluate far.csv --log room.log
+
+# What a command reads, or writes elsewhere, it does not write over; --force is not meant for that.
+cp room.log kept.log && cp map/lines.csv kept.csv && cp kept.csv kept.png
+ln -s kept.log link.log
+for file in kept.log link.log ./kept.log; do
+  refuses 1 "$file: is named twice" "$program" extract kept.log --out $file --force
+done
+refuses 1 "both.csv: is named twice" "$program" extract kept.log --out both.csv --arcs ./both.csv
+refuses 1 "kept.log: is named twice" "$program" extract kept.log --out both.csv --arcs kept.log --force
+refuses 1 "kept.csv: is named twice" "$program" evaluate kept.csv --log kept.log --out kept.csv --force
+refuses 1 "kept.log: is named twice" "$program" evaluate kept.csv --log kept.log --out kept.log --force
+refuses 1 "kept.png: is named twice" "$program" render kept.png --out kept.png --force
+check "the log is what it was" cmp kept.log room.log
+check "the map is what it was" cmp kept.csv map/lines.csv
+check "the other map is what it was" cmp kept.png map/lines.csv
+[ ! -e both.csv ] || { echo "FAILED: extract wrote what it refused"; failed=1; }
+mkdir odd && cp room.log odd/poses.csv
+refuses 1 "odd/poses.csv: is named twice" "$program" map odd/poses.csv --out odd --force
+check "the log is what it was" cmp odd/poses.csv room.log
+refuses 2 "--resume: its value is missing before --out" "$program" map room.log --resume --out nowhere
 
 # What does not arrive is told; a device stays one; a name need not be UTF-8.
 if [ -w /dev/full ]; then
@@ -235,6 +266,12 @@ check "one pose gone astray" sh -c 'awk "/^FLASER/ && ++n == 3 { \$184 = \"1e7\"
 check "costs no map" "$program" map stray.log --out stray
 grep -q "1 scan(s) far from all others" last.err || { echo "FAILED: the stray scan is not told"; cat last.err; failed=1; }
 check "nor the length of the way" python3 -c 'import json; assert json.load(open("stray/summary.json"))["distance_m"] < 10'
+
+# A pose that is nowhere on the Earth is damage.
+awk '/^FLASER/ && ++n == 3 { $184 = $187 = "1e308" } { print }' room.log >beyond.log
+check "a pose beyond all numbers costs its scan" "$program" map beyond.log --out beyond
+grep -q "1 scan(s) left out: their poses are beyond 100 000 km; the first is number 2" last.err ||
+  { echo "FAILED: the pose beyond all numbers is not told"; cat last.err; failed=1; }
 
 # What is left of a run that was killed goes with the next one.
 touch map/.map.part-999999999-0.png

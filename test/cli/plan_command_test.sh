@@ -80,6 +80,11 @@ refuses 1 "no_name.csv, row 2, column name: empty" "$program" plan map --labels 
 printf '\xef\xbb\xbfx,y,name\r\n1,1,Flur\r\n' >spreadsheet.csv
 check "labels of a spreadsheet are read" "$program" plan map --labels spreadsheet.csv --out spreadsheet
 grep -q '"Flur"' spreadsheet/rooms.csv || { echo "FAILED: no room is called Flur"; failed=1; }
+printf 'name;x;y\r\n"Bad; WC";1,5;1\r\n' >semicolons.csv
+check "labels with semicolons and decimal commas are read" "$program" plan map --labels semicolons.csv --out semicolons
+grep -q '"Bad; WC"' semicolons/rooms.csv || { echo "FAILED: no room is called Bad; WC"; failed=1; }
+printf 'x,y,name\n1,1,K\374che\n' >latin1.csv
+refuses 1 "latin1.csv, row 2, column name: must be UTF-8 text" "$program" plan map --labels latin1.csv --out none
 refuses 1 "none.csv: cannot be read" "$program" plan map --labels none.csv --out none
 [ ! -e none ] || { echo "FAILED: a plan that failed left a folder"; failed=1; }
 refuses 1 "is no folder of a map" "$program" plan nowhere

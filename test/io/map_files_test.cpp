@@ -334,7 +334,8 @@ TEST(MapFolder, AFolderThatHasTheNameOfAFileIsRefusedBeforeAll) {
 
 TEST(MapFolder, HoldsNothingOfTheMapThatItHeldBefore) {
   const TemporaryFolder folder;
-  for (const char* name : {"map.slam", "poses.tum", "graph.g2o", "poses.csv", "run.rawlog"}) {
+  for (const char* name : {"map.slam", "poses.tum", "graph.g2o", "poses.csv", "run.rawlog",
+                           "trajectory.csv", "localisation.png"}) {
     std::ofstream(folder / name) << "earlier";
   }
   MapProducts products = corner();
@@ -342,7 +343,7 @@ TEST(MapFolder, HoldsNothingOfTheMapThatItHeldBefore) {
   products.times = {};
   products.beside = {"poses.csv"};
   writeMapFolder(folder.path(), products);
-  for (const char* name : {"map.slam", "poses.tum"})
+  for (const char* name : {"map.slam", "poses.tum", "trajectory.csv", "localisation.png"})
     EXPECT_FALSE(fs::exists(folder / name)) << name;
   for (const char* name : {"poses.csv", "run.rawlog"}) EXPECT_TRUE(fs::exists(folder / name));
 }

@@ -172,6 +172,13 @@ TEST(MoversFile, ErrorsNameTheMoverTheKeyAndWhatIsAllowed) {
   expect("movers:\n  - {start: [0.1, 1]}\n", "comes into a wall at 0.10, 1.00 m");
   expect("movers:\n  - {way_points: [[1, 1], [9, 1]]}\n", "way_points: comes into a wall");
   expect("movers:\n  - {start: [1, 1], colour: red}\n", "colour: is no known key");
+  expect("movers:\n  - {size: [1, 1], start: [1, 1]}\n", "movers[0]: size: belongs to shape: box");
+  expect("movers:\n  - {shape: box, size: [1, 1], radius: 0.3, start: [1, 1]}\n",
+         "movers[0]: radius: belongs to shape: disc");
+  expect("movers:\n  - {start: [1, 1], loop: true}\n", "movers[0]: loop: belongs to way_points");
+  expect("movers: [\n", "is not valid YAML");
+  expect("movers:\n  - {start: [1, 1]\n", "is not valid YAML");
+  expect("movers:\n  - {start: [1, 1]}\n\t- {start: [2, 2]}\n", "is not valid YAML");
   expect("movers:\n  - {shape: cone, start: [1, 1]}\n", "'cone' is not one of: disc, box");
 }
 

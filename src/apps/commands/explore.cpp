@@ -178,6 +178,7 @@ void explore(const ExploreOptions& options, const Parameters& parameters) {
   std::optional<DecisionFile> decisions;
   if (!options.explain.empty()) {
     requireNew(options.explain, options.force);
+    requireApart(options.explain, {options.world, options.movers});
     decisions.emplace(options.explain, scene.origin);
   }
   const std::string folder = chooseFolder(options, simulation.world().name);

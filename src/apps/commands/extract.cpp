@@ -59,6 +59,8 @@ void addExtractCommand(CLI::App& program) {
     const Parameters parameters = options->resolve();
     requireNew(*out, *force);
     requireNew(*arcs, *force);
+    requireApart(*out, {*log, *arcs});
+    requireApart(*arcs, {*log});
     auto reader = openUndistortedLog(*log, *hints);
     std::string csv = kHeader, arcs_csv = kArcHeader;
     for (int id = 0; auto record = reader->next(); ++id) {

@@ -65,7 +65,7 @@ void report(const LocalizeOptions& options, const PlanFile& plan, const Localize
   if (!plan.not_understood.empty()) {
     std::printf("the plan also holds %s, which is no line\n", plan.not_understood.c_str());
   }
-  if (!log.poses().empty()) {
+  if (log.explainedShare() > 0.0) {
     std::printf("%.0f %% of the returns are explained by the plan, to %.3f m rms\n",
                 100.0 * log.explainedShare(), log.residual());
   }
@@ -82,9 +82,14 @@ void localize(const LocalizeOptions& options) {
     start = {options.start[0], options.start[1], wrapAngle(options.start[2] * M_PI / 180.0)};
   }
   std::error_code unknown;
+  if (std::filesystem::exists(std::filesystem::path(options.out) / "lines.csv", unknown)) {
+    throw std::runtime_error(options.out +
+                             ": holds a map; its poses.csv and summary.json would be lost, --out "
+                             "needs a folder without one");
+  }
   const bool is_new = !std::filesystem::exists(options.out, unknown);
   const FolderLock folder =
-      prepareMapFolder(options.out, options.force, {kPictureName, kCovariancesName});
+      prepareMapFolder(options.out, options.force, {}, {options.log, options.plan});
   LocalizedLog log(plan.lines, plan.sigmas, start);
   try {
     Progress progress("localise");
@@ -105,9 +110,8 @@ void localize(const LocalizeOptions& options) {
     throw std::runtime_error("interrupted after " + std::to_string(log.scans()) +
                              " scans; the poses so far are in " + options.out);
   }
-  if (log.poses().empty()) {
-    throw Shortcoming(options.log + ": " + log.shortcoming(plan, options.plan));
-  }
+  const std::string shortcoming = log.shortcoming(plan, options.plan);
+  if (!shortcoming.empty()) throw Shortcoming(options.log + ": " + shortcoming);
 }
 
 }  // namespace

@@ -106,7 +106,7 @@ void makeMap(const MapOptions& options, const Parameters& parameters) {
   const std::unique_ptr<LivePage> page = openPage(options, *log);
   std::error_code unknown;
   const bool is_new = !std::filesystem::exists(options.out, unknown);
-  const FolderLock folder = prepareMapFolder(options.out, options.force);
+  const FolderLock folder = prepareMapFolder(options.out, options.force, {}, options.logs);
   const std::unique_ptr<const MappedLogs> mapped = [&] {
     try {
       return mapLogs(options, std::move(log), parameters, page.get(), interruption);

@@ -49,7 +49,7 @@ void plan(const PlanCommandOptions& options) {
   writePlanFiles(out, planFiles(found, titleOfFolder(options.map), options.place), options.force);
   if (!options.quiet) tellPlan(found, out);
   for (const auto& [p, name] : outside) {
-    std::fprintf(stderr, "cca-mrpt: %s: (%.2f, %.2f), %s, lies in no room\n",
+    std::fprintf(stderr, "cca-mrpt: %s: (%.6g, %.6g), %s, lies in no room\n",
                  options.labels.c_str(), p.x(), p.y(), name.c_str());
   }
   if (found.rooms.empty()) throw Shortcoming(options.map + ": no room was found in this map");

@@ -159,6 +159,7 @@ void renderPage(const RenderOptions& options) {
 
 void render(RenderOptions options, const Parameters& parameters) {
   if (!options.out.empty()) requireNew(options.out, options.force);
+  requireApart(options.out, {options.map, options.log});
   options.picture.longest_side = options.size > 0 ? options.size : options.video ? 800 : 1600;
   if (options.solid && options.picture.longest_side > kLargestSolidPicture) {
     throw CLI::ValidationError("--size", "a picture in 3-D has at most " +

@@ -63,7 +63,7 @@ std::string LocalizedLog::whyNot() const {
 }
 
 std::string LocalizedLog::shortcoming(const PlanFile& plan, const std::string& path) const {
-  if (!poses_.empty()) return {};
+  if (explainedShare() > 0.0) return {};  // poses about a start that was told are none found
   return "the robot was never localised in " + path + " (" + sizeInWords(plan.lines) +
          "): " + whyNot();
 }

@@ -49,9 +49,6 @@ void DecisionFile::add(const ExplainedDecision& decision, double time, double di
   lines_ += line.dump() + "\n";
 }
 
-void DecisionFile::commit() {
-  writeFile(file_.temporary(), lines_);
-  file_.commit();
-}
+void DecisionFile::commit() { writeFile(path_, lines_); }
 
 }  // namespace cca::apps

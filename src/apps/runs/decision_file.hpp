@@ -15,18 +15,19 @@ class DecisionFile {
   /// @param origin  m, map frame: where the simulation's frame lies.
   /// @throws std::runtime_error where no such file can be written.
   DecisionFile(const std::string& path, const Eigen::Vector2d& origin)
-      : origin_(origin), file_(path) {}
+      : origin_(origin), path_(path) {
+    AtomicFile probe(path);  // fails now, not after the run
+  }
 
   /// @param time, distance  s, m, since the start.
   void add(const ExplainedDecision& decision, double time, double distance);
 
-  /// Gives the file its name. @throws std::runtime_error naming the file.
+  /// Writes the file. @throws std::runtime_error naming the file.
   void commit();
 
  private:
   Eigen::Vector2d origin_;
-  AtomicFile file_;
-  std::string lines_;
+  std::string path_, lines_;
 };
 
 }  // namespace cca::apps

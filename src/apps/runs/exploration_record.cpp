@@ -188,6 +188,7 @@ void ExplorationRecord::write(const Simulation& simulation, const MappingSession
     all.memory = packedMemory({slam->slam().memory(), origin_});
   }
   all.summary = summary(simulation, mapping, slam, end);
+  all.beside.assign({kTrajectory, kCoverage});
   writeMapFolder(folder_, all);
 }
 

@@ -24,6 +24,16 @@ namespace {
 /// m of way; a robot that has not found its place for so long is not exploring any more.
 constexpr double kLongestLost = 30.0;
 
+/// s; a robot whose laser tells nothing stands, and in a simulation nobody comes to uncover it.
+constexpr double kLongestBlind = 60.0;
+
+bool isBlind(const Scan& scan) {
+  for (std::size_t beam = 0; beam < scan.size(); ++beam) {
+    if (scan.freeRange(beam) > 0.0) return false;
+  }
+  return true;
+}
+
 double microsecondsSince(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double, std::micro>(std::chrono::steady_clock::now() - start)
       .count();
@@ -98,6 +108,7 @@ Action ExplorationRun::step() {
   if (simulation_.parameters().laser.missing != MissingReading::kTold) {
     missing_returns_.judge(seen.scan);
   }
+  if (!isBlind(seen.scan)) seen_at_ = simulation_.time();
   const Instant& scanned = simulation_.scanned();
   observation_ = session_.sense(
       measurementOf(seen, scanned.T_odom_robot, simulation_.sweepMotion()), seen.velocity);
@@ -123,6 +134,12 @@ bool ExplorationRun::hasEnded(const Action& action) {
   if (simulation_.distance() - localised_at_ > kLongestLost) {
     end_.reason = "the robot has not known its place for " +
                   std::to_string(static_cast<int>(kLongestLost)) + " m";
+    return true;
+  }
+  if (simulation_.time() - seen_at_ > kLongestBlind) {
+    end_.reason = "the laser's beams have told nothing for " +
+                  std::to_string(static_cast<int>(kLongestBlind)) +
+                  " s: none comes back from within its range";
     return true;
   }
   if (action.status != ExplorationStatus::kFinished) return false;

@@ -83,6 +83,7 @@ class ExplorationRun {
   ExplorationSession session_;
   Observation observation_;           ///< the last one, as believed
   std::optional<Pose2> last_moment_;  ///< of the replay
+  double seen_at_ = 0.0;              ///< s, simulated: the last scan that told anything
   double localised_at_ = 0.0;         ///< m of way: where the robot last knew its pose
   std::vector<RunObserver*> observers_;
   LivePage* page_ = nullptr;  ///< one of them, whose viewers' commands are done

@@ -95,6 +95,18 @@ void requireNew(const std::string& path, bool overwrite) {
   throw std::runtime_error(path + ": is there already (--force overwrites it)");
 }
 
+void requireApart(const std::string& path, std::initializer_list<std::string> others) {
+  if (path.empty() || isDevice(path)) return;
+  const auto placeOf = [](const std::string& name) {
+    std::error_code unknown;
+    return fs::weakly_canonical(fs::absolute(name, unknown), unknown);
+  };
+  for (const std::string& other : others) {
+    if (other.empty() || placeOf(path) != placeOf(other)) continue;
+    throw std::runtime_error(path + ": is named twice; what is written needs a file of its own");
+  }
+}
+
 void removeLeftovers(const std::string& folder) {
   std::error_code gone;
   for (const auto& entry : fs::directory_iterator(folder, gone)) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <initializer_list>
 #include <string>
 #include <string_view>
 
@@ -32,6 +33,10 @@ class AtomicFile {
 /// @throws std::runtime_error where something is there already that must not be overwritten, or a
 /// folder, which nothing overwrites; into devices and pipes anybody may write.
 void requireNew(const std::string& path, bool overwrite);
+
+/// @throws std::runtime_error where a file to be written is one of the others that a command names:
+/// it would be lost, and --force does not mean that. Others may be empty; devices hold nothing.
+void requireApart(const std::string& path, std::initializer_list<std::string> others);
 
 /// Removes what AtomicFiles have left in a folder whose program was killed.
 void removeLeftovers(const std::string& folder);

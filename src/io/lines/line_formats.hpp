@@ -19,7 +19,8 @@ inline constexpr double kFarthestPlan = 1e8;  ///< m, from (0, 0): beyond, it is
 /// length that returns.
 std::string linesCsv(const std::vector<MapLine>& lines);
 
-/// Reads linesCsv() back, and any CSV whose header names x1, y1, x2 and y2.
+/// Reads linesCsv() back, and any CSV whose header names x1, y1, x2 and y2, by commas, or by
+/// semicolons and then with decimal commas or points.
 /// @param name  of the file, for messages.
 /// @throws std::runtime_error naming file, row and column of what is missing, no number, or farther
 ///         than kFarthestPlan.

@@ -8,7 +8,10 @@
 #include <sstream>
 #include <stdexcept>
 #include <unordered_set>
+#include <utility>
 
+#include "io/files/byte_order_mark.hpp"
+#include "io/files/spreadsheet_row.hpp"
 #include "io/lines/line_formats.hpp"
 
 namespace cca {
@@ -28,7 +31,7 @@ double sigma(double variance) { return std::sqrt(std::max(0.0, variance)); }
 std::vector<std::string> cells(std::string row) {
   if (!row.empty() && row.back() == '\r') row.pop_back();
   std::vector<std::string> cells;
-  std::istringstream stream(row);
+  std::istringstream stream(byCommas(std::move(row)));
   for (std::string cell; std::getline(stream, cell, ',');) cells.push_back(cell);
   return cells;
 }
@@ -99,7 +102,7 @@ std::vector<MapLine> readLinesCsv(const std::string& text, const std::string& na
   std::istringstream rows(text);
   std::string row;
   std::getline(rows, row);
-  const std::vector<std::string> header = cells(row);
+  const std::vector<std::string> header = cells(std::string(withoutMark(row)));
   const auto at = findColumns(header, name);
   const auto kind_at =
       static_cast<std::size_t>(std::find(header.begin(), header.end(), "kind") - header.begin());

@@ -14,6 +14,7 @@
 
 #include "io/files/byte_order_mark.hpp"
 #include "io/files/content.hpp"
+#include "io/files/spreadsheet_row.hpp"
 
 namespace cca {
 namespace {
@@ -25,8 +26,9 @@ using Row = std::vector<std::string>;
 
 /// The cells of a row, by comma, semicolon or blank; none of a comment.
 Row cellsOf(std::string line) {
-  for (char& c : line) c = c == ',' || c == ';' || c == '\r' ? ' ' : c;
   if (line[0] == '#') return {};
+  line = byCommas(std::move(line));
+  for (char& c : line) c = c == ',' || c == '\r' ? ' ' : c;
   std::istringstream text(line);
   return {std::istream_iterator<std::string>(text), {}};
 }

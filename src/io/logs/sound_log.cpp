@@ -15,6 +15,12 @@ namespace {
 
 /// m/s; no robot with a 2-D laser drives so fast. In millimetres it does at a crawl, at 3 cm/s.
 constexpr double kFastestDriven = 30.0;
+/// m; farther than any place on the Earth, in any frame that maps use. Squares of it are numbers.
+constexpr double kFarthestPose = 1e8;
+
+bool isOnEarth(const std::optional<Pose2>& pose) {
+  return !pose || pose->position().cwiseAbs().maxCoeff() <= kFarthestPose;
+}
 
 /// Of the laser at a record's place on the robot. @param record  that tells where the robot was.
 std::optional<SensorReading> readingOf(const LogRecord& record, const Pose2& T_robot_sensor) {
@@ -58,7 +64,10 @@ class SoundLog : public LogReader {
                  "equal to the one before, though the wheels went on (the driver hangs); the "
                  "first is number " +
                      std::to_string(first_repeated_)),
-          toldOf(long_, long_ranges), std::string(2 * fast_ > steps_ ? far_poses : "")}) {
+          toldOf(long_, long_ranges),
+          toldOf(far_, "their poses are beyond 100 000 km; the first is number " +
+                           std::to_string(first_far_)),
+          std::string(2 * fast_ > steps_ ? far_poses : "")}) {
       text += (text.empty() || told.empty() ? "" : "; ") + told;
     }
     return text;
@@ -81,6 +90,11 @@ class SoundLog : public LogReader {
       const auto fault =
           faults_[laserPlace(record->T_robot_sensor)].check(record->scan, record->odometry);
       ++read_;
+      if (!isOnEarth(record->truth)) record->truth.reset();
+      if (!isOnEarth(record->corrected) || !isOnEarth(record->odometry)) {
+        if (far_++ == 0) first_far_ = read_ - 1;
+        continue;
+      }
       if (fault == ScanFault::kNone) return record;
       if (fault == ScanFault::kRepeated && repeated_++ == 0) first_repeated_ = read_ - 1;
       if (fault == ScanFault::kMillimetres && long_++ == 0) median_ = medianReturn(record->scan);
@@ -90,7 +104,7 @@ class SoundLog : public LogReader {
 
   std::unique_ptr<LogReader> log_;
   std::map<LaserPlace, ScanFaults> faults_;
-  std::size_t read_ = 0, repeated_ = 0, first_repeated_ = 0, long_ = 0;
+  std::size_t read_ = 0, repeated_ = 0, first_repeated_ = 0, long_ = 0, far_ = 0, first_far_ = 0;
   std::size_t steps_ = 0, fast_ = 0;  ///< from scan to scan; those that no robot drives
   double median_ = 0.0;               ///< m, of the first scan that looks like millimetres
   double speed_ = 0.0;                ///< m/s, of the first step that no robot drives

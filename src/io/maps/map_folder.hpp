@@ -18,10 +18,12 @@ std::string keepMemory(const std::string& folder);
 
 /// Makes the folder for a run's files, before the work is done.
 /// @param beside  names of files that the run writes there itself.
+/// @param inputs  files that the run reads: none is written over.
 /// @return  to be kept while the run writes there.
 /// @throws std::runtime_error where it cannot be made or written to, where another run is writing
 ///         to it, and where one of the files is there already and overwriting is not allowed.
 [[nodiscard]] FolderLock prepareMapFolder(const std::string& folder, bool overwrite,
-                                          const std::vector<const char*>& beside = {});
+                                          const std::vector<const char*>& beside = {},
+                                          const std::vector<std::string>& inputs = {});
 
 }  // namespace cca

@@ -33,8 +33,11 @@ constexpr const char* kSummary = "summary.json";
 constexpr const char* kAlways[] = {kSummary,         "lines.csv", "arcs.csv",
                                    "lines.geojson",  "lines.svg", "lines.dxf",
                                    "map.linemap.gz", "map.png",   "scene.3Dscene"};
-constexpr const char* kSometimes[] = {"map.pgm",   "map.yaml",  "map.gridmap.gz", "poses.csv",
-                                      "poses.tum", "graph.g2o", kMemoryFile,      "replay.html"};
+/// Or what only some runs write, of a drive of the simulation or of poses in a map.
+constexpr const char* kSometimes[] = {"map.pgm",      "map.yaml",        "map.gridmap.gz",
+                                      "poses.csv",    "poses.tum",       "graph.g2o",
+                                      kMemoryFile,    "replay.html",     "trajectory.csv",
+                                      "coverage.csv", "covariances.csv", "localisation.png"};
 /// Names of files and what is found in damaged ones need not be UTF-8.
 constexpr auto kReplace = nlohmann::ordered_json::error_handler_t::replace;
 
@@ -80,9 +83,13 @@ std::optional<FloorPlan> addPlan(const std::string& folder, const MapProducts& m
 }  // namespace
 
 FolderLock prepareMapFolder(const std::string& folder, bool overwrite,
-                            const std::vector<const char*>& beside) {
+                            const std::vector<const char*>& beside,
+                            const std::vector<std::string>& inputs) {
   makeFolder(folder);
-  const auto mayWrite = [&](const char* name) { requireNew(inFolder(folder, name), overwrite); };
+  const auto mayWrite = [&](const char* name) {
+    requireNew(inFolder(folder, name), overwrite);
+    for (const std::string& input : inputs) requireApart(inFolder(folder, name), {input});
+  };
   for (const char* name : kAlways) mayWrite(name);
   for (const char* name : kSometimes) mayWrite(name);
   for (const char* name : kPlanFiles) mayWrite(name);

@@ -58,7 +58,8 @@ std::string planPng(const FloorPlan& plan, const std::string& title,
 /// Names for rooms: a point in the room [m, map frame], and its name.
 using RoomLabels = std::vector<std::pair<Eigen::Vector2d, std::string>>;
 
-/// Reads a CSV whose header names x, y and name; a name may stand in double quotes.
+/// Reads a CSV whose header names x, y and name; a name may stand in double quotes. Fields are
+/// parted by commas, or by semicolons, and then numbers may have a decimal comma.
 /// @param file  its name, for messages.
 /// @throws std::runtime_error naming file, row and column of what is missing, empty or no finite
 /// number.

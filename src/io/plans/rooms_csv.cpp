@@ -5,6 +5,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <nlohmann/json.hpp>
 #include <sstream>
 #include <stdexcept>
 
@@ -25,7 +26,7 @@ std::string quoted(const std::string& text) {
 }
 
 /// The fields of a row; quotes around one are taken off.
-std::vector<std::string> fieldsOf(const std::string& row) {
+std::vector<std::string> fieldsOf(const std::string& row, char separator) {
   std::vector<std::string> fields(1);
   bool in_quotes = false;
   for (std::size_t k = 0; k < row.size(); ++k) {
@@ -35,7 +36,7 @@ std::vector<std::string> fieldsOf(const std::string& row) {
       ++k;
     } else if (c == '"') {
       in_quotes = !in_quotes;
-    } else if (c == ',' && !in_quotes) {
+    } else if (c == separator && !in_quotes) {
       fields.emplace_back();
     } else if (c != '\r') {
       fields.back() += c;
@@ -46,6 +47,14 @@ std::vector<std::string> fieldsOf(const std::string& row) {
     field = first == std::string::npos ? "" : field.substr(first, last - first + 1);
   }
   return fields;
+}
+
+bool isUtf8(const std::string& text) {
+  try {
+    return !nlohmann::json(text).dump().empty();
+  } catch (const nlohmann::json::type_error&) {
+    return false;
+  }
 }
 
 double coordinate(const std::string& text, const std::string& where) {
@@ -80,7 +89,9 @@ RoomLabels readRoomLabels(const std::string& text, const std::string& file) {
   std::istringstream rows(text);
   std::string row;
   std::getline(rows, row);
-  const std::vector<std::string> header = fieldsOf(std::string(withoutMark(row)));
+  // Where a comma stands for the point, spreadsheets write semicolons between fields.
+  const char separator = row.find(';') != std::string::npos ? ';' : ',';
+  const std::vector<std::string> header = fieldsOf(std::string(withoutMark(row)), separator);
   std::size_t column[3];
   const char* const names[3] = {"x", "y", "name"};
   for (int k = 0; k < 3; ++k) {
@@ -93,13 +104,19 @@ RoomLabels readRoomLabels(const std::string& text, const std::string& file) {
   RoomLabels labels;
   for (int number = 2; std::getline(rows, row); ++number) {
     if (row.find_first_not_of(" \t\r") == std::string::npos) continue;
-    const std::vector<std::string> fields = fieldsOf(row);
+    std::vector<std::string> fields = fieldsOf(row, separator);
     const std::string where = file + ", row " + std::to_string(number);
     for (int k = 0; k < 3; ++k) {
       if (column[k] >= fields.size())
         throw std::runtime_error(where + ", column " + names[k] + ": missing");
     }
+    if (separator == ';') {
+      for (const int k : {0, 1})
+        std::replace(fields[column[k]].begin(), fields[column[k]].end(), ',', '.');
+    }
     if (fields[column[2]].empty()) throw std::runtime_error(where + ", column name: empty");
+    if (!isUtf8(fields[column[2]]))
+      throw std::runtime_error(where + ", column name: must be UTF-8 text");
     labels.push_back({{coordinate(fields[column[0]], where + ", column x"),
                        coordinate(fields[column[1]], where + ", column y")},
                       fields[column[2]]});
