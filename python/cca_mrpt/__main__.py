@@ -14,7 +14,7 @@ from ._core import origin_of, version, write_files_into
 from .evaluation import evaluation_json
 from .floor_plans import floor_plan
 from .folders import require_writable
-from .localisation import localize
+from .localisation import localize, require_no_map
 from .logs import read_log
 from .maps import FILES, POSES, Map, merge
 from .maps import map as map_log
@@ -89,7 +89,7 @@ def run_merge(options: argparse.Namespace) -> str:
 
 def run_localize(options: argparse.Namespace) -> str:
     """Write where a log was taken in a plan; what was done, in a sentence."""
-    require_writable(options.out, ["poses.csv", "poses.tum", "summary.json"], options.force)
+    require_no_map(options.out, options.force)
     found = localize(read_log(options.log, **reading_of(options)), options.plan, options.start, options.scale,
                      until_interrupted=True)
     if found.warnings:

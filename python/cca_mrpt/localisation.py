@@ -11,9 +11,24 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ._core import LogRecord, localize_records, write_files_into
-from .folders import folder_of, kept_for_one_run
+from .folders import folder_of, kept_for_one_run, require_writable
 from .grids import read_map_yaml
 from .logs import Log, repeatable
+
+
+FILES = ("poses.csv", "poses.tum", "summary.json")
+
+
+def require_no_map(folder: Path, force: bool) -> None:
+    """See that poses may be written into a folder, before the work is done.
+
+    Raises:
+        FileExistsError: there is a map, whose poses and summary would be lost; or poses, and `force` is not given.
+        OSError: it is no folder, or cannot be written to.
+    """
+    if (folder / "lines.csv").exists():
+        raise FileExistsError(f"{folder}: holds a map; its poses.csv and summary.json would be lost")
+    require_writable(folder, FILES, force)
 
 
 class Localisation:
@@ -40,16 +55,16 @@ class Localisation:
             The files' names.
 
         Raises:
-            FileExistsError: one of them is there already, and `force` is not given.
+            FileExistsError: there is a map; or one of them is there already, and `force` is not given.
             OSError, RuntimeError: it cannot be written, or another run is writing there; names the file and the reason.
         """
         where = folder_of(folder)
-        names = [*self._files, "summary.json"]
-        with kept_for_one_run(where, names, force):
+        require_no_map(where, force)
+        with kept_for_one_run(where, FILES, force):
             (where / "summary.json").unlink(missing_ok=True)  # it says that all is there
             write_files_into(os.fspath(where), self._files)
             write_files_into(os.fspath(where), {"summary.json": (json.dumps(self.summary, indent=2) + "\n").encode()})
-        return names
+        return list(FILES)
 
     def __len__(self) -> int:
         return len(self.poses)

@@ -224,6 +224,17 @@ def test_the_program_localises_to_the_same_bytes(log, kind, tmp_path):
     assert told[0] == told[1]
 
 
+@pytest.mark.parametrize("what", [pytest.param("program", marks=needs_program), "python"])
+def test_poses_do_not_replace_those_of_a_map(log, plan, tmp_path, what):
+    shutil.copytree(plan, tmp_path / "map")
+    before = {path.name: path.read_bytes() for path in (tmp_path / "map").iterdir()}
+    status, said = by(what, "localize", log, "--in", plan, "--start", "-1,-0.3,0", "--out", tmp_path / "map", "--force")
+    assert status == 1 and "holds a map" in said
+    assert {path.name: path.read_bytes() for path in (tmp_path / "map").iterdir()} == before
+    with pytest.raises(FileExistsError, match="holds a map"):
+        cca_mrpt.localize(log, plan, START).save(tmp_path / "map", force=True)
+
+
 @needs_program
 def test_a_grid_of_somebody_else_is_read_by_its_own_thresholds(log, tmp_path):
     assert by("program", "map", log, "--out", tmp_path / "plan")[0] == 0
@@ -450,15 +461,16 @@ def test_an_interrupted_command_says_so(monkeypatch, capsys, tmp_path, two_logs)
 
 
 def test_two_runs_do_not_mix_their_files(two_maps, two_logs, tmp_path):
-    held = os.open(two_maps[0], os.O_RDONLY)
-    fcntl.flock(held, fcntl.LOCK_EX)
     found = cca_mrpt.localize(two_logs[0], two_maps[0])
-    for result in cca_mrpt.load(two_maps[0]), found:
-        with pytest.raises(RuntimeError, match="map0: another run is writing there"):
-            result.save(two_maps[0], force=True)
-    os.close(held)
-    assert (two_maps[0] / "summary.json").exists()
-    found.save(two_maps[0], force=True)
+    found.save(tmp_path / "poses")
+    for result, folder in (cca_mrpt.load(two_maps[0]), two_maps[0]), (found, tmp_path / "poses"):
+        held = os.open(folder, os.O_RDONLY)
+        fcntl.flock(held, fcntl.LOCK_EX)
+        with pytest.raises(RuntimeError, match=f"{folder.name}: another run is writing there"):
+            result.save(folder, force=True)
+        os.close(held)
+        assert (folder / "summary.json").exists()
+    found.save(tmp_path / "poses", force=True)
 
 
 @pytest.mark.parametrize("what", ["python", pytest.param("program", marks=needs_program)])

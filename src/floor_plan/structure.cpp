@@ -14,10 +14,10 @@ namespace {
 
 constexpr double kBeyondWall = 0.15;  // m; lines end that much beyond their wall
 constexpr double kOpposite =
-    0.5;                  // cosine; walls on two sides run to 60 degrees against each other
-constexpr int kFace = 1;  // cells to each side of a line, that noise fills
-constexpr double kTouching = kFace + 2.0;  // cells from a line to the centre of what touches these
-constexpr double kIntoCorner = 1.42;       // a disc's radius to the corner that it fits into
+    0.5;                   // cosine; walls on two sides run to 60 degrees against each other
+constexpr int kThick = 1;  // cells to each side of a line, that noise fills
+constexpr double kTouching = kThick + 2.0;  // cells from a line to the centre of what touches these
+constexpr double kIntoCorner = 1.42;        // a disc's radius to the corner that it fits into
 
 /// m, the longest line of each component.
 std::vector<double> longestLines(const Components& parts, const std::vector<MapLine>& lines) {
@@ -132,8 +132,8 @@ Mask inFrontOfWalls(const Mask& blocked, const std::vector<MapLine>& lines,
     if (line.segment.length() < tuning.pillar) continue;
     walls.push_back(line.segment);
     for (const Cell c : cellsAlong(blocked, line.segment.start, line.segment.end)) {
-      for (int y = -kFace; y <= kFace; ++y) {
-        for (int x = -kFace; x <= kFace; ++x) {
+      for (int y = -kThick; y <= kThick; ++y) {
+        for (int x = -kThick; x <= kThick; ++x) {
           if (rest.at(c + Cell{x, y}, 0)) rest[c + Cell{x, y}] = 0;
         }
       }
