@@ -299,35 +299,5 @@ TEST(ExplorationGrid, PresumesAWallBetweenTwoReturnsOfOneSurface) {
   }
 }
 
-/// Cells presumed to be wall after one scan of these ranges (m), a degree apart, seen from (0, 0).
-std::size_t presumedWall(const std::vector<double>& ranges) {
-  Scan scan;
-  scan.angle_increment = M_PI / 180.0;
-  scan.angle_min = 0.5;
-  scan.ranges = ranges;
-  ExplorationGrid grid(0.05);
-  grid.insert(scan, 0.01);
-  std::size_t count = 0;
-  for (int y = grid.lowest().y; y <= grid.highest().y; ++y)
-    for (int x = grid.lowest().x; x <= grid.highest().x; ++x)
-      count += grid.at({x, y}) == CellState::kPresumedWall;
-  return count;
-}
-
-// Two returns from the sides of a chair's leg are in line with any return behind it: a few legs in
-// a doorway would wall it up.
-TEST(ExplorationGrid, PresumesNoWallFromAPostToWhatStandsBehindIt) {
-  EXPECT_EQ(presumedWall({kInf, 3.00, 3.05, 3.27, kInf}), 0u);
-  EXPECT_EQ(presumedWall({kInf, 3.27, 3.05, 3.00, kInf}), 0u);
-}
-
-TEST(ExplorationGrid, PresumesAWallThatItLooksAlong) {
-  // 0.3 m to the side of the sensor: three returns, 0.6 and 1.1 m apart.
-  std::vector<double> ranges;
-  for (const double bearing : {8.0, 7.0, 6.0})
-    ranges.push_back(0.3 / std::sin(bearing * M_PI / 180.0));
-  EXPECT_GT(presumedWall(ranges), 8u);
-}
-
 }  // namespace
 }  // namespace cca

@@ -5,36 +5,37 @@
 #include <algorithm>
 #include <cmath>
 
+#include "geometry/cross.hpp"
 #include "sensing/beam.hpp"
 
 namespace cca {
 namespace {
 
 constexpr double kSteepest = 4.0;  // widest gap in one surface, in spacings of the beams
+// Of a gap, from it to a third return in line. A return from around a corner, close by, is in line
+// with anything: it would wall up doorways.
+constexpr double kLeastReach = 0.2, kMostReach = 4.0;
 constexpr double kInLine = 0.03;   // m, three deviations of 1 cm; it grows with that
 constexpr double kBaseline = 2.0;  // cells: ten deviations of 1 cm, and a corner is rounded by them
 
 using Points = std::vector<SurfacePoint>;
 
-/// Whether the returns of beam i and the next one lie on one surface. Where a straight line meets
-/// three beams as far apart as each other, the stretches between them are to each other as the
-/// ranges of the outer returns: a post's two returns are in line with much behind it, but far too
-/// near to each other.
-bool isOneSurface(const Points& points, const std::vector<double>& ranges, std::size_t i,
-                  double spacing, double tolerance) {
+/// Whether the returns of beam i and the next one lie on one surface.
+bool isOneSurface(const Points& points, std::size_t i, double spacing, double tolerance) {
   const std::size_t n = points.size();
-  const std::size_t before = (i + n - 1) % n, next = (i + 1) % n, after = (i + 2) % n;
-  if (!points[i].is_return || !points[next].is_return) return false;
-  const Eigen::Vector2d step = points[next].place - points[i].place;
-  if (step.norm() <= std::max(1.0, kSteepest * spacing)) return true;
-  const auto isInLine = [&](std::size_t third, std::size_t nearer, const Eigen::Vector2d& stretch,
-                            std::size_t other) {
-    if (!points[third].is_return) return false;
-    const double share = ranges[third] / ranges[other];
-    const Eigen::Vector2d expected = points[nearer].place + share * stretch;
-    return (points[third].place - expected).norm() < tolerance * (1.0 + share);
+  const SurfacePoint &a = points[i], &b = points[(i + 1) % n];
+  if (!a.is_return || !b.is_return) return false;
+  const double gap = (b.place - a.place).norm();
+  if (gap <= std::max(1.0, kSteepest * spacing)) return true;
+  const Eigen::Vector2d along = (b.place - a.place) / gap;
+  const auto isInLine = [&](const SurfacePoint& third, const SurfacePoint& end) {
+    if (!third.is_return) return false;
+    const Eigen::Vector2d offset = third.place - end.place;
+    const double reach = std::abs(offset.dot(along)) / gap;
+    return reach > kLeastReach && reach < kMostReach &&
+           std::abs(cross(along, offset)) < tolerance * (1.0 + reach);
   };
-  return isInLine(before, i, -step, next) || isInLine(after, next, step, i);
+  return isInLine(points[(i + n - 1) % n], a) || isInLine(points[(i + 2) % n], b);
 }
 
 /// Unit vector square to the surface at the return of beam i, away from the sensor; zero where
@@ -75,8 +76,8 @@ std::vector<SurfacePoint> surfacePoints(const Scan& scan,
   const std::size_t ends = n > 0 && !seesAllAround(scan) ? 1 : 0;
   for (std::size_t i = 0; i + ends < n; ++i) {
     const double nearer = std::min(scan.ranges[i], scan.ranges[(i + 1) % n]) / resolution;
-    points[i].goes_on = isOneSurface(points, scan.ranges, i,
-                                     nearer * std::abs(scan.angle_increment), kInLine / resolution);
+    points[i].goes_on =
+        isOneSurface(points, i, nearer * std::abs(scan.angle_increment), kInLine / resolution);
   }
   for (std::size_t i = 0; i < n; ++i) {
     if (!points[i].is_return) continue;
