@@ -122,7 +122,7 @@ def run_plan(options: argparse.Namespace) -> str:
     plan = floor_plan(options.map, options.labels)
     names = plan.save(out, force=options.force, origin=options.origin)
     for (x, y), name in plan.labels_outside:
-        print(f"cca_mrpt: {options.labels}: ({x:.2f}, {y:.2f}), {name}, lies in no room", file=sys.stderr)
+        print(f"cca_mrpt: {options.labels}: ({x:.6g}, {y:.6g}), {name}, lies in no room", file=sys.stderr)
     if not options.quiet:
         area = sum(room.area for room in plan.rooms)
         doors = sum(opening.kind == "door" for opening in plan.openings)

@@ -434,6 +434,15 @@ class InterruptedLog(cca_mrpt.logs.Log):
             yield record
 
 
+@pytest.fixture
+def ctrl_c():
+    """As in a terminal: who starts tests in the background may have it ignored."""
+    before = signal.signal(signal.SIGINT, signal.default_int_handler)
+    yield
+    signal.signal(signal.SIGINT, before)
+
+
+@pytest.mark.usefixtures("ctrl_c")
 @pytest.mark.parametrize("words, said", [
     (["map", "LOG"], "the map so far is in"), (["localize", "LOG", "--in", "MAP"], "the poses so far are in"),
 ])

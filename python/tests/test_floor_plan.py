@@ -120,7 +120,7 @@ def test_the_program_writes_the_same_plan(house, with_labels, tmp_path):
     for what in "program", "python":
         status, said = run(what, "plan", tmp_path / "map", *labels, "--out", tmp_path / what)
         assert status == (3 if with_labels else 0), said
-        assert ("(50.00, 50.00), Nowhere, lies in no room" in said) == with_labels
+        assert ("(50, 50), Nowhere, lies in no room" in said) == with_labels
         (tmp_path / what / "rooms.csv").rename(tmp_path / what / "kept.csv")
         (tmp_path / what / "rooms.csv").write_text("mine")
         assert run(what, "plan", tmp_path / "map", "--out", tmp_path / what)[0] == 1
