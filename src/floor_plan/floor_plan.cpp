@@ -14,6 +14,7 @@
 #include "floor_plan/room_regions.hpp"
 #include "floor_plan/structure.hpp"
 #include "floor_plan/walls.hpp"
+#include "geometry/distance_to_segment.hpp"
 
 namespace cca {
 namespace {
@@ -194,9 +195,8 @@ bool isSideOf(const LineSegment& line, const PlanFurniture& piece) {
   const double on_side = OutlineTuning{}.tolerance;
   const Eigen::Vector2d middle = 0.5 * (line.start + line.end);
   for (std::size_t k = 0; k + 1 < piece.outline.size(); ++k) {
-    const Eigen::Vector2d &a = piece.outline[k], way = piece.outline[k + 1] - a;
-    const double t = std::clamp((middle - a).dot(way) / way.squaredNorm(), 0.0, 1.0);
-    if ((a + t * way - middle).norm() < on_side && line.length() < way.norm() + 2.0 * on_side)
+    const Eigen::Vector2d &a = piece.outline[k], &b = piece.outline[k + 1];
+    if (distanceToSegment(a, b, middle) < on_side && line.length() < (b - a).norm() + 2.0 * on_side)
       return true;
   }
   return false;

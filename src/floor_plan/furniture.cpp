@@ -8,6 +8,7 @@
 #include "floor_plan/region_outline.hpp"
 #include "floor_plan/room_outline.hpp"
 #include "geometry/cross.hpp"
+#include "geometry/distance_to_segment.hpp"
 
 namespace cca {
 namespace {
@@ -17,9 +18,7 @@ constexpr double kSquareSide = 0.26;  // cosine of 75 degrees: nothing stands mo
 bool isOnOpening(const Eigen::Vector2d& p, const std::vector<Passage>& openings,
                  const FurnitureTuning& tuning) {
   return std::any_of(openings.begin(), openings.end(), [&](const Passage& opening) {
-    const Eigen::Vector2d way = opening.b - opening.a;
-    const double along = (p - opening.a).dot(way) / way.squaredNorm();
-    return (opening.a + std::clamp(along, 0.0, 1.0) * way - p).norm() < tuning.in_line;
+    return distanceToSegment(opening.a, opening.b, p) < tuning.in_line;
   });
 }
 

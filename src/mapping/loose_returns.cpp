@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "cca_mrpt/sensing/range_noise.hpp"
+#include "geometry/distance_to_segment.hpp"
 #include "geometry/square_key.hpp"
 #include "mapping/rows_in_line.hpp"
 
@@ -21,12 +22,6 @@ constexpr int kFewestLooks = 3;         // from different places: no passer-by
 constexpr double kBesideWall = 0.15;    // m; what stands nearer is the wall's own fringe
 constexpr double kLeastShare = 0.1;     // of the rays, that a cluster returns; a pane does a fifth
 constexpr int kRefuting = 20;           // rays in a row: one pane's cluster in a hundred
-
-double distanceTo(const LineSegment& s, const Eigen::Vector2d& p) {
-  const Eigen::Vector2d along = s.end - s.start;
-  const double t = std::clamp(along.dot(p - s.start) / along.squaredNorm(), 0.0, 1.0);
-  return (p - s.start - t * along).norm();
-}
 
 }  // namespace
 
@@ -81,7 +76,7 @@ std::vector<LooseReturns::Cluster> LooseReturns::clusters(const std::vector<MapL
   for (const Seed& seed : seeds) {
     const Eigen::Vector2d& p = seed.cluster.mean;
     bool is_taken = std::any_of(walls.begin(), walls.end(), [&p](const MapLine& wall) {
-      return distanceTo(wall.segment, p) < kBesideWall;
+      return distanceToSegment(wall.segment.start, wall.segment.end, p) < kBesideWall;
     });
     for (int k = 0; k < 9 && !is_taken; ++k) {
       const Eigen::Vector2d beside = inSquareAround(p, k, kPlaceSize);
