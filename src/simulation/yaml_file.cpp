@@ -10,6 +10,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <optional>
 #include <sstream>
 #include <stdexcept>
 #include <utility>
@@ -108,16 +109,22 @@ void refuseRepeatedKeys(const std::string& path, const std::string& text,
 /// nobody but the error output: only where this key is read all has been.
 const std::string kLastKey = "end_of_the_text";
 
-/// The text with that key, at the depth of its first one; as it is where it has no lines of keys.
+/// The text with that key, at the depth of its first one and before the mark that ends the
+/// document; as it is where it has no lines of keys.
 std::string withLastKey(const std::string& text) {
   std::istringstream lines(text);
+  std::string whole;
+  std::optional<std::string> depth;
   for (std::string line; std::getline(lines, line);) {
+    const bool is_mark = line.rfind("---", 0) == 0 || line.rfind("...", 0) == 0;
+    if (is_mark && depth) break;
+    whole += line + "\n";
     const std::size_t begin = line.find_first_not_of(" \t\r");
-    if (begin == std::string::npos || line[begin] == '#' || line.rfind("---", 0) == 0) continue;
-    if (line[begin] == '{' || line[begin] == '-') break;
-    return text + "\n" + line.substr(0, begin) + kLastKey + ": 0\n";
+    if (is_mark || depth || begin == std::string::npos || line[begin] == '#') continue;
+    if (line[begin] == '{' || line[begin] == '-') return text;
+    depth = line.substr(0, begin);
   }
-  return text;
+  return depth ? whole + *depth + kLastKey + ": 0\n" : text;
 }
 
 }  // namespace
@@ -149,8 +156,7 @@ YamlNode YamlNode::load(const std::string& path) {
   if (node.isNullNode() || !node.isMap()) {
     throw std::runtime_error(path + ": holds no 'key: value' lines");
   }
-  if (whole.size() > text.size() && !node.has(kLastKey))
-    throw std::runtime_error(path + ": is not valid YAML");
+  if (whole != text && !node.has(kLastKey)) throw std::runtime_error(path + ": is not valid YAML");
   refuseRepeatedKeys(path, whole, node.node());
   auto entries = node.asMap();
   entries.erase(yaml::node_t(kLastKey));

@@ -158,6 +158,14 @@ TEST(WorldFile, RefusesDirectivesOnSomeOfWhichTheYamlLibraryHangs) {
   EXPECT_NE(complaintAbout("%YAML 1.1\n" + kRest).find("directives"), std::string::npos);
 }
 
+TEST(WorldFile, ReadsTheFirstDocumentOfAText) {
+  for (const char* end : {"...\n", "---\n", "---\nstart: [9, 9]\n"}) {
+    const World world = loadWorld(write("---\n" + smallWorld() + kRest + end));
+    EXPECT_FALSE(world.start) << end;
+    EXPECT_TRUE(world.unknown_keys.empty()) << end;
+  }
+}
+
 TEST(WorldFile, RefusesNestingThatWouldEndTheStackOfTheYamlLibrary) {
   for (const char* level : {"[", "{a: ", "- ", "? "}) {
     std::string deep;

@@ -34,7 +34,7 @@ std::string textOf(XmlRpc::XmlRpcValue value) {
 /// Of `[a, b]` or `a`.
 std::vector<std::string> namesIn(std::string text) {
   const auto trim = [](std::string& word) {
-    constexpr const char* kAround = " '\"";
+    constexpr const char* kAround = " '\"";  // as YAML and shells leave them
     word.erase(0, word.find_first_not_of(kAround));
     word.erase(word.find_last_not_of(kAround) + 1);
   };
