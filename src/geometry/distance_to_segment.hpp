@@ -6,7 +6,7 @@
 
 namespace cca {
 
-/// m, from a point to the nearest one of the straight piece between two others. @param a, b  differ.
+/// m, from a point to the nearest one of the straight piece between two others. @param a, b differ.
 inline double distanceToSegment(const Eigen::Vector2d& a, const Eigen::Vector2d& b,
                                 const Eigen::Vector2d& p) {
   const Eigen::Vector2d along = b - a;
