@@ -54,15 +54,12 @@ class GlobalLocalisation {
   /// Where the wheels have it by the next scan. @param expectation  nothing: nobody knows.
   void expect(const std::optional<Expectation>& expectation) { expectation_ = expectation; }
 
-  struct Found {
-    Pose2 T_map_sensor;
-    Eigen::Matrix3d information;  ///< of the match
-  };
   /// Takes the next scan. @param T_wheels_sensor  in any frame that stays.
-  /// @return  where the robot is, once that is beyond doubt.
+  /// @return  where the sensor is, map frame, once that is beyond doubt: as its last view was
+  ///          matched, and by the wheels since.
   /// Cost: that of the effort, whatever the size of the plan.
-  std::optional<Found> add(const ScanSurface& surface, const Pose2& T_wheels_sensor,
-                           const SightModel& model, const LocalisationEffort& effort);
+  std::optional<PoseBelief> add(const ScanSurface& surface, const Pose2& T_wheels_sensor,
+                                const SightModel& model, const LocalisationEffort& effort);
 
   /// Where in a window a scan fits the plan best; nothing where it does not. Takes no part in what
   /// add() does. Cost: that of a search of the window.
@@ -98,7 +95,7 @@ class GlobalLocalisation {
   void askExpected(const SightModel& model);
   bool standsAlone() const;
   void sortOut();
-  std::optional<Found> decided(const Pose2& T_wheels_sensor, const SightModel& model);
+  std::optional<PoseBelief> decided(const Pose2& T_wheels_sensor, const SightModel& model);
 
   const PlanLines& plan_;
   LikelihoodPyramid pyramid_;

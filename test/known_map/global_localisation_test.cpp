@@ -15,7 +15,7 @@ using test::PlannedWorld;
 const LocalisationEffort kAllAtOnce{std::numeric_limits<int>::max(),
                                     std::numeric_limits<int>::max()};
 
-std::optional<GlobalLocalisation::Found> foundAt(PlannedWorld& place, const PlanLines& plan,
+std::optional<PoseBelief> foundAt(PlannedWorld& place, const PlanLines& plan,
                                                  const Pose2& pose) {
   GlobalLocalisation localisation(plan);
   localisation.begin();
@@ -29,8 +29,8 @@ TEST(GlobalLocalisation, OneScanOfARoomUnlikeItsTurnsIsEnough) {
   for (const Pose2& truth : {Pose2{2.5, 2.0, 0.7}, Pose2{5.5, 4.0, -2.4}, Pose2{1.0, 4.0, 3.0}}) {
     const auto found = foundAt(room, plan, truth);
     ASSERT_TRUE(found);
-    EXPECT_LT((found->T_map_sensor.position() - truth.position()).norm(), 0.03);
-    EXPECT_NEAR(wrapAngle(found->T_map_sensor.theta - truth.theta), 0.0, 0.01);
+    EXPECT_LT((found->mean.position() - truth.position()).norm(), 0.03);
+    EXPECT_NEAR(wrapAngle(found->mean.theta - truth.theta), 0.0, 0.01);
   }
 }
 
@@ -43,7 +43,7 @@ TEST(GlobalLocalisation, FurnitureThatThePlanDoesNotShowIsBorne) {
   const Pose2 truth{2.5, 2.0, 0.7};
   const auto found = foundAt(room, plan, truth);
   ASSERT_TRUE(found);
-  EXPECT_LT((found->T_map_sensor.position() - truth.position()).norm(), 0.05);
+  EXPECT_LT((found->mean.position() - truth.position()).norm(), 0.05);
 }
 
 TEST(GlobalLocalisation, ARoomThatIsItsOwnTurnIsNeverDecided) {
@@ -88,7 +88,7 @@ TEST(GlobalLocalisation, RoomsAlikeAreToldApartByTheWay) {
   const PlanLines plan(rooms.plan);
   GlobalLocalisation localisation(plan);
   localisation.begin();
-  std::optional<GlobalLocalisation::Found> found;
+  std::optional<PoseBelief> found;
   double decided_at = 0.0;
   for (double y = 1.0; y < 8.0 && !found; y += 0.3) {
     const Pose2 truth{11.5, y, M_PI_2};
@@ -98,8 +98,8 @@ TEST(GlobalLocalisation, RoomsAlikeAreToldApartByTheWay) {
   }
   ASSERT_TRUE(found);
   EXPECT_GT(decided_at, 4.0);
-  EXPECT_NEAR(found->T_map_sensor.x, 11.5, 0.1);
-  EXPECT_NEAR(found->T_map_sensor.y, decided_at, 0.15);
+  EXPECT_NEAR(found->mean.x, 11.5, 0.1);
+  EXPECT_NEAR(found->mean.y, decided_at, 0.15);
 }
 
 TEST(GlobalLocalisation, APlaceThatIsNotInThePlanIsNotFound) {
@@ -121,13 +121,13 @@ TEST(GlobalLocalisation, WorkSpreadOverScansComesToTheSameEnd) {
   in_bits.begin();
   const auto found = at_once.add(surface, {}, {}, kAllAtOnce);
   ASSERT_TRUE(found);
-  std::optional<GlobalLocalisation::Found> later;
+  std::optional<PoseBelief> later;
   int scans = 0;
   for (; !later && scans < 100000; ++scans) later = in_bits.add(surface, {}, {}, {20000, 5});
   ASSERT_TRUE(later);
   EXPECT_GT(scans, 3);
-  EXPECT_NEAR(later->T_map_sensor.x, found->T_map_sensor.x, 1e-3);
-  EXPECT_NEAR(later->T_map_sensor.theta, found->T_map_sensor.theta, 1e-3);
+  EXPECT_NEAR(later->mean.x, found->mean.x, 1e-3);
+  EXPECT_NEAR(later->mean.theta, found->mean.theta, 1e-3);
 }
 
 }  // namespace
