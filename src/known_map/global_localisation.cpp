@@ -116,6 +116,7 @@ void GlobalLocalisation::begin(const std::optional<SearchWindow>& window) {
   window_ = window;
   expectation_.reset();
   expected_evidence_ = 0.0;
+  expected_seen_ = {};
   views_.clear();
   seen_.clear();
   search_.reset();
@@ -133,7 +134,10 @@ std::optional<PoseBelief> GlobalLocalisation::add(const ScanSurface& surface,
   if (isNewView(T_wheels_sensor)) {
     addView(surface, T_wheels_sensor);
     askExpected(model);
-    for (Hypothesis& h : hypotheses_) judgeAfter(views_.size() - 2, views_.size() - 1, model, h);
+    for (Hypothesis& h : hypotheses_) {
+      judgeAfter(views_.size() - 2, views_.size() - 1, model, h);
+      h.prior = priorOf(h, model);
+    }
     sortOut();
   }
   work(model, effort);
@@ -278,8 +282,10 @@ double GlobalLocalisation::priorOf(const Hypothesis& hypothesis, const SightMode
       difference(hypothesis.T_map_sensor, expectation_->T_map_wheels * last.T_wheels_sensor);
   if (off.head<2>().norm() < expectation_->reach && std::abs(off.z()) < expectation_->turn)
     return 0.0;
-  SightShares room = model.usual();
   const double sigma = std::hypot(kPlanNoise, last.surface.range_sigma);
+  SightShares room = model.usual();
+  // Nothing that was seen speaks against the wheels' place: the plan may not go on there.
+  if (expected_seen_.agreement() >= kLeastAgreement) room = {1.0, 0.0, 0.0, 0.0, 0.0};
   room.distance_sq = room.explained * sigma * sigma;
   const double tolerance = sightTolerance(last.surface.range_sigma);
   return -kOwnWord * kRoomRays * std::max(0.0, model.evidence(room, sigma, tolerance));
@@ -329,6 +335,7 @@ void GlobalLocalisation::askExpected(const SightModel& model) {
   judge(last, there, beliefOf(there, expectation_->reach, expectation_->turn), kCoarse, model,
         expected);
   expected_evidence_ += std::max(0.0, expected.total());
+  expected_seen_ += expected.seen;
 }
 
 bool GlobalLocalisation::standsAlone() const {

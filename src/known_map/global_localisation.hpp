@@ -102,7 +102,8 @@ class GlobalLocalisation {
   std::optional<SearchWindow> window_;
   std::optional<Expectation> expectation_;
   double expected_evidence_ =
-      0.0;  ///< nats: of all views, where the wheels lead; see standsAlone()
+      0.0;                     ///< nats: of all views, where the wheels lead; see standsAlone()
+  SightShares expected_seen_;  ///< there, by all views
   std::deque<View> views_;
   std::unordered_set<std::int64_t> seen_;  ///< cells of the wheels' frame
   std::optional<PoseSearch> search_;

@@ -35,7 +35,8 @@ constexpr std::size_t kLastScans = 3;
 /// nats a beam, below which a scan is in doubt; and of what is usual here: where the plan explains
 /// nearly all, a scan of which it explains half is from elsewhere.
 constexpr double kDoubt = 0.1, kDoubtOfUsual = 0.5;
-constexpr double kFewestRays = 8;     // that may put it there
+constexpr double kMostOfScan = 0.5, kUncontradicted = 0.95;  // shares: see isDoubtful()
+constexpr double kFewestRays = 8;                            // that may put it there
 constexpr double kBetterThere = 0.3;  // nats a beam, for a place found by a search
 /// Scans: one or two are of people, or a door, that pass by; one and a half seconds at 10 Hz of a
 /// robot that stands, before which somebody may stop for a moment.
@@ -149,6 +150,7 @@ class KnownMap::State {
   Fit fitAt(const ScanSurface& surface, const Pose2& start, const PoseBelief& prior, double reach,
             double share) const;
   double doubt() const;
+  bool isDoubtful(const Fit& fit) const;
   static double likelihood(const Fit& fit, const PoseBelief& prior);
   Prediction predict(const MotionBelief& motion) const;
   void straighten(const SweptScan& undone, const MotionBelief& motion, bool by_wheels,
@@ -295,6 +297,15 @@ double KnownMap::State::doubt() const {
   return std::max(kDoubt, kDoubtOfUsual * sights_.evidence(sights_.usual()));
 }
 
+/// Where most of a scan is on the plan's lines and next to nothing goes through any, what else it
+/// sees is furniture, however little of that is usual.
+bool KnownMap::State::isDoubtful(const Fit& fit) const {
+  const double count = fit.seen.count();
+  if (fit.evidence >= doubt() || count < kFewestRays) return false;
+  return fit.evidence < kDoubt || fit.seen.explained < kMostOfScan * count ||
+         fit.seen.agreement() < kUncontradicted;
+}
+
 /// nats, of a pose by its scan and by what was believed of it without.
 double KnownMap::State::likelihood(const Fit& fit, const PoseBelief& prior) {
   const Eigen::Vector3d off = difference(fit.match.T_map_sensor, prior.mean);
@@ -323,7 +334,7 @@ KnownMap::State::Fit KnownMap::State::fitAbout(const ScanSurface& surface, const
       if (likelihood(there, prior) > likelihood(here, prior)) here = std::move(there);
     }
   }
-  if (here.evidence >= doubt() || here.seen.count() < kFewestRays) return here;
+  if (!isDoubtful(here)) return here;
   // A scan that speaks against the place: wheels that slip lose any turn, and little way.
   const auto elsewhere = bestWithin(kSearchHalfWidth, here.evidence < 0.0 ? M_PI : kSearchHalfTurn);
   if (!elsewhere) return here;
@@ -340,7 +351,7 @@ void KnownMap::State::track(const ScanSurface& surface, const std::optional<Pose
   const PoseBelief prior = predicted.belief();
   const double share = is_fresh_ ? 1.0 : newsOf(motion.T_before_after);
   const Fit fit = fitAbout(surface, prior, share);
-  const bool is_doubtful = fit.evidence < doubt() && fit.seen.count() >= kFewestRays;
+  const bool is_doubtful = isDoubtful(fit);
   // Half of what is usual may still be the best that is known of where the robot is.
   const bool is_refuted = is_doubtful && fit.evidence < kDoubt;
   const bool is_matched = fit.match.paired > 0.0 && !is_refuted;
@@ -363,7 +374,8 @@ void KnownMap::State::track(const ScanSurface& surface, const std::optional<Pose
 }
 
 void KnownMap::State::learn(const Fit& fit, double share) {
-  sights_.learn(fit.seen, share * kLearnSights);
+  // What is usual is so in the plan: in a room that it has not, half of a scan may be in it.
+  if (fit.evidence >= doubt()) sights_.learn(fit.seen, share * kLearnSights);
   if (fit.match.piece_variance >= 0.0) {
     const double variance = plan_sigma_ * plan_sigma_;
     const double learned = variance + share * kLearnPlan * (fit.match.piece_variance - variance);
