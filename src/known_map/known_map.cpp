@@ -35,8 +35,10 @@ constexpr std::size_t kLastScans = 3;
 /// nats a beam, below which a scan is in doubt; and of what is usual here: where the plan explains
 /// nearly all, a scan of which it explains half is from elsewhere.
 constexpr double kDoubt = 0.1, kDoubtOfUsual = 0.5;
-constexpr double kMostOfScan = 0.5, kUncontradicted = 0.95;  // shares: see isDoubtful()
-constexpr double kFewestRays = 8;                            // that may put it there
+/// Shares, see isDoubtful(): in furnished rooms of ten plans the plan explains 58 to 67 % of a scan
+/// and nothing goes through a wall; by chance it explains 25 %, and 30 % go through.
+constexpr double kMostOfScan = 0.5, kUncontradicted = 0.95;
+constexpr double kFewestRays = 8;     // that may put it there
 constexpr double kBetterThere = 0.3;  // nats a beam, for a place found by a search
 /// Scans: one or two are of people, or a door, that pass by; one and a half seconds at 10 Hz of a
 /// robot that stands, before which somebody may stop for a moment.

@@ -91,11 +91,11 @@ cmp again.html a/replay.html || fail "render --html gave another page"
 expect_error 1 "lines.csv: holds no run" render a/lines.csv --html --out no.html
 [ ! -e no.html ] || fail "a page without a run was left"
 
-# On wheels and laser: a loop is closed, the map is made anew, all of it is seen and nothing touched. (With seeds 1 and 2 the
-# wheels err so little that the loop moves nothing by the 5 cm that the map is made anew for.)
+# On wheels and laser: a loop is closed, the map is made anew, all of it is seen and nothing touched. (Wheels and a laser
+# that err much: else the loop often moves nothing by the 5 cm that the map is made anew for.)
 for folder in wheels again; do
-  "$program" explore "$maps/corridor_loop.yaml" --seed 3 --exploration.return_to_start true --out $folder \
-    --quiet || fail "on wheels: status $?"
+  "$program" explore "$maps/corridor_loop.yaml" --seed 3 --laser rplidar_a1 --odometry.turn_noise_deg 5 \
+    --exploration.return_to_start true --out $folder --quiet || fail "on wheels: status $?"
   sed -i -E '/"(wall_s|scan_us_median|scan_us_p99)"/d' $folder/summary.json
 done
 diff -rq wheels again || fail "on wheels: equal seeds gave unequal files"

@@ -15,8 +15,7 @@ using test::PlannedWorld;
 const LocalisationEffort kAllAtOnce{std::numeric_limits<int>::max(),
                                     std::numeric_limits<int>::max()};
 
-std::optional<PoseBelief> foundAt(PlannedWorld& place, const PlanLines& plan,
-                                                 const Pose2& pose) {
+std::optional<PoseBelief> foundAt(PlannedWorld& place, const PlanLines& plan, const Pose2& pose) {
   GlobalLocalisation localisation(plan);
   localisation.begin();
   return localisation.add(scanSurface(place.world.scan(pose, 360, 2.0 * M_PI, 0.01)), {}, {},

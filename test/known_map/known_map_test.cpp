@@ -275,6 +275,42 @@ TEST(KnownMap, ARobotThatLeavesThePlanIsNotToldToBeInARoomThatIsAlike) {
   }
 }
 
+/// A bare corridor, and a room off it of which the plan does not show the furniture.
+PlannedWorld corridorWithAFurnishedRoom() {
+  PlannedWorld place;
+  const double doors[] = {0.0, 15.5, 16.5, 24.0};
+  for (int k = 0; k < 4; k += 2) place.addWall({doors[k], 2.0}, {doors[k + 1], 2.0});
+  place.addWall({0.0, 0.0}, {24.0, 0.0});
+  place.addWall({0.0, 0.0}, {0.0, 2.0});
+  place.addWall({24.0, 0.0}, {24.0, 2.0});
+  place.addWall({13.0, 2.0}, {13.0, 8.0});
+  place.addWall({13.0, 8.0}, {19.0, 8.0});
+  place.addWall({19.0, 8.0}, {19.0, 2.0});
+  PlannedWorld furniture;
+  furniture.addBox(13.0, 7.4, 17.2, 8.0);
+  furniture.addBox(18.4, 3.0, 19.0, 7.2);
+  furniture.addBox(13.0, 3.2, 13.6, 4.6);
+  for (const auto& [a, b] : furniture.plan) place.world.addWall(a, b);
+  return place;
+}
+
+TEST(KnownMap, ARobotInAFurnishedRoomIsNotLost) {
+  PlannedWorld place = corridorWithAFurnishedRoom();
+  std::vector<Pose2> way;
+  for (int k = 0; k <= 150; ++k) way.push_back({1.0 + 0.1 * k, 1.0, 0.0});
+  for (int k = 0; k < 16; ++k) way.push_back({16.0, 1.0, 0.1 * k});
+  for (int k = 0; k <= 45; ++k) way.push_back({16.0, 1.0 + 0.1 * k, M_PI_2});
+  for (int k = 0; k < 63; ++k) way.push_back({16.0, 5.5, wrapAngle(M_PI_2 + 0.1 * k)});
+  KnownMap localiser(place.plan);
+  localiser.place(way[0], kAbout);
+  const Followed run = drive(localiser, place.world, way);
+  for (std::size_t k = 0; k < way.size(); ++k) {
+    EXPECT_TRUE(run.estimates[k].is_known) << "scan " << k;
+  }
+  EXPECT_LT(run.worst(), 0.1);
+  EXPECT_EQ(localiser.timesLost(), 0);
+}
+
 TEST(KnownMap, WhatTheLinesErrByTogetherIsInTheCovariance) {
   const double offset = 0.03, angle = 0.01;
   PlannedWorld place = ring();
