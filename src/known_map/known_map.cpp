@@ -435,7 +435,7 @@ void KnownMap::State::search(const ScanSurface& surface, const MotionBelief& mot
   expectAlongWheels();
   const auto found = global_.add(surface, T_wheels_sensor_, sights_, effort_);
   if (!found) return;
-  const Fit fit = fitAt(surface, found->mean, *found, reachOf(*found), 1.0);
+  const Fit fit = fitAt(surface, found->mean, *found, kLeastMatchReach, 1.0);
   if (fit.evidence < doubt()) return;
   T_map_sensor_ = fit.match.T_map_sensor;
   covariance_ = fit.match.posterior.inverse();

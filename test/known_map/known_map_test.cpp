@@ -311,6 +311,36 @@ TEST(KnownMap, ARobotInAFurnishedRoomIsNotLost) {
   EXPECT_EQ(localiser.timesLost(), 0);
 }
 
+/// A room with cupboards half a metre before one wall, each other one 12 cm deeper, and with a
+/// shelf, .3 m deep, before the opposite wall. A partition tells it from itself turned round.
+PlannedWorld roomWithCupboards() {
+  PlannedWorld place;
+  place.addBox(0.0, 0.0, 6.0, 7.0);
+  place.addWall({2.0, 7.0}, {2.0, 4.5});
+  for (int k = 0; k < 14; ++k) {
+    const double face = k % 2 == 0 ? 5.44 : 5.56;
+    place.world.addWall({face, 0.5 * k}, {face, 0.5 * (k + 1)});
+  }
+  place.world.addWall({0.3, 0.0}, {0.3, 5.5});
+  place.world.addWall({0.3, 5.5}, {0.0, 5.5});
+  return place;
+}
+
+// A little to one side the shelf, or the cupboards, are where the plan has the wall.
+TEST(KnownMap, AFoundRobotStaysWhereItWasFound) {
+  PlannedWorld place = roomWithCupboards();
+  const Pose2 truth{3.2, 3.0, 0.4};
+  KnownMap localiser(place.plan);
+  Estimate estimate;
+  estimate.is_known = false;
+  for (int k = 0; k < 20 && !estimate.is_known; ++k) {
+    estimate = localiser.localise(test::measurementAt(place.world, truth, truth));
+  }
+  ASSERT_TRUE(estimate.is_known);
+  EXPECT_NEAR(estimate.T_map_robot.x, truth.x, 0.1);
+  EXPECT_NEAR(estimate.T_map_robot.y, truth.y, 0.1);
+}
+
 TEST(KnownMap, WhatTheLinesErrByTogetherIsInTheCovariance) {
   const double offset = 0.03, angle = 0.01;
   PlannedWorld place = ring();
