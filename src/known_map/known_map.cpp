@@ -93,17 +93,6 @@ Spread spreadOf(const Eigen::Matrix3d& covariance) {
   return {std::sqrt(std::max(0.0, axes.eigenvalues().maxCoeff())), std::sqrt(covariance(2, 2))};
 }
 
-/// m, by which what is seen kTurnArm away may lie off.
-double spanOf(const Spread& spread) {
-  return kPriorSigmas * (spread.position + kTurnArm * spread.turn);
-}
-
-/// m, of a match that begins at the mean.
-double reachOf(const PoseBelief& prior) {
-  return std::clamp(spanOf(spreadOf(prior.information.inverse())), kLeastMatchReach,
-                    PlanLines::kMostReach);
-}
-
 double newsOf(const Pose2& step) {
   return std::clamp(step.position().norm() / kNewsDistance + std::abs(step.theta) / kNewsTurn,
                     kLeastNews, 1.0);
@@ -321,6 +310,8 @@ double KnownMap::State::likelihood(const Fit& fit, const PoseBelief& prior) {
 KnownMap::State::Fit KnownMap::State::fitAbout(const ScanSurface& surface, const PoseBelief& prior,
                                                double share) const {
   const Spread spread = spreadOf(prior.information.inverse());
+  const double span = kPriorSigmas * (spread.position + kTurnArm * spread.turn);
+  const double reach = std::clamp(span, kLeastMatchReach, PlanLines::kMostReach);
   const auto bestWithin = [&](double half_width, double half_turn) {
     SearchWindow window;
     window.centre = prior.mean;
@@ -328,8 +319,8 @@ KnownMap::State::Fit KnownMap::State::fitAbout(const ScanSurface& surface, const
     window.half_turn = half_turn;
     return global_.bestIn(window, surface);
   };
-  Fit here = fitAt(surface, prior.mean, prior, reachOf(prior), share);
-  if (spanOf(spread) > PlanLines::kMostReach) {
+  Fit here = fitAt(surface, prior.mean, prior, reach, share);
+  if (span > PlanLines::kMostReach) {
     const double turn = std::min(kPriorSigmas * spread.turn, kSearchHalfTurn);
     if (const auto elsewhere = bestWithin(kPriorSigmas * spread.position, turn)) {
       Fit there = fitAt(surface, *elsewhere, prior, kFirstMatchReach, share);

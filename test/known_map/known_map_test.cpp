@@ -228,20 +228,45 @@ TEST(KnownMap, IsLostWhereThePlanDoesNotGoOn) {
   EXPECT_FALSE(estimate.is_known);
 }
 
-/// A corridor with two rooms that are alike, of which the plan shows the first alone.
-PlannedWorld corridorWithAnUndrawnRoom() {
+/// A bare corridor of 24 x 2 m, with doors in the wall at y = 2. @param doors  where they begin and
+/// end, x, m.
+PlannedWorld corridor(const std::vector<double>& doors) {
   PlannedWorld place;
+  double from = 0.0;
+  for (std::size_t k = 0; k < doors.size(); k += 2) {
+    place.addWall({from, 2.0}, {doors[k], 2.0});
+    from = doors[k + 1];
+  }
+  place.addWall({from, 2.0}, {24.0, 2.0});
+  place.addWall({0.0, 0.0}, {24.0, 0.0});
+  place.addWall({0.0, 0.0}, {0.0, 2.0});
+  place.addWall({24.0, 0.0}, {24.0, 2.0});
+  return place;
+}
+
+/// Along it to the door at x = 16, through that to `depth` [m] from where it turns, and once
+/// around.
+std::vector<Pose2> wayIntoTheRoom(double depth) {
+  std::vector<Pose2> way;
+  for (int k = 0; k <= 150; ++k) way.push_back({1.0 + 0.1 * k, 1.0, 0.0});
+  for (int k = 0; k < 16; ++k) way.push_back({16.0, 1.0, 0.1 * k});
+  for (int k = 0; k <= std::lround(depth / 0.1); ++k) {
+    way.push_back({16.0, 1.0 + 0.1 * k, M_PI_2});
+  }
+  const double y = way.back().y;
+  for (int k = 0; k < 63; ++k) way.push_back({16.0, y, wrapAngle(M_PI_2 + 0.1 * k)});
+  return way;
+}
+
+/// Two rooms that are alike, of which the plan shows the first alone.
+PlannedWorld corridorWithAnUndrawnRoom() {
+  PlannedWorld place = corridor({3.5, 4.5, 15.5, 16.5});
   const auto room = [](PlannedWorld& to, double x) {
     to.addWall({x, 2.0}, {x, 6.0});
     to.addWall({x, 6.0}, {x + 4.0, 6.0});
     to.addWall({x + 4.0, 6.0}, {x + 4.0, 2.0});
     to.addBox(x + 0.5, 5.2, x + 1.3, 6.0);
   };
-  const double doors[] = {0.0, 3.5, 4.5, 15.5, 16.5, 24.0};
-  for (int k = 0; k < 6; k += 2) place.addWall({doors[k], 2.0}, {doors[k + 1], 2.0});
-  place.addWall({0.0, 0.0}, {24.0, 0.0});
-  place.addWall({0.0, 0.0}, {0.0, 2.0});
-  place.addWall({24.0, 0.0}, {24.0, 2.0});
   place.addBox(8.0, 0.0, 9.0, 0.6);
   room(place, 2.0);
   PlannedWorld undrawn;
@@ -252,11 +277,7 @@ PlannedWorld corridorWithAnUndrawnRoom() {
 
 TEST(KnownMap, ARobotThatLeavesThePlanIsNotToldToBeInARoomThatIsAlike) {
   PlannedWorld place = corridorWithAnUndrawnRoom();
-  std::vector<Pose2> way;
-  for (int k = 0; k <= 150; ++k) way.push_back({1.0 + 0.1 * k, 1.0, 0.0});
-  for (int k = 0; k < 16; ++k) way.push_back({16.0, 1.0, 0.1 * k});
-  for (int k = 0; k <= 30; ++k) way.push_back({16.0, 1.0 + 0.1 * k, M_PI_2});
-  for (int k = 0; k < 63; ++k) way.push_back({16.0, 4.0, wrapAngle(M_PI_2 + 0.1 * k)});
+  const std::vector<Pose2> way = wayIntoTheRoom(3.0);
   // Who has not come along the corridor is deceived: no scan tells the rooms apart.
   KnownMap deceived(place.plan);
   Estimate estimate;
@@ -275,32 +296,21 @@ TEST(KnownMap, ARobotThatLeavesThePlanIsNotToldToBeInARoomThatIsAlike) {
   }
 }
 
-/// A bare corridor, and a room off it of which the plan does not show the furniture.
+/// A room of which the plan does not show the furniture.
 PlannedWorld corridorWithAFurnishedRoom() {
-  PlannedWorld place;
-  const double doors[] = {0.0, 15.5, 16.5, 24.0};
-  for (int k = 0; k < 4; k += 2) place.addWall({doors[k], 2.0}, {doors[k + 1], 2.0});
-  place.addWall({0.0, 0.0}, {24.0, 0.0});
-  place.addWall({0.0, 0.0}, {0.0, 2.0});
-  place.addWall({24.0, 0.0}, {24.0, 2.0});
+  PlannedWorld place = corridor({15.5, 16.5});
   place.addWall({13.0, 2.0}, {13.0, 8.0});
   place.addWall({13.0, 8.0}, {19.0, 8.0});
   place.addWall({19.0, 8.0}, {19.0, 2.0});
-  PlannedWorld furniture;
-  furniture.addBox(13.0, 7.4, 17.2, 8.0);
-  furniture.addBox(18.4, 3.0, 19.0, 7.2);
-  furniture.addBox(13.0, 3.2, 13.6, 4.6);
-  for (const auto& [a, b] : furniture.plan) place.world.addWall(a, b);
+  place.world.addBox(13.0, 7.4, 17.2, 8.0);
+  place.world.addBox(18.4, 3.0, 19.0, 7.2);
+  place.world.addBox(13.0, 3.2, 13.6, 4.6);
   return place;
 }
 
 TEST(KnownMap, ARobotInAFurnishedRoomIsNotLost) {
   PlannedWorld place = corridorWithAFurnishedRoom();
-  std::vector<Pose2> way;
-  for (int k = 0; k <= 150; ++k) way.push_back({1.0 + 0.1 * k, 1.0, 0.0});
-  for (int k = 0; k < 16; ++k) way.push_back({16.0, 1.0, 0.1 * k});
-  for (int k = 0; k <= 45; ++k) way.push_back({16.0, 1.0 + 0.1 * k, M_PI_2});
-  for (int k = 0; k < 63; ++k) way.push_back({16.0, 5.5, wrapAngle(M_PI_2 + 0.1 * k)});
+  const std::vector<Pose2> way = wayIntoTheRoom(4.5);
   KnownMap localiser(place.plan);
   localiser.place(way[0], kAbout);
   const Followed run = drive(localiser, place.world, way);
