@@ -6,13 +6,15 @@
 #include <cmath>
 
 #include "cca_mrpt/sensing/range_noise.hpp"
-#include "mapping/map_similarity.hpp"
 
 namespace cca {
 namespace {
 
 /// Returns that the mean of a full bin is worth: it forgets one in kMostHits at each new one.
 constexpr double kMostWorth = 2.0 * SupportBin::kMostHits;
+
+/// m, from the laser to the walls of a room of 4 m.
+constexpr double kUsualDistance = 2.0;
 
 double worthOf(const SupportBin& bin) {
   return bin.hits() < SupportBin::kMostHits ? bin.hits() : kMostWorth;
@@ -39,14 +41,17 @@ struct Residuals {
     last = z;
     ++bins;
   }
-  /// Factor of the variance, >= 1, by which bins are worth less than their number.
+  /// Factor of the variance, >= 1, by which bins are worth less than their number. Neither spread
+  /// nor likeness can be below the least, so they are above it by chance: each counts from its own
+  /// deviation, sqrt(2 / n) and 1 / sqrt(n) of n residuals without a bend.
   double inflation() const {
     constexpr double kMostAlike = 0.98;  // bins are worth a hundredth of their number at least
     constexpr int kFewest = 4;           // bins that tell a bend from noise
     if (bins < kFewest || pairs == 0 || squares <= 0.0) return 1.0;
-    const double spread = std::max(1.0, squares / (bins - 2));
-    const double alike = std::clamp(products / pairs / (squares / bins), 0.0, kMostAlike);
-    return spread * (1.0 + alike) / (1.0 - alike);
+    const double spread = std::max(1.0, squares / (bins - 2) - std::sqrt(2.0 / bins));
+    const double alike = products / pairs / (squares / bins) - 1.0 / std::sqrt(pairs);
+    const double rho = std::clamp(alike, 0.0, kMostAlike);
+    return spread * (1.0 + rho) / (1.0 - rho);
   }
   double last = 0.0;
 };
@@ -93,11 +98,11 @@ Eigen::Matrix2d covarianceOf(const Wall& wall, const LineSegment& piece, const M
   Eigen::Matrix2d carry = Eigen::Matrix2d::Identity();
   carry(0, 1) = middle - wall.known_at;
   covariance += carry * wall.pose_covariance * carry.transpose();
-  if (wall.two_sided) {
-    const double face = mostBetweenFaces(noise) * mostBetweenFaces(noise) / 12.0;
-    covariance(0, 0) += face;
-    covariance(1, 1) += 2.0 * face / piece.length() / piece.length();  // each end on either
-  }
+  const double behind = noise.rangeVariance() / (2.0 * kUsualDistance);
+  double beside = behind * behind;
+  if (wall.two_sided) beside += std::max(0.0, variance - noise.rangeVariance());
+  covariance(0, 0) += beside;
+  covariance(1, 1) += 2.0 * beside / piece.length() / piece.length();  // each end on its own
   const double visits = std::max(1.0, wall.visits);
   covariance(0, 0) += noise.ownOffsetVariance() / visits;
   covariance(1, 1) = std::min(1.0, covariance(1, 1) + noise.ownAngleVariance() / visits);
