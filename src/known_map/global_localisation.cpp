@@ -32,9 +32,6 @@ constexpr std::size_t kMostCandidates = 300;
 /// (kCoarse), and walls are paired up to 26 degrees aslant; 15 here.
 constexpr double kCandidateDistance = 0.5, kCandidateTurn = 0.26;
 
-/// Beams that are kRaySpacing apart err together where they meet one thing: a wardrobe, a wall
-/// that is not where the plan has it. So much of one of its own is each worth.
-constexpr double kOwnWord = 0.5;
 constexpr double kCoarse = 0.6;  // m, reach of the match of a candidate
 /// m, rad: places for which a candidate was kept lie within three of these.
 constexpr double kCandidateSigma = 0.3, kCandidateTurnSigma = 0.1;

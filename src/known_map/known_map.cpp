@@ -46,6 +46,8 @@ constexpr int kLostScansInDoubt = 3, kLostStandingInDoubt = 15;
 constexpr double kLostWayInDoubt = 2.0 * kNewsDistance;      // m: two scans that are all news
 constexpr double kVagueSigma = 1.0, kVagueTurnSigma = 0.35;  // m, rad: who knows no more is lost
 
+/// m: matches at both ends of such a way err by less than wheels do on it.
+constexpr double kJudgedWay = 1.0;
 /// m, of way that a place has been followed for, to be trusted: out of the room that it was found
 /// in.
 constexpr double kTrustedAfter = 3.0;
@@ -155,6 +157,7 @@ class KnownMap::State {
   void follow(const Fit& found);
   void takePlace(const ScanSurface& surface, const Pose2& T_robot_sensor);
   void learn(const Fit& fit, double share);
+  void learnWay();
   void countDoubt(bool is_doubtful, const Pose2& step);
   void lose();
   void expectAlongWheels();
@@ -188,6 +191,12 @@ class KnownMap::State {
     double wheels_way, wheels_turn;
   };
   std::optional<Trusted> trusted_;
+  /// Where the way that the wheels are judged by began.
+  struct Anchor {
+    Pose2 T_map_sensor, T_wheels_sensor;
+    Eigen::Matrix2d covariance;  ///< m^2, map axes
+  };
+  std::optional<Anchor> anchor_;
   double followed_way_ = 0.0;  ///< m, since it was placed or found
   bool is_localised_ = false, is_fresh_ = true;
   int times_lost_ = 0;
@@ -301,7 +310,7 @@ bool KnownMap::State::isDoubtful(const Fit& fit) const {
 double KnownMap::State::likelihood(const Fit& fit, const PoseBelief& prior) {
   const Eigen::Vector3d off = difference(fit.match.T_map_sensor, prior.mean);
   const double off_sq = off.dot(prior.information * off);
-  return fit.evidence * fit.seen.count() -
+  return kOwnWord * fit.seen.count() * fit.evidence -
          0.5 * (kPriorFreedom + 3.0) * std::log1p(off_sq / kPriorFreedom);
 }
 
@@ -320,6 +329,11 @@ KnownMap::State::Fit KnownMap::State::fitAbout(const ScanSurface& surface, const
     return global_.bestIn(window, surface);
   };
   Fit here = fitAt(surface, prior.mean, prior, reach, share);
+  const Eigen::Vector3d off = difference(here.match.T_map_sensor, prior.mean);
+  if (off.dot(prior.information * off) > 9.0) {
+    Fit near = fitAt(surface, prior.mean, prior, kLeastMatchReach, share);
+    if (likelihood(near, prior) > likelihood(here, prior)) here = std::move(near);
+  }
   if (span > PlanLines::kMostReach) {
     const double turn = std::min(kPriorSigmas * spread.turn, kSearchHalfTurn);
     if (const auto elsewhere = bestWithin(kPriorSigmas * spread.position, turn)) {
@@ -361,6 +375,7 @@ void KnownMap::State::track(const ScanSurface& surface, const std::optional<Pose
     motion_.learn(wheel_step, motion, before.inverse() * T_map_sensor_,
                   inMapAxes(covariance_, -before.theta));
     learn(fit, share);
+    if (wheel_step) learnWay();
     is_fresh_ = false;
   }
   countDoubt(is_doubtful, motion.T_before_after);
@@ -388,6 +403,22 @@ void KnownMap::State::learn(const Fit& fit, double share) {
   }
 }
 
+/// Learns by how much the wheels count a way too short, from the matches at both its ends.
+void KnownMap::State::learnWay() {
+  const Eigen::Matrix2d covariance = covariance_.topLeftCorner<2, 2>();
+  if (anchor_) {
+    const Eigen::Vector2d by_wheels =
+        (anchor_->T_wheels_sensor.inverse() * T_wheels_sensor_).position();
+    const double way = by_wheels.norm();
+    if (way < kJudgedWay) return;
+    const Eigen::Vector2d matched = T_map_sensor_.position() - anchor_->T_map_sensor.position();
+    const Eigen::Vector2d ahead = Pose2{0.0, 0.0, anchor_->T_map_sensor.theta} * (by_wheels / way);
+    motion_.learnWay(way / (1.0 + motion_.longer()), ahead.dot(matched),
+                     ahead.dot((anchor_->covariance + covariance) * ahead));
+  }
+  anchor_ = {T_map_sensor_, T_wheels_sensor_, covariance};
+}
+
 void KnownMap::State::countDoubt(bool is_doubtful, const Pose2& step) {
   const Spread spread = spreadOf(covariance_);
   if (!is_doubtful) {
@@ -404,6 +435,7 @@ void KnownMap::State::countDoubt(bool is_doubtful, const Pose2& step) {
 }
 
 void KnownMap::State::lose() {
+  anchor_.reset();
   is_localised_ = false;
   ++times_lost_;
   global_.begin();
@@ -427,7 +459,7 @@ void KnownMap::State::search(const ScanSurface& surface, const MotionBelief& mot
   const auto found = global_.add(surface, T_wheels_sensor_, sights_, effort_);
   if (!found) return;
   const Fit fit = fitAt(surface, found->mean, *found, kLeastMatchReach, 1.0);
-  if (fit.evidence < doubt()) return;
+  if (isDoubtful(fit)) return;
   T_map_sensor_ = fit.match.T_map_sensor;
   covariance_ = fit.match.posterior.inverse();
   follow(fit);

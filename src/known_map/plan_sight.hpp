@@ -54,6 +54,10 @@ SightShares seePlan(const std::vector<SightRay>& rays, const Pose2& T_map_sensor
 /// m: of returns with this noise.
 double sightTolerance(double range_sigma);
 
+/// Beams that are kRaySpacing apart err together where they meet one thing: a wardrobe, a wall
+/// that is not where the plan has it. So much of one of its own is each worth.
+inline constexpr double kOwnWord = 0.5;
+
 /// How much more likely a scan is that has these shares at the right pose than at one taken at
 /// random, in nats a beam. What is usual at right poses is learned while the robot is localised:
 /// among much furniture, hidden beams say nothing.

@@ -58,6 +58,30 @@ TEST(KnownMap, FollowsADriveAlthoughTheWheelsErrAndThePlanShowsNoFurniture) {
   EXPECT_LT(run.worst(), 0.1);
 }
 
+/// Thirty metres of niches, then walls without any, farther than the laser sees.
+PlannedWorld corridorThatEndsInBlankWalls() {
+  PlannedWorld place;
+  for (double x = 0.0; x < 30.0; x += 2.0) place.addBox(x, 0.0, x + 0.8, 0.4);
+  place.addWall({0.0, 0.0}, {120.0, 0.0});
+  place.addWall({0.0, 3.0}, {120.0, 3.0});
+  return place;
+}
+
+TEST(KnownMap, WheelsThatCountShortAreLearnedAndServeWhereThePlanSaysNothing) {
+  PlannedWorld place = corridorThatEndsInBlankWalls();
+  KnownMap localiser(place.plan);
+  Estimate estimate;
+  double error = 0.0;
+  for (double x = 2.0; x < 65.0; x += 0.1) {
+    if (x == 2.0) localiser.place({x, 1.6, 0.0}, kAbout);
+    estimate =
+        localiser.localise(test::measurementAt(place.world, {x, 1.6, 0.0}, {0.93 * x, 1.6, 0.0}));
+    error = std::abs(estimate.T_map_robot.x - x);
+  }
+  EXPECT_TRUE(estimate.is_known);
+  EXPECT_LT(error, 0.02 * 15.0);  // 7 % of the last 15 m are 1.05 m
+}
+
 constexpr double kSweep = 0.18;  // s, of a turn of the laser; the next one follows at once
 constexpr int kBeams = 240;
 constexpr double kFieldOfView = 359.0 * M_PI / 180.0;  // rad
