@@ -148,7 +148,7 @@ bool GlobalLocalisation::isNewView(const Pose2& T_wheels_sensor) const {
 }
 
 void GlobalLocalisation::addView(const ScanSurface& surface, const Pose2& T_wheels_sensor) {
-  if (views_.size() == kMostViews) dropFirstView();
+  if (views_.size() == kMostViews) dropView();
   View view{surface, {}, T_wheels_sensor};
   std::vector<std::int64_t> cells;
   for (const SightRay& ray : sightRays(surface)) {
@@ -161,20 +161,18 @@ void GlobalLocalisation::addView(const ScanSurface& surface, const Pose2& T_whee
   views_.push_back(std::move(view));
 }
 
-/// What it has seen stays seen: else a robot that turns on the spot would count it again and again.
-void GlobalLocalisation::dropFirstView() {
-  views_.pop_front();
+/// The first one that is not being searched for. What it has seen stays seen: else a robot that
+/// turns on the spot would count it again and again.
+void GlobalLocalisation::dropView() {
+  const bool is_searching = search_ || !candidates_.empty();
+  const std::ptrdiff_t dropped = is_searching && searching_ == 0 ? 1 : 0;
+  views_.erase(views_.begin() + dropped);
   for (Hypothesis& h : hypotheses_) {
-    if (h.evidence.size() < 2) continue;
-    h.evidence[1] += h.evidence[0];
-    h.evidence.erase(h.evidence.begin());
+    h.evidence[1 - static_cast<std::size_t>(dropped)] +=
+        h.evidence[static_cast<std::size_t>(dropped)];
+    h.evidence.erase(h.evidence.begin() + dropped);
   }
-  if (searching_ > 0) {
-    --searching_;
-  } else {
-    search_.reset();
-    candidates_.clear();
-  }
+  if (searching_ > 0) --searching_;
 }
 
 void GlobalLocalisation::work(const SightModel& model, const LocalisationEffort& effort) {
@@ -248,6 +246,16 @@ void GlobalLocalisation::judgeAfter(std::size_t from, std::size_t to, const Sigh
   }
 }
 
+/// Whether a place is hopeless by what some views say of it: the best one explains these so much
+/// better that the others will hardly make up for it.
+bool GlobalLocalisation::isBehind(const Hypothesis& hypothesis, std::size_t first) const {
+  if (hypothesis.total() < kHopeless) return true;
+  if (hypotheses_.empty()) return false;
+  const auto from = hypotheses_.front().evidence.begin() + static_cast<std::ptrdiff_t>(first);
+  const auto to = from + static_cast<std::ptrdiff_t>(hypothesis.evidence.size());
+  return hypothesis.total() < std::accumulate(from, to, -kBehindBest);
+}
+
 /// A place where the sensor may have been at one view, asked of all views; nothing where it is
 /// hopeless.
 std::optional<Hypothesis> GlobalLocalisation::judgedByAll(std::size_t at, const Pose2& T_map_sensor,
@@ -255,17 +263,17 @@ std::optional<Hypothesis> GlobalLocalisation::judgedByAll(std::size_t at, const 
   Hypothesis there;
   judge(views_[at], T_map_sensor, beliefOf(T_map_sensor, kCandidateSigma, kCandidateTurnSigma),
         kCoarse, model, there);
-  if (there.total() < kHopeless) return std::nullopt;
+  if (isBehind(there, at)) return std::nullopt;
   Hypothesis earlier = there;
-  earlier.evidence.clear();
   for (std::size_t k = at; k > 0; --k) {
     const Pose2 step = views_[k].T_wheels_sensor.inverse() * views_[k - 1].T_wheels_sensor;
     const PoseBelief prior = beliefAfter(earlier.T_map_sensor, step);
     judge(views_[k - 1], prior.mean, prior, kCoarse, model, earlier);
+    if (isBehind(earlier, k - 1)) return std::nullopt;
   }
   std::reverse(earlier.evidence.begin(), earlier.evidence.end());
   there.seen = earlier.seen;
-  there.evidence.insert(there.evidence.begin(), earlier.evidence.begin(), earlier.evidence.end());
+  there.evidence = std::move(earlier.evidence);
   judgeAfter(at, views_.size() - 1, model, there);
   there.prior = priorOf(there, model);
   return there;

@@ -82,12 +82,13 @@ class GlobalLocalisation {
   bool isNewView(const Pose2& T_wheels_sensor) const;
   void work(const SightModel& model, const LocalisationEffort& effort);
   void addView(const ScanSurface& surface, const Pose2& T_wheels_sensor);
-  void dropFirstView();
+  void dropView();
   void beginSearch();
   void judge(const View& view, const Pose2& start, const PoseBelief& prior, double reach,
              const SightModel& model, Hypothesis& hypothesis);
   void judgeAfter(std::size_t from, std::size_t to, const SightModel& model,
                   Hypothesis& hypothesis);
+  bool isBehind(const Hypothesis& hypothesis, std::size_t first) const;
   std::optional<Hypothesis> judgedByAll(std::size_t at, const Pose2& T_map_sensor,
                                         const SightModel& model);
   void askNeighbours(const SightModel& model);

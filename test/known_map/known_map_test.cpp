@@ -166,6 +166,20 @@ TEST(KnownMap, AScanWithoutAPoseToldIsFoundAnywhereAndSaysSo) {
   EXPECT_LT((estimate.T_map_robot.position() - truth.position()).norm(), 0.03);
 }
 
+// Each scan is a new view, and the oldest is dropped before all candidates have been asked of all.
+TEST(KnownMap, IsFoundWhileViewsComeFasterThanTheSearch) {
+  PlannedWorld place = ring();
+  const std::vector<Pose2> way = test::driveAroundRing(0.6);
+  LocalisationEffort little;
+  little.matches = 20;
+  KnownMap localiser(place.plan, {}, little);
+  std::size_t unknown = 0;
+  const Followed run = drive(localiser, place.world, way);
+  while (unknown < way.size() && !run.estimates[unknown].is_known) ++unknown;
+  EXPECT_LT(unknown, way.size() / 2);
+  EXPECT_LT(run.worst(unknown), 0.1);
+}
+
 TEST(KnownMap, NoticesWithinAMetreThatItWasCarriedAndFindsItself) {
   PlannedWorld place = ring();
   std::vector<Pose2> way = test::driveAroundRing(0.1);
