@@ -33,7 +33,7 @@ struct PlanQuadric {
   double weight = 0.0, ee = 0.0;
   double mean_sq = 0.0, noise_of_mean = 0.0;  ///< m^2, sums over pieces
   int pieces = 0;
-  double offset_sq = 0.0, angle_sq = 0.0;  ///< m^2, rad^2, of their lines' sigmas, over returns
+  double offset_worth = 0.0, angle_worth = 0.0;  ///< m^-2, rad^-2, sums over returns
 
   /// Takes a piece's returns, which have the plan's error there in common: what is usual, or what
   /// the map says of a line that it knows less well, as of one that stands for both faces of a
@@ -55,11 +55,12 @@ struct PlanQuadric {
   }
 };
 
-/// What the lines that a scan meets err by together: the mean square over its returns.
+/// What lines err by together is no more than the best known ones do: the harmonic mean, of which a
+/// line that does not tell (infinite worth) makes nothing.
 LineSigma mapSigma(const PlanQuadric& quadric) {
   if (quadric.weight <= 0.0) return {};
-  return {std::sqrt(quadric.offset_sq / quadric.weight),
-          std::sqrt(quadric.angle_sq / quadric.weight)};
+  return {std::sqrt(quadric.weight / quadric.offset_worth),
+          std::sqrt(quadric.weight / quadric.angle_worth)};
 }
 
 /// What is left of a match's information by an error of the whole scan: (H^-1 + R)^-1, and the
@@ -103,8 +104,8 @@ PlanQuadric planQuadric(const ScanSurface& surface, const Pose2& pose, const Pla
     sums.weight += weight;
     sums.e += weight * e;
     sums.ee += weight * e * e;
-    quadric.offset_sq += weight * piece.sigma.offset * piece.sigma.offset;
-    quadric.angle_sq += weight * piece.sigma.angle * piece.sigma.angle;
+    quadric.offset_worth += weight / (piece.sigma.offset * piece.sigma.offset);
+    quadric.angle_worth += weight / (piece.sigma.angle * piece.sigma.angle);
     ++quadric.paired;
   }
   quadric.take(sums, sigma, plan_sigma);
