@@ -145,6 +145,7 @@ class KnownMap::State {
   double doubt() const;
   bool isDoubtful(const Fit& fit) const;
   static double likelihood(const Fit& fit, const PoseBelief& prior);
+  static double offSquared(const Fit& fit, const PoseBelief& prior);
   Prediction predict(const MotionBelief& motion) const;
   void straighten(const SweptScan& undone, const MotionBelief& motion, bool by_wheels,
                   ScanSurface& surface);
@@ -306,16 +307,21 @@ bool KnownMap::State::isDoubtful(const Fit& fit) const {
          fit.seen.agreement() < kUncontradicted;
 }
 
-/// nats, of a pose by its scan and by what was believed of it without.
-double KnownMap::State::likelihood(const Fit& fit, const PoseBelief& prior) {
+/// Squared deviations of a match from what was believed of the pose without it.
+double KnownMap::State::offSquared(const Fit& fit, const PoseBelief& prior) {
   const Eigen::Vector3d off = difference(fit.match.T_map_sensor, prior.mean);
-  const double off_sq = off.dot(prior.information * off);
-  return kOwnWord * fit.seen.count() * fit.evidence -
-         0.5 * (kPriorFreedom + 3.0) * std::log1p(off_sq / kPriorFreedom);
+  return off.dot(prior.information * off);
 }
 
-/// Downhill from the wheels' word; where they may err by more than a match reaches, or where that
-/// does not fit, from what fits best around.
+/// nats, of a pose by its scan and by what was believed of it without.
+double KnownMap::State::likelihood(const Fit& fit, const PoseBelief& prior) {
+  return kOwnWord * fit.seen.count() * fit.evidence -
+         0.5 * (kPriorFreedom + 3.0) * std::log1p(offSquared(fit, prior) / kPriorFreedom);
+}
+
+/// Downhill from the wheels' word, and from no farther off than a match is fine where that leads
+/// beyond belief; where wheels may err by more than a match reaches, or where that does not fit,
+/// from what fits best around.
 KnownMap::State::Fit KnownMap::State::fitAbout(const ScanSurface& surface, const PoseBelief& prior,
                                                double share) const {
   const Spread spread = spreadOf(prior.information.inverse());
@@ -329,8 +335,7 @@ KnownMap::State::Fit KnownMap::State::fitAbout(const ScanSurface& surface, const
     return global_.bestIn(window, surface);
   };
   Fit here = fitAt(surface, prior.mean, prior, reach, share);
-  const Eigen::Vector3d off = difference(here.match.T_map_sensor, prior.mean);
-  if (off.dot(prior.information * off) > 9.0) {
+  if (offSquared(here, prior) > kPriorSigmas * kPriorSigmas) {
     Fit near = fitAt(surface, prior.mean, prior, kLeastMatchReach, share);
     if (likelihood(near, prior) > likelihood(here, prior)) here = std::move(near);
   }
