@@ -17,8 +17,9 @@ namespace cca {
 /// that were seen with it are, and more so with each station between them and the first one. No
 /// residual shows that. The covariance of the adjustment of all poses and walls does. The map is
 /// not that adjustment: scan matching weighs returns as it must to hold in clutter. What a wall
-/// lies off it adds to its error. Scans are matched surface by surface, and none knows that a long
-/// wall is straight: each patch of 2 m has an offset and a direction of its own.
+/// lies off it adds to its error, by three deviations at most: beyond, the adjustment has gone
+/// astray. Scans are matched surface by surface, and none knows that a long wall is straight: each
+/// patch of 2 m has an offset and a direction of its own.
 class WallNetwork {
  public:
   void add(const Pose2& T_map_sensor, const std::vector<NewLine>& lines);
