@@ -440,7 +440,6 @@ void KnownMap::State::countDoubt(bool is_doubtful, const Pose2& step) {
 }
 
 void KnownMap::State::lose() {
-  anchor_.reset();
   is_localised_ = false;
   ++times_lost_;
   global_.begin();
@@ -474,6 +473,7 @@ void KnownMap::State::follow(const Fit& found) {
   seen_ = found.seen;
   residual_ = found.match.sigma;
   map_sigma_ = found.match.map_sigma;
+  anchor_.reset();
   followed_way_ = 0.0;
   is_localised_ = true;
   is_fresh_ = false;

@@ -58,30 +58,6 @@ TEST(KnownMap, FollowsADriveAlthoughTheWheelsErrAndThePlanShowsNoFurniture) {
   EXPECT_LT(run.worst(), 0.1);
 }
 
-/// Thirty metres of niches, then walls without any, farther than the laser sees.
-PlannedWorld corridorThatEndsInBlankWalls() {
-  PlannedWorld place;
-  for (double x = 0.0; x < 30.0; x += 2.0) place.addBox(x, 0.0, x + 0.8, 0.4);
-  place.addWall({0.0, 0.0}, {120.0, 0.0});
-  place.addWall({0.0, 3.0}, {120.0, 3.0});
-  return place;
-}
-
-TEST(KnownMap, WheelsThatCountShortAreLearnedAndServeWhereThePlanSaysNothing) {
-  PlannedWorld place = corridorThatEndsInBlankWalls();
-  KnownMap localiser(place.plan);
-  Estimate estimate;
-  double error = 0.0;
-  for (double x = 2.0; x < 65.0; x += 0.1) {
-    if (x == 2.0) localiser.place({x, 1.6, 0.0}, kAbout);
-    estimate =
-        localiser.localise(test::measurementAt(place.world, {x, 1.6, 0.0}, {0.93 * x, 1.6, 0.0}));
-    error = std::abs(estimate.T_map_robot.x - x);
-  }
-  EXPECT_TRUE(estimate.is_known);
-  EXPECT_LT(error, 0.02 * 15.0);  // 7 % of the last 15 m are 1.05 m
-}
-
 constexpr double kSweep = 0.18;  // s, of a turn of the laser; the next one follows at once
 constexpr int kBeams = 240;
 constexpr double kFieldOfView = 359.0 * M_PI / 180.0;  // rad
@@ -166,20 +142,6 @@ TEST(KnownMap, AScanWithoutAPoseToldIsFoundAnywhereAndSaysSo) {
   EXPECT_LT((estimate.T_map_robot.position() - truth.position()).norm(), 0.03);
 }
 
-// Each scan is a new view, and the oldest is dropped before all candidates have been asked of all.
-TEST(KnownMap, IsFoundWhileViewsComeFasterThanTheSearch) {
-  PlannedWorld place = ring();
-  const std::vector<Pose2> way = test::driveAroundRing(0.6);
-  LocalisationEffort little;
-  little.matches = 20;
-  KnownMap localiser(place.plan, {}, little);
-  std::size_t unknown = 0;
-  const Followed run = drive(localiser, place.world, way);
-  while (unknown < way.size() && !run.estimates[unknown].is_known) ++unknown;
-  EXPECT_LT(unknown, way.size() / 2);
-  EXPECT_LT(run.worst(unknown), 0.1);
-}
-
 TEST(KnownMap, NoticesWithinAMetreThatItWasCarriedAndFindsItself) {
   PlannedWorld place = ring();
   std::vector<Pose2> way = test::driveAroundRing(0.1);
@@ -216,6 +178,59 @@ Measurement lossy(test::WalledWorld& world, const Pose2& pose, const Pose2& whee
     if (world.noise() > 1.83) range = std::numeric_limits<double>::infinity();
   }
   return measurement;
+}
+
+// Each scan is a new view, and the oldest is dropped before all candidates have been asked of all.
+TEST(KnownMap, IsFoundWhileViewsComeFasterThanTheSearch) {
+  PlannedWorld place = ring();
+  LocalisationEffort little;
+  little.matches = 20;
+  KnownMap localiser(place.plan, {}, little);
+  const std::vector<Pose2> way = test::driveAroundRing(0.6);
+  const std::vector<Pose2> wheels = test::wheelsOf(way, place.world);
+  std::size_t found = way.size();
+  for (std::size_t k = 0; k < way.size(); ++k) {
+    Measurement measurement = lossy(place.world, way[k], wheels[k]);
+    measurement.scan.free_range_without_return = 0.0;  // what MissingReturns makes of lone ones
+    const Estimate estimate = localiser.localise(measurement);
+    if (!estimate.is_known) continue;
+    found = std::min(found, k);
+    EXPECT_LT((estimate.T_map_robot.position() - way[k].position()).norm(), 0.1) << "scan " << k;
+  }
+  EXPECT_LT(found, way.size() / 2);
+}
+
+const Pose2 kAslant{1.3, -0.7, 0.5};  // of a building on the map
+
+/// Thirty metres of niches, then walls without any, farther than the laser sees; aslant.
+PlannedWorld corridorThatEndsInBlankWalls() {
+  PlannedWorld place;
+  const auto wall = [&](const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
+    place.addWall(kAslant * a, kAslant * b);
+  };
+  for (double x = 0.0; x < 30.0; x += 2.0) {
+    wall({x, 0.0}, {x, 0.4});
+    wall({x, 0.4}, {x + 0.8, 0.4});
+    wall({x + 0.8, 0.4}, {x + 0.8, 0.0});
+  }
+  wall({0.0, 0.0}, {120.0, 0.0});
+  wall({0.0, 3.0}, {120.0, 3.0});
+  return place;
+}
+
+TEST(KnownMap, WheelsThatCountShortAreLearnedAndServeWhereThePlanSaysNothing) {
+  PlannedWorld place = corridorThatEndsInBlankWalls();
+  KnownMap localiser(place.plan);
+  Estimate estimate;
+  double error = 0.0;
+  for (double x = 2.0; x < 65.0; x += 0.1) {
+    const Pose2 truth = kAslant * Pose2{x, 1.6, 0.0};
+    if (x == 2.0) localiser.place(truth, kAbout);
+    estimate = localiser.localise(lossy(place.world, truth, {0.93 * x, 1.6, 0.0}));
+    error = (estimate.T_map_robot.position() - truth.position()).norm();
+  }
+  EXPECT_TRUE(estimate.is_known);
+  EXPECT_LT(error, 0.02 * 15.0);  // 7 % of the last 15 m are 1.05 m
 }
 
 /// The share of a way that is localised towards the wall between two rooms, which is in the plan.
