@@ -140,9 +140,9 @@ class NodeEnds(OwnMaster):
         for is_simulated, words in (("false", "nobody publishes /scan"), ("true", "nothing gives /clock")):
             self.ask("rosparam", "set", "/use_sim_time", is_simulated)
             mapper = self.node("line_mapper")
-            time.sleep(8.0)
+            self.assertTrue(self.prints(mapper, words), words)
             mapper.send_signal(signal.SIGINT)
-            self.assertIn(words, mapper.communicate(timeout=30)[0])
+            mapper.wait(timeout=30)
         check = self.node("check_robot", "_seconds:=1")
         self.assertIn("nothing gives /clock", check.communicate(timeout=30)[0])
         self.assertEqual(check.returncode, 1)

@@ -36,7 +36,8 @@ class OwnMaster(unittest.TestCase):
         self.out = os.path.join(self.home.name, "map")
         self.port = free_port()
         os.environ.update(ROS_HOME=self.home.name, ROS_HOSTNAME="localhost",
-                          ROS_MASTER_URI="http://localhost:%d" % self.port)
+                          ROS_MASTER_URI="http://localhost:%d" % self.port,
+                          ROSCONSOLE_STDOUT_LINE_BUFFERED="1")  # what a node prints is there to be read at once
         self.running = []
         self.master = self.start_master()
 
@@ -93,6 +94,14 @@ class OwnMaster(unittest.TestCase):
             return word in said
 
         return until(heard, seconds)
+
+    def prints(self, process, words, seconds=60.0):
+        """Whether a process prints these words within that time; what it has printed until then is gone."""
+        alarm = threading.Timer(seconds, process.kill)
+        alarm.start()
+        said = any(words in line for line in process.stdout)
+        alarm.cancel()
+        return said
 
 
 def main():
