@@ -10,6 +10,28 @@
 namespace cca {
 namespace {
 
+/// Removes walls most of whose returns more likely came from others, which scattered them: a few
+/// returns from far away found lines askew, and those have what comes to lie on them.
+void removeScattered(const std::vector<PastScans::Kept>& scans, const MapNoise& noise, double gate,
+                     Walls& walls) {
+  std::vector<int> surplus(walls.all().size(), 0);  // of returns of their own
+  for (const PastScans::Kept& kept : scans) {
+    const Scan& scan = kept.seen.scan;
+    const std::vector<Eigen::Vector2d> beams = beamDirections(scan);
+    const Eigen::Vector2d viewpoint = scan.T_map_sensor.position();
+    for (std::size_t beam = 0; beam < scan.size(); ++beam) {
+      if (!isUsableReturn(scan.ranges[beam])) continue;
+      const Eigen::Vector2d p = viewpoint + scan.ranges[beam] * beams[beam];
+      const Walls::Slot slot = walls.hitBy(p, viewpoint, gate);
+      if (slot < 0) continue;
+      surplus[static_cast<std::size_t>(slot)] +=
+          walls.likelyHitBy(p, viewpoint, noise) == slot ? 1 : -1;
+    }
+  }
+  for (std::size_t i = 0; i < surplus.size(); ++i)
+    if (surplus[i] < 0) walls.remove(static_cast<Walls::Slot>(i));
+}
+
 /// The returns of a scan, each to the wall that it is a hit of as the walls stand.
 void depositOnStanding(const Scan& scan, const std::vector<Eigen::Vector2d>& beams, double gate,
                        const Walls& standing, Walls& walls) {
@@ -58,6 +80,8 @@ void keepUnconfirmed(const Walls& standing, double gate, Walls& walls) {
 
 void reassignEvidence(const std::vector<PastScans::Kept>& scans, const MapNoise& noise,
                       bool uses_rays, Walls& walls) {
+  const double gate = kGates * noise.lateralSigma();
+  removeScattered(scans, noise, gate, walls);
   const Walls standing = walls;
   const auto slots = static_cast<Walls::Slot>(walls.all().size());
   for (Walls::Slot slot = 0; slot < slots; ++slot) {
@@ -67,7 +91,6 @@ void reassignEvidence(const std::vector<PastScans::Kept>& scans, const MapNoise&
     walls[slot].length_at_check = 0;
     walls.touch(slot);
   }
-  const double gate = kGates * noise.lateralSigma();
   for (const PastScans::Kept& kept : scans) {
     const Scan& scan = kept.seen.scan;
     const std::vector<Eigen::Vector2d> beams = beamDirections(scan);

@@ -127,7 +127,7 @@ std::vector<NewLine> LineMap::State::newLines(const std::vector<LineSegment>& li
     if (!sane || !(line.moments.weight > 0.0)) continue;
     const FittedLine fitted = fitLine(line.moments);
     const double freedom = line.moments.weight - 2.0;
-    if (freedom > 2.0) noise_.learnRange(fitted.residual_sum_sq / freedom);
+    if (freedom > 2.0) noise_.learnRange(fitted.residual_sum_sq / freedom, distance);
     found.push_back(inMap(line, T_map_sensor, noise_));
   }
   return found;

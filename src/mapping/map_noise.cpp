@@ -11,6 +11,8 @@ constexpr double kMedianOfMagnitude = 0.6745;  // of a normal deviate, in its si
 constexpr double kFinestOffset = 0.003;        // m; nothing is known better than that
 constexpr double kFinestAngle = 0.001;         // rad: the same 3 mm over three metres
 constexpr double kLongestMemory = 500.0;  // innovations; a step is then 0.4 %, and may still follow
+constexpr double kNearest = 0.25, kFarthest = 32.0;  // m, where the first and last octave begin
+constexpr double kFewest = 20.0;                     // lines, for a median of them to be told
 
 double stepped(double sigma, double innovation, double own_variance, double samples) {
   const double step = 2.0 / (20.0 + samples);
@@ -32,13 +34,28 @@ void MapNoise::learnAngle(double angle, double own_variance) {
   own_angle_ = std::clamp(stepped(own_angle_, angle, own_variance, angles_), 1e-5, 0.1);
 }
 
-void MapNoise::learnRange(double variance) {
-  ranges_ = std::min(ranges_ + 1.0, kLongestMemory);
-  if (range_variance_ <= 0.0) range_variance_ = variance;
-  const double step = 4.0 / (20.0 + ranges_);
-  range_variance_ *= variance > range_variance_ ? 1.0 + step : 1.0 / (1.0 + step);
+void MapNoise::Median::learn(double value) {
+  samples = std::min(samples + 1.0, kLongestMemory);
+  if (variance <= 0.0) variance = value;
+  const double step = 4.0 / (20.0 + samples);
+  variance *= value > variance ? 1.0 + step : 1.0 / (1.0 + step);
 }
 
-double MapNoise::lateralSigma() const { return std::sqrt(offset_ * offset_ + range_variance_); }
+std::size_t MapNoise::octaveOf(double distance) {
+  return static_cast<std::size_t>(std::ilogb(std::clamp(distance, kNearest, kFarthest) / kNearest));
+}
+
+void MapNoise::learnRange(double variance, double distance) {
+  of_all_.learn(variance);
+  of_octave_[octaveOf(distance)].learn(variance);
+}
+
+double MapNoise::lateralSigma() const { return std::sqrt(offset_ * offset_ + of_all_.variance); }
+
+double MapNoise::lateralVariance(double range) const {
+  std::size_t octave = octaveOf(range);
+  while (octave > 0 && of_octave_[octave].samples < kFewest) --octave;
+  return offset_ * offset_ + std::max(of_all_.variance, of_octave_[octave].variance);
+}
 
 }  // namespace cca

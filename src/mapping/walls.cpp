@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cca_mrpt/sensing/range_noise.hpp"
+
 namespace cca {
 namespace {
 
@@ -73,21 +75,46 @@ void Walls::near(const Eigen::Vector2d& from, const Eigen::Vector2d& to,
   }
 }
 
-Walls::Slot Walls::hitBy(const Eigen::Vector2d& p, const Eigen::Vector2d& viewpoint,
-                         double gate) const {
-  double nearest = gate;
-  Slot best = -1;
+template <class Visit>
+void Walls::visitHitBy(const Eigen::Vector2d& p, const Eigen::Vector2d& viewpoint, double gate,
+                       const Visit& visit) const {
   for (const Slot slot : index_.at(WallIndex::cellOf(p))) {
     const Wall& wall = (*this)[slot];
     const Eigen::Vector2d td = wall.toWall(p);
     const double off = std::abs(wall.offLine(td));
-    if (off >= nearest) continue;
+    if (off >= gate) continue;
     const int i = SupportProfile::binOf(td.x());
     if (!wall.profile.contains(i) || wall.profile.bin(i).hits() <= 0.0) continue;
     if (!wall.two_sided && wall.toWall(viewpoint).y() < 0.0) continue;
+    visit(slot, off);
+  }
+}
+
+Walls::Slot Walls::hitBy(const Eigen::Vector2d& p, const Eigen::Vector2d& viewpoint,
+                         double gate) const {
+  double nearest = gate;
+  Slot best = -1;
+  visitHitBy(p, viewpoint, gate, [&](Slot slot, double off) {
+    if (off >= nearest) return;
     nearest = off;
     best = slot;
-  }
+  });
+  return best;
+}
+
+Walls::Slot Walls::likelyHitBy(const Eigen::Vector2d& p, const Eigen::Vector2d& viewpoint,
+                               const MapNoise& noise) const {
+  const double variance = noise.lateralVariance((p - viewpoint).norm());
+  double highest = 0.0;
+  Slot best = -1;
+  visitHitBy(p, viewpoint, kGates * std::sqrt(variance), [&](Slot slot, double off) {
+    const Wall& wall = (*this)[slot];
+    const double per_metre = wall.profile.tally().returns.w / extentOf(wall).length();
+    const double density = per_metre * std::exp(-0.5 * off * off / variance);
+    if (density <= highest) return;
+    highest = density;
+    best = slot;
+  });
   return best;
 }
 

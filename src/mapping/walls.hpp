@@ -35,6 +35,11 @@ class Walls {
   /// fitted line that was hit near there before and shows its face to the viewer; -1 where there is
   /// none.
   Slot hitBy(const Eigen::Vector2d& p, const Eigen::Vector2d& viewpoint, double gate) const;
+  /// The same by a mixture of walls, each of which scatters its returns evenly along itself and
+  /// normally across: of those within kGates of what a return from so far away may be off, the one
+  /// of the greatest density.
+  Slot likelyHitBy(const Eigen::Vector2d& p, const Eigen::Vector2d& viewpoint,
+                   const MapNoise& noise) const;
 
   /// Enters a return at `p` as a hit of a wall. Where something was refuted before, four rays speak
   /// against what is new: more than eight returns are needed to believe it, two elsewhere. What
@@ -52,6 +57,9 @@ class Walls {
   std::uint64_t nextVisit() { return ++visit_; }
 
  private:
+  template <class Visit>  // (slot, distance from its line): walls that hitBy() may name
+  void visitHitBy(const Eigen::Vector2d& p, const Eigen::Vector2d& viewpoint, double gate,
+                  const Visit& visit) const;
   bool standsBeside(Slot slot, const Eigen::Vector2d& p) const;
 
   std::vector<Wall> walls_;

@@ -105,5 +105,54 @@ TEST(FreedPlaces, AreToldApartAcrossTheWholeMap) {
     EXPECT_FALSE(isFreed(x, y)) << x << ", " << y;
 }
 
+/// A wall of one metre and, beside it, what a few of its returns have founded.
+class WallAndWhatItScattered : public testing::Test {
+ protected:
+  void SetUp() override {
+    for (int k = 0; k < 100; ++k) {
+      noise_.learnRange(1e-4, 1.0);
+      noise_.learnRange(0.01, 9.0);
+    }
+    wall_ = at(0.0, 100);
+    scattered_ = at(0.15, 2);
+  }
+  Walls::Slot at(double y, int returns_per_bin) {
+    const Walls::Slot slot = walls_.create();
+    walls_[slot].origin = {0.0, y};
+    for (int i = 0; i < 20; ++i) {
+      for (int k = 0; k < returns_per_bin; ++k) walls_.hit(slot, {(i + 0.5) * kBin, y});
+    }
+    walls_.place(slot);
+    return slot;
+  }
+  /// Of a return at (0.52, y) that was seen from so far away.
+  Walls::Slot likelyHitBy(double y, double range) const {
+    return walls_.likelyHitBy({0.52, y}, {0.52, y + range}, noise_);
+  }
+
+  Walls walls_;
+  MapNoise noise_;
+  Walls::Slot wall_ = -1, scattered_ = -1;
+};
+
+TEST_F(WallAndWhatItScattered, HasTheReturnsThatMayHaveMissedItByTheirOwnNoise) {
+  EXPECT_EQ(likelyHitBy(0.15, 9.0), wall_);
+  EXPECT_EQ(likelyHitBy(-0.25, 9.0), wall_);
+}
+
+TEST_F(WallAndWhatItScattered, HasNoneThatANearLaserWouldNotScatterSoFar) {
+  EXPECT_EQ(likelyHitBy(0.15, 1.0), scattered_);
+  EXPECT_EQ(likelyHitBy(0.0, 1.0), wall_);
+  EXPECT_EQ(likelyHitBy(-0.25, 1.0), -1);
+}
+
+TEST_F(WallAndWhatItScattered, SharesTheReturnsByTheirDistanceWhereBothHaveAsMany) {
+  for (int i = 0; i < 20; ++i) {
+    for (int k = 0; k < 98; ++k) walls_.hit(scattered_, {(i + 0.5) * kBin, 0.15});
+  }
+  EXPECT_EQ(likelyHitBy(0.1, 9.0), scattered_);
+  EXPECT_EQ(likelyHitBy(0.05, 9.0), wall_);
+}
+
 }  // namespace
 }  // namespace cca
