@@ -11,8 +11,9 @@ constexpr double kMedianOfMagnitude = 0.6745;  // of a normal deviate, in its si
 constexpr double kFinestOffset = 0.003;        // m; nothing is known better than that
 constexpr double kFinestAngle = 0.001;         // rad: the same 3 mm over three metres
 constexpr double kLongestMemory = 500.0;  // innovations; a step is then 0.4 %, and may still follow
-constexpr double kNearest = 0.25, kFarthest = 32.0;  // m, where the first and last octave begin
-constexpr double kFewest = 20.0;                     // lines, for a median of them to be told
+constexpr double kFirstOctave = 0.25;     // m, where it begins; few lasers see anything nearer
+constexpr double kLastOctave = 32.0;      // m; what is farther is as noisy
+constexpr double kFewestLines = 20.0;     // for a median of them to be told
 
 double stepped(double sigma, double innovation, double own_variance, double samples) {
   const double step = 2.0 / (20.0 + samples);
@@ -42,7 +43,8 @@ void MapNoise::Median::learn(double value) {
 }
 
 std::size_t MapNoise::octaveOf(double distance) {
-  return static_cast<std::size_t>(std::ilogb(std::clamp(distance, kNearest, kFarthest) / kNearest));
+  return static_cast<std::size_t>(
+      std::ilogb(std::clamp(distance, kFirstOctave, kLastOctave) / kFirstOctave));
 }
 
 void MapNoise::learnRange(double variance, double distance) {
@@ -54,7 +56,7 @@ double MapNoise::lateralSigma() const { return std::sqrt(offset_ * offset_ + of_
 
 double MapNoise::lateralVariance(double range) const {
   std::size_t octave = octaveOf(range);
-  while (octave > 0 && of_octave_[octave].samples < kFewest) --octave;
+  while (octave > 0 && of_octave_[octave].samples < kFewestLines) --octave;
   return offset_ * offset_ + std::max(of_all_.variance, of_octave_[octave].variance);
 }
 
