@@ -10,6 +10,19 @@
 namespace cca {
 namespace {
 
+/// Visits the returns of a scan, each with the wall that it is a hit of as the walls stand.
+template <class Visit>  // (return, m, map frame; slot)
+void visitHits(const Scan& scan, const std::vector<Eigen::Vector2d>& beams, double gate,
+               const Walls& standing, const Visit& visit) {
+  const Eigen::Vector2d viewpoint = scan.T_map_sensor.position();
+  for (std::size_t beam = 0; beam < scan.size(); ++beam) {
+    if (!isUsableReturn(scan.ranges[beam])) continue;
+    const Eigen::Vector2d p = viewpoint + scan.ranges[beam] * beams[beam];
+    const Walls::Slot slot = standing.hitBy(p, viewpoint, gate);
+    if (slot >= 0) visit(p, slot);
+  }
+}
+
 /// Removes walls most of whose returns more likely came from others, which scattered them: a few
 /// returns from far away found lines askew, and those have what comes to lie on them.
 void removeScattered(const std::vector<PastScans::Kept>& scans, const MapNoise& noise, double gate,
@@ -17,35 +30,15 @@ void removeScattered(const std::vector<PastScans::Kept>& scans, const MapNoise& 
   std::vector<int> surplus(walls.all().size(), 0);  // of returns of their own
   for (const PastScans::Kept& kept : scans) {
     const Scan& scan = kept.seen.scan;
-    const std::vector<Eigen::Vector2d> beams = beamDirections(scan);
     const Eigen::Vector2d viewpoint = scan.T_map_sensor.position();
-    for (std::size_t beam = 0; beam < scan.size(); ++beam) {
-      if (!isUsableReturn(scan.ranges[beam])) continue;
-      const Eigen::Vector2d p = viewpoint + scan.ranges[beam] * beams[beam];
-      const Walls::Slot slot = walls.hitBy(p, viewpoint, gate);
-      if (slot < 0) continue;
-      surplus[static_cast<std::size_t>(slot)] +=
-          walls.likelyHitBy(p, viewpoint, noise) == slot ? 1 : -1;
-    }
+    visitHits(scan, beamDirections(scan), gate, walls,
+              [&](const Eigen::Vector2d& p, Walls::Slot slot) {
+                surplus[static_cast<std::size_t>(slot)] +=
+                    walls.likelyHitBy(p, viewpoint, noise) == slot ? 1 : -1;
+              });
   }
   for (std::size_t i = 0; i < surplus.size(); ++i)
     if (surplus[i] < 0) walls.remove(static_cast<Walls::Slot>(i));
-}
-
-/// The returns of a scan, each to the wall that it is a hit of as the walls stand.
-void depositOnStanding(const Scan& scan, const std::vector<Eigen::Vector2d>& beams, double gate,
-                       const Walls& standing, Walls& walls) {
-  const Eigen::Vector2d viewpoint = scan.T_map_sensor.position();
-  for (std::size_t beam = 0; beam < scan.size(); ++beam) {
-    if (!isUsableReturn(scan.ranges[beam])) continue;
-    const Eigen::Vector2d p = viewpoint + scan.ranges[beam] * beams[beam];
-    const Walls::Slot slot = standing.hitBy(p, viewpoint, gate);
-    if (slot < 0) continue;
-    Wall& wall = walls[slot];
-    const Eigen::Vector2d td = wall.toWall(p);
-    wall.profile.hit(td.x(), td.y());
-    wall.hits += 1.0;
-  }
 }
 
 /// Whether returns lie on another wall beside a point.
@@ -94,7 +87,12 @@ void reassignEvidence(const std::vector<PastScans::Kept>& scans, const MapNoise&
   for (const PastScans::Kept& kept : scans) {
     const Scan& scan = kept.seen.scan;
     const std::vector<Eigen::Vector2d> beams = beamDirections(scan);
-    depositOnStanding(scan, beams, gate, standing, walls);
+    visitHits(scan, beams, gate, standing, [&](const Eigen::Vector2d& p, Walls::Slot slot) {
+      Wall& wall = walls[slot];
+      const Eigen::Vector2d td = wall.toWall(p);
+      wall.profile.hit(td.x(), td.y());
+      wall.hits += 1.0;
+    });
     if (uses_rays) passRays(scan, beams, noise, walls);
   }
   keepUnconfirmed(standing, gate, walls);
