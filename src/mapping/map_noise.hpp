@@ -36,8 +36,6 @@ class MapNoise {
   double lateralVariance(double range) const;
 
  private:
-  double offset_ = 0.03, angle_ = 0.01;  // a usual localisation, until the data speak
-  double own_offset_ = 0.03, own_angle_ = 0.01;
   struct Median {
     double variance = 0.0, samples = 0.0;
     void learn(double value);
@@ -45,6 +43,8 @@ class MapNoise {
   static constexpr std::size_t kOctaves = 8;  // of distance, the last one from 32 m on
   static std::size_t octaveOf(double distance);
 
+  double offset_ = 0.03, angle_ = 0.01;  // a usual localisation, until the data speak
+  double own_offset_ = 0.03, own_angle_ = 0.01;
   Median of_all_;
   std::array<Median, kOctaves> of_octave_;
   double offsets_ = 0.0, angles_ = 0.0;

@@ -6,8 +6,6 @@
 #include <cmath>
 #include <limits>
 
-#include "cca_mrpt/mapping/line_extraction.hpp"
-#include "cca_mrpt/sensing/past_scans.hpp"
 #include "mapped_world.hpp"
 #include "mapping/map_noise.hpp"
 #include "mapping/walls.hpp"
@@ -41,33 +39,6 @@ TEST(LineMap, DegradesSmoothlyWithRangeNoise) {
     EXPECT_GT(recall(world, map.lines(), gate), sigma > 0.15 ? 0.7 : 0.9) << sigma;
     EXPECT_GT(precision(world, map.lines(), gate), sigma > 0.15 ? 0.7 : 0.95) << sigma;
   }
-}
-
-/// Lasers that triangulate: what is seen from 12 m scatters by 12 cm about walls that are known to
-/// a few millimetres from near by.
-TEST(LineMap, NoiseThatGrowsWithTheRangeFoundsNoLinesBesideAWall) {
-  SegmentWorld world;
-  world.box(-12.0, -4.0, 12.0, 4.0);
-  for (const double x : {-9.0, -3.0, 3.0, 9.0}) {
-    world.box(x, -4.0, x + 0.9, -3.55);
-    world.box(x - 1.0, 3.5, x, 4.0);
-  }
-  LineMap map;
-  PastScans past;
-  std::mt19937 random(21);
-  std::normal_distribution<double> noise(0.0, 1.0);
-  for (int i = 0; i < 800; ++i) {
-    const double along = 0.02 * i;
-    Scan scan = world.scan({-10.0 * std::cos(along), 2.5 * std::sin(along), along}, 0.0, random);
-    for (double& range : scan.ranges)
-      if (std::isfinite(range)) range += std::hypot(0.005, 0.01 * range) * noise(random);
-    map.insert(scan);
-    past.add(analyse(scan, {}), scan.T_map_sensor);
-  }
-  map.lookBack(past.kept());
-  EXPECT_GT(precision(world, map.lines(), 0.05), 0.96);
-  // Backs of the cabinets, and the wall behind them, are seen by nobody.
-  EXPECT_GT(recall(world, map.lines(), 0.05), 0.85);
 }
 
 TEST(LineMap, RefusesAPoseThatIsNotFinite) {

@@ -111,6 +111,8 @@ class LocalizerTopics(OwnMaster):
         self.start("python3", os.path.join(HERE, "own_robot.py"),
                    os.path.join(HERE, "..", "..", "maps", "two_rooms.yaml"), "2,3,0", os.path.join(self.home.name, "report"))
         self.assertTrue(self.prints(node, "not localised: looking for the robot in the whole of " + self.plan))
+        node.terminate()
+        node.wait(timeout=60)
 
     def test_a_plan_that_cannot_be_read_ends_the_node_with_its_name(self):
         node = self.node("localizer", "_plan:=/nowhere/plan.dxf")
