@@ -54,12 +54,12 @@ function(cca_late_library name)
 endfunction()
 add_custom_target(cca_late_libraries)
 
-# Eight sources are compiled as one: what they instantiate of Eigen, MRPT and ROS takes longer than they do.
-# So no two files that land in one such unit may give one name to different things in their anonymous
-# namespaces: the compiler says so, and -DCCA_EACH_FILE_ALONE=ON compiles each by itself.
+# All sources of a target are compiled as one: what they instantiate of Eigen, MRPT and ROS takes longer than they
+# do. So no two files of a layer may give one name to different things in their anonymous namespaces, in whatever
+# order they stand: the compiler says so. -DCCA_EACH_FILE_ALONE=ON compiles each by itself, again and again sooner.
 function(cca_join_sources target)
   if(NOT CCA_EACH_FILE_ALONE)
-    set_target_properties(${target} PROPERTIES UNITY_BUILD ON)
+    set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 0)
   endif()
 endfunction()
 

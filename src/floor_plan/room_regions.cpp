@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "floor_plan/components.hpp"
+#include "geometry/median.hpp"
 
 namespace cca {
 namespace {
@@ -106,10 +107,7 @@ double widthBeside(const Passage& passage, double resolution, bool left, IsOpen&
     }
     widths.push_back(width);
   }
-  if (widths.empty()) return resolution;
-  const auto middle = widths.begin() + static_cast<long>(widths.size() / 2);
-  std::nth_element(widths.begin(), middle, widths.end());
-  return *middle;
+  return widths.empty() ? resolution : median(std::move(widths));
 }
 
 /// m, how deep the space is before a passage: the way straight ahead to the next wall.

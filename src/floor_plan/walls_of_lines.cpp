@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cca_mrpt/geometry/pose2.hpp"
 #include "floor_plan/walls.hpp"
 #include "geometry/cross.hpp"
 
@@ -56,7 +57,7 @@ bool isSolidBetween(const Mask& solid, const Eigen::Vector2d& middle) {
 
 std::vector<FacePair> facePairs(const Mask& solid, const std::vector<MapLine>& lines,
                                 const PlanWallTuning& tuning) {
-  const double cosine = std::cos(tuning.parallel_deg / 57.29577951308232);
+  const double cosine = std::cos(tuning.parallel_deg * kRadiansPerDegree);
   std::vector<FacePair> pairs;
   for (std::size_t i = 0; i < lines.size(); ++i) {
     const LineSegment& a = lines[i].segment;

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "geometry/median.hpp"
 #include "sensing/gates.hpp"
 
 namespace cca {
@@ -63,9 +64,7 @@ double medianDeviation(std::vector<Deviation>* all) {
   std::vector<double> values;
   values.reserve(all->size() / 2 + 1);
   for (auto d = all->begin(); d <= middle; ++d) values.push_back(d->value);
-  const auto median = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), median, values.end());
-  return *median;
+  return median(std::move(values));
 }
 
 constexpr double kWantedSigma = 0.005;  // m; the clearance of the driver allows for it

@@ -4,6 +4,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <utility>
+
+#include "geometry/median.hpp"
 
 namespace cca {
 namespace {
@@ -30,10 +33,7 @@ double medianReturn(const Scan& scan) {
   for (const double range : scan.ranges) {
     if (isReturn(range)) returns.push_back(range);
   }
-  if (returns.empty()) return 0.0;
-  const auto middle = returns.begin() + static_cast<std::ptrdiff_t>(returns.size() / 2);
-  std::nth_element(returns.begin(), middle, returns.end());
-  return *middle;
+  return median(std::move(returns));
 }
 
 ScanFault ScanFaults::check(const Scan& scan, const std::optional<Pose2>& T_odom_robot) {

@@ -4,8 +4,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include "cca_mrpt/sensing/range_noise.hpp"
+#include "geometry/median.hpp"
 
 namespace cca {
 namespace {
@@ -17,12 +19,6 @@ constexpr std::size_t kScansKept = 50;   // scans: the mean follows in five seco
 constexpr double kLeastSlant = 1.0;      // tangent of the angle of incidence
 constexpr double kLeastSlope = 3.0;      // m: below, half a degree is less than 3 cm of range noise
 constexpr double kMostBend = 0.5;  // of the rise: an edge or a corner has all of it at one place
-
-double median(std::vector<double>* values) {
-  const auto middle = values->begin() + static_cast<std::ptrdiff_t>(values->size() / 2);
-  std::nth_element(values->begin(), middle, values->end());
-  return *middle;
-}
 
 }  // namespace
 
@@ -46,7 +42,8 @@ void SensorNoise::add(const Scan& scan, double range_sigma) {
     across.push_back(d.across);
     along.push_back(d.along);
   }
-  const double all = kMedianToSigma * median(&across), of_range = median(&along);
+  const double all = kMedianToSigma * median(std::move(across)),
+               of_range = median(std::move(along));
   bearing_sigma_ = std::sqrt(std::max(0.0, all * all - of_range * of_range));
 }
 

@@ -6,10 +6,6 @@
 
 namespace cca {
 
-namespace {
-constexpr double kRadPerDeg = M_PI / 180.0;
-}  // namespace
-
 /// 60 x 40 m: two blocks of six racks 22 m long, an office in a corner, pallets.
 Building warehouse(Random& random) {
   Building plan;
@@ -87,12 +83,13 @@ Building gallery(Random&) {
   plan.addOuterWalls(kOuterWall);
   for (int quarter = 0; quarter < 4; ++quarter) {  // the rotunda has a door in each quarter
     const double door = 10.0 + 90.0 * quarter;
-    plan.addArcWall({9.0, 8.0}, 4.0, (door + 20.0) * kRadPerDeg, (door + 90.0) * kRadPerDeg, 0.2);
+    plan.addArcWall({9.0, 8.0}, 4.0, (door + 20.0) * kRadiansPerDegree,
+                    (door + 90.0) * kRadiansPerDegree, 0.2);
   }
   plan.addDisc({9.0, 8.0}, 0.8);
-  plan.addArcWall({17.0, 16.0}, 6.0, 200.0 * kRadPerDeg, 320.0 * kRadPerDeg, 0.15);
-  plan.addArcWall({18.0, 0.0}, 5.0, 30.0 * kRadPerDeg, 130.0 * kRadPerDeg, 0.15);
-  plan.addArcWall({17.0, 8.0}, 9.0, -48.0 * kRadPerDeg, 48.0 * kRadPerDeg, 0.2);
+  plan.addArcWall({17.0, 16.0}, 6.0, 200.0 * kRadiansPerDegree, 320.0 * kRadiansPerDegree, 0.15);
+  plan.addArcWall({18.0, 0.0}, 5.0, 30.0 * kRadiansPerDegree, 130.0 * kRadiansPerDegree, 0.15);
+  plan.addArcWall({17.0, 8.0}, 9.0, -48.0 * kRadiansPerDegree, 48.0 * kRadiansPerDegree, 0.2);
   return plan;
 }
 

@@ -33,11 +33,10 @@ void Odometry::add(const Velocity& velocity, double dt) {
   const double way = velocity.linear * dt, turn = velocity.angular * dt;
   time_ += dt;
   if (way == 0.0 && turn == 0.0) return;
-  constexpr double kRadPerDeg = M_PI / 180.0;
   const double way_noise = parameters_.distance_noise * std::sqrt(std::abs(way));
   const double turn_noise =
-      kRadPerDeg * std::hypot(parameters_.turn_noise_deg * std::sqrt(std::abs(turn)),
-                              parameters_.drift_noise_deg * std::sqrt(std::abs(way)));
+      kRadiansPerDegree * std::hypot(parameters_.turn_noise_deg * std::sqrt(std::abs(turn)),
+                                     parameters_.drift_noise_deg * std::sqrt(std::abs(way)));
   const double way_read = way + way_noise * random_.normal();
   const double turn_read = turn + turn_noise * random_.normal();
   way_error_ += way_read - way;

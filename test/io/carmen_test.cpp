@@ -14,8 +14,6 @@
 namespace cca {
 namespace {
 
-constexpr double kDegree = M_PI / 180.0;
-
 std::string flaser(std::size_t beams, double range, const Pose2& laser, const Pose2& odometry,
                    double time = 0.0, const std::string& name = "FLASER") {
   std::ostringstream line;
@@ -62,8 +60,8 @@ TEST_F(CarmenLog, BeamsFollowTheSickConventions) {
     ASSERT_EQ(records.size(), 1U);
     const Scan& scan = records[0].scan;
     ASSERT_EQ(scan.size(), beams);
-    EXPECT_NEAR(scan.bearing(0), -90.0 * kDegree, 1e-12);
-    EXPECT_NEAR(scan.bearing(beams - 1), last_deg * kDegree, 1e-9) << beams;
+    EXPECT_NEAR(scan.bearing(0), -90.0 * kRadiansPerDegree, 1e-12);
+    EXPECT_NEAR(scan.bearing(beams - 1), last_deg * kRadiansPerDegree, 1e-9) << beams;
   }
 }
 

@@ -13,8 +13,6 @@
 namespace cca {
 namespace {
 
-constexpr double kDegree = M_PI / 180.0;
-
 class TextLog : public testing::Test {
  protected:
   std::string write(const std::string& text) const {
@@ -60,8 +58,8 @@ TEST_F(TextLog, CsvNamesItsBeamsByTheirAngles) {
       "2.5,1.1,2,0.5,1.0,nan,1.2,-1,3\n");
   ASSERT_EQ(records.size(), 2U);
   const LogRecord& first = records[0];
-  EXPECT_NEAR(first.scan.angle_min, -90 * kDegree, 1e-12);
-  EXPECT_NEAR(first.scan.angle_increment, 45 * kDegree, 1e-12);
+  EXPECT_NEAR(first.scan.angle_min, -90 * kRadiansPerDegree, 1e-12);
+  EXPECT_NEAR(first.scan.angle_increment, 45 * kRadiansPerDegree, 1e-12);
   EXPECT_EQ(first.time, 1.5);
   EXPECT_TRUE(first.has_time);
   EXPECT_EQ(first.odometry->y, 2.0);
@@ -116,8 +114,8 @@ TEST_F(TextLog, CsvAnglesAreRadiansUnlessOneIsBeyondATurn) {
   EXPECT_NEAR(scan.angle_min, -1.5, 1e-12);
   EXPECT_NEAR(scan.angle_increment, 1.0, 1e-12);
   const auto degrees = read("\"-1_deg\"\t\"0_deg\"\t\"1_deg\"\n1\t1\t1\n")[0].scan;
-  EXPECT_NEAR(degrees.angle_increment, kDegree, 1e-12);
-  EXPECT_NEAR(read("90,0,-90\n1,2,3\n")[0].scan.angle_increment, -90 * kDegree, 1e-12);
+  EXPECT_NEAR(degrees.angle_increment, kRadiansPerDegree, 1e-12);
+  EXPECT_NEAR(read("90,0,-90\n1,2,3\n")[0].scan.angle_increment, -90 * kRadiansPerDegree, 1e-12);
 }
 
 TEST_F(TextLog, CsvOfRostopicEchoIsRead) {
@@ -145,8 +143,8 @@ TEST_F(TextLog, CsvTellsItsAnglesAboveTheHeaderToo) {
       "2500,1,2,90,1,2,3\n");
   ASSERT_EQ(records.size(), 1U);
   EXPECT_NEAR(records[0].time, 2.5, 1e-12);
-  EXPECT_NEAR(records[0].scan.angle_min, -30 * kDegree, 1e-12);
-  EXPECT_NEAR(records[0].scan.angle_increment, 30 * kDegree, 1e-12);
+  EXPECT_NEAR(records[0].scan.angle_min, -30 * kRadiansPerDegree, 1e-12);
+  EXPECT_NEAR(records[0].scan.angle_increment, 30 * kRadiansPerDegree, 1e-12);
   ASSERT_TRUE(records[0].corrected);
   EXPECT_NEAR(records[0].corrected->theta, M_PI / 2, 1e-12);
 }
@@ -271,7 +269,7 @@ TEST_F(TextLog, CoreSlamTellsTimeWheelsAndRangesOfItsHokuyo) {
   ASSERT_EQ(scan.size(), 682U);
   EXPECT_NEAR(records[0].time, 212.387282, 1e-9);
   EXPECT_NEAR(scan.bearing(340), 0.0, 1e-12);  // step 384 of the laser
-  EXPECT_NEAR(scan.bearing(0), -119.53125 * kDegree, 1e-9);
+  EXPECT_NEAR(scan.bearing(0), -119.53125 * kRadiansPerDegree, 1e-9);
   EXPECT_FALSE(isReturn(scan.ranges[69]) || isReturn(scan.ranges[612]));  // its own robot
   EXPECT_TRUE(isNoReturn(scan.ranges[70]));
   EXPECT_FALSE(isReturn(scan.ranges[71]) || isNoReturn(scan.ranges[71]));  // a code of an error

@@ -10,8 +10,6 @@
 namespace cca {
 namespace {
 
-constexpr double kDeg = M_PI / 180.0;
-
 /// A full turn in the middle of a corridor of 14 x 4 m.
 Scan turnInACorridor(int beams, double range_sigma, double bearing_sigma, std::mt19937* random) {
   std::normal_distribution<double> normal;
@@ -32,7 +30,7 @@ void add(SensorNoise& noise, const Scan& scan) { noise.add(scan, rangeNoise(scan
 
 TEST(SensorNoise, IsLearnedAlongAndAcrossTheBeams) {
   for (const int beams : {181, 361, 541}) {
-    for (const double bearing_sigma : {0.25 * kDeg, 0.5 * kDeg}) {
+    for (const double bearing_sigma : {0.25 * kRadiansPerDegree, 0.5 * kRadiansPerDegree}) {
       std::mt19937 random(1);
       SensorNoise noise;
       for (int k = 0; k < 50; ++k) add(noise, turnInACorridor(beams, 0.02, bearing_sigma, &random));
@@ -49,7 +47,7 @@ TEST(SensorNoise, TakesRangeNoiseForNoneOfTheBearing) {
   for (const double range_sigma : {0.0, 0.01, 0.03}) {
     SensorNoise noise;
     for (int k = 0; k < 50; ++k) add(noise, turnInACorridor(361, range_sigma, 0.0, &random));
-    EXPECT_LT(noise.bearingSigma(), 0.1 * kDeg) << range_sigma;
+    EXPECT_LT(noise.bearingSigma(), 0.1 * kRadiansPerDegree) << range_sigma;
   }
 }
 
@@ -59,7 +57,7 @@ TEST(SensorNoise, LearnsNothingOfTheBearingFromClutter) {
   SensorNoise noise;
   for (int k = 0; k < 200; ++k) {
     Scan scan;
-    scan.angle_increment = 2.0 * kDeg;
+    scan.angle_increment = 2.0 * kRadiansPerDegree;
     for (int i = 0; i < 180; ++i) scan.ranges.push_back(anywhere(random));
     add(noise, scan);
   }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cmath>
 
 namespace cca {
 
@@ -34,6 +35,9 @@ Pose2 poseBetween(const Pose2& a, const Pose2& b, double share);
 
 /// A point of frame b in frame a.
 Eigen::Vector2d operator*(const Pose2& T_a_b, const Eigen::Vector2d& p_b);
+
+inline constexpr double kRadiansPerDegree = M_PI / 180.0;  // rad/deg, a turn has 360 or 2 pi
+inline constexpr double kDegreesPerRadian = 180.0 / M_PI;  // deg/rad, for what people read
 
 /// @param angle  rad, finite.
 /// @return       the same angle in (-pi, pi].

@@ -36,7 +36,7 @@ namespace {
 namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 
-constexpr double kSmallestView = 90.0, kWidestSpacing = 5.0;  // deg
+constexpr double kNarrowestView = 90.0, kWidestSpacing = 5.0;  // deg
 
 struct ExploreOptions {
   std::string world, movers, out, resume, explain;
@@ -122,7 +122,7 @@ std::unique_ptr<LivePage> openPage(const ServeOptions& options, const Scene& sce
 
 /// With less in view the robot drives where it has not looked, and touches walls.
 void requireLaser(const LaserParameters& laser) {
-  if (laser.field_of_view_deg < kSmallestView) {
+  if (laser.field_of_view_deg < kNarrowestView) {
     throw CLI::ValidationError("--laser.field_of_view_deg",
                                "to explore, the laser must see 90 deg at least");
   }

@@ -26,7 +26,7 @@ int openNameless() {
 
 void writeAll(int file, const char* bytes, std::size_t count) {
   while (count > 0) {
-    const ssize_t done = write(file, bytes, count);
+    const ssize_t done = ::write(file, bytes, count);
     if (done <= 0) {
       throw std::runtime_error("cannot be unzipped into " +
                                std::filesystem::temp_directory_path().string() +

@@ -63,12 +63,14 @@ void Dxf::line(const Eigen::Vector2d& start, const Eigen::Vector2d& end, const s
 }
 
 void Dxf::arc(const Arc& arc, const std::string& layer) {
-  const double degrees = 180.0 / M_PI, start = arc.start_angle * degrees;
+  const double start = arc.start_angle * kDegreesPerRadian;
   const bool whole = arc.sweep >= 2.0 * M_PI;
   entity(whole ? "CIRCLE" : "ARC", layer, "AcDbCircle").point(10, arc.centre);
   entities_.number(40, arc.radius);
   if (whole) return;
-  entities_.group(100, "AcDbArc").number(50, start).number(51, start + arc.sweep * degrees);
+  entities_.group(100, "AcDbArc")
+      .number(50, start)
+      .number(51, start + arc.sweep * kDegreesPerRadian);
 }
 
 void Dxf::polyLine(const std::vector<Eigen::Vector2d>& vertices, const std::string& layer,

@@ -15,7 +15,6 @@ constexpr double kEquator = 6378137.0;  // m, semi-major axis
 constexpr double kFlattening = 1.0 / 298.257223563;
 constexpr double kPole = kEquator * (1.0 - kFlattening);  // m, semi-minor axis
 constexpr double kEccentricity2 = kFlattening * (2.0 - kFlattening);
-constexpr double kRadian = M_PI / 180.0;
 
 /// Earth-centred place of a point of the ellipsoid.
 Eigen::Vector3d onEllipsoid(double latitude, double longitude) {
@@ -27,18 +26,19 @@ Eigen::Vector3d onEllipsoid(double latitude, double longitude) {
 
 /// Columns: the map's x, its y, and up, Earth-centred.
 Eigen::Matrix3d axesOf(const GeoReference& at) {
-  const double b = at.latitude_deg * kRadian, l = at.longitude_deg * kRadian;
+  const double b = at.latitude_deg * kRadiansPerDegree, l = at.longitude_deg * kRadiansPerDegree;
   const Eigen::Vector3d east(-std::sin(l), std::cos(l), 0.0);
   const Eigen::Vector3d up(std::cos(b) * std::cos(l), std::cos(b) * std::sin(l), std::sin(b));
   const Eigen::Vector3d north = up.cross(east);
-  const double c = std::cos(at.turn_deg * kRadian), s = std::sin(at.turn_deg * kRadian);
+  const double c = std::cos(at.turn_deg * kRadiansPerDegree),
+               s = std::sin(at.turn_deg * kRadiansPerDegree);
   Eigen::Matrix3d axes;
   axes << c * east + s * north, c * north - s * east, up;
   return axes;
 }
 
 Eigen::Vector3d originOf(const GeoReference& at) {
-  return onEllipsoid(at.latitude_deg * kRadian, at.longitude_deg * kRadian);
+  return onEllipsoid(at.latitude_deg * kRadiansPerDegree, at.longitude_deg * kRadiansPerDegree);
 }
 
 std::vector<double> numbersIn(const std::string& text) {
@@ -66,11 +66,11 @@ Eigen::Vector2d GeoReference::toDegrees(const Eigen::Vector2d& p_map) const {
   const double second = kEccentricity2 / (1.0 - kEccentricity2);
   const double latitude = std::atan2(p.z() + second * kPole * std::pow(std::sin(u), 3),
                                      r - kEccentricity2 * kEquator * std::pow(std::cos(u), 3));
-  return Eigen::Vector2d(std::atan2(p.y(), p.x()), latitude) / kRadian;
+  return Eigen::Vector2d(std::atan2(p.y(), p.x()), latitude) / kRadiansPerDegree;
 }
 
 Eigen::Vector2d GeoReference::toMap(const Eigen::Vector2d& longitude_latitude_deg) const {
-  const Eigen::Vector2d radians = longitude_latitude_deg * kRadian;
+  const Eigen::Vector2d radians = longitude_latitude_deg * kRadiansPerDegree;
   const Eigen::Vector3d p = onEllipsoid(radians.y(), radians.x()) - originOf(*this);
   return (axesOf(*this).transpose() * p).head<2>();
 }

@@ -17,7 +17,6 @@
 namespace cca {
 namespace {
 
-constexpr double kDegreesPerRadian = 180.0 / M_PI;
 constexpr std::array<const char*, 9> kColumns = {
     "x1", "y1", "x2", "y2", "id", "support", "sigma_offset", "sigma_angle_deg", "share"};
 constexpr const char* kDotted = "dotted";

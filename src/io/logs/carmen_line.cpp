@@ -7,7 +7,6 @@
 namespace cca {
 namespace {
 
-constexpr double kRadiansPerDegree = M_PI / 180.0;
 constexpr double kMostBeams = 1e6;
 
 /// The words of a line, one by one. Once a number is missing or malformed, ok() stays false.

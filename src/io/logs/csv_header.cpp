@@ -11,7 +11,6 @@
 namespace cca {
 namespace {
 
-constexpr double kRadiansInDegree = M_PI / 180.0;
 /// rad; a bearing beyond is told in degrees.
 constexpr double kLargestBearing = 2.0 * M_PI + 0.01;
 /// Of the spacing of angles in a header, which are rounded to a digit or two.
@@ -19,7 +18,7 @@ constexpr double kAngleOff = 0.25;
 constexpr double kMostCsvBeams = 1e6;  // no laser has as many; more would be damage
 
 /// What a name ends in, and what its numbers are to be multiplied by.
-constexpr std::pair<std::string_view, double> kSuffixes[] = {{"_deg", kRadiansInDegree},
+constexpr std::pair<std::string_view, double> kSuffixes[] = {{"_deg", kRadiansPerDegree},
                                                              {"_rad", 1.0},
                                                              {"_ns", 1e-9},
                                                              {"_us", 1e-6},
@@ -155,11 +154,11 @@ CsvQuantity shared(double value) {
 void takeAngles(const CsvColumns& columns, CsvHeader& header) {
   const auto& angles = columns.angles();
   const bool is_in_degrees = std::any_of(angles.begin(), angles.end(), [](const auto& named) {
-    return named.first.unit == kRadiansInDegree || std::abs(named.first.angle) > kLargestBearing;
+    return named.first.unit == kRadiansPerDegree || std::abs(named.first.angle) > kLargestBearing;
   });
   const auto bearing = [&](std::size_t k) {
     const NamedAngle& named = angles[k].first;
-    return named.angle * named.unit.value_or(is_in_degrees ? kRadiansInDegree : 1.0);
+    return named.angle * named.unit.value_or(is_in_degrees ? kRadiansPerDegree : 1.0);
   };
   const double first = bearing(0);
   const double step = (bearing(angles.size() - 1) - first) / static_cast<double>(angles.size() - 1);

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "geometry/median.hpp"
 #include "laser_place.hpp"
 #include "sensing/gates.hpp"
 
@@ -32,12 +33,6 @@ bool samePose(const Pose2& a, const Pose2& b) {
 bool isDriven(const Pose2& from, const Pose2& to, double seconds) {
   const Eigen::Vector3d step = difference(to, from);
   return step.head<2>().norm() < kFastest * seconds && std::abs(step.z()) < kFastestTurn * seconds;
-}
-
-double medianOf(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
 }
 
 class FreshLog : public LogReader {
@@ -103,7 +98,7 @@ class FreshLog : public LogReader {
     if (holds_.size() > kAsked) holds_.pop_front();
     std::vector<double> times;
     for (const Hold& hold : holds_) times.push_back(hold.seconds);
-    longest_ = kLongestHeld * medianOf(std::move(times));
+    longest_ = kLongestHeld * median(std::move(times));
     fresh_ =
         std::count_if(holds_.begin(), holds_.end(), [](const Hold& hold) { return hold.is_fresh; });
   }

@@ -7,24 +7,17 @@
 #include <vector>
 
 #include "cca_mrpt/sensing/range_noise.hpp"
+#include "geometry/median.hpp"
 
 namespace cca {
 namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr double kDegreesPerRadian = 180.0 / M_PI;
 constexpr double kGapOfMedianSteps = 10.0;
 constexpr double kSameMounting = 1e-3;  // m, rad
 constexpr double kRangeBin = 0.01;      // m, of the histogram that the median range comes from
 constexpr std::size_t kRangeBins = 100000;
-
-double median(std::vector<double> values) {
-  if (values.empty()) return 0.0;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 /// Adding 0 turns a negative zero into a plain one.
 double rounded(double value, double step) { return std::round(value / step) * step + 0.0; }

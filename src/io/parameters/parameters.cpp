@@ -15,6 +15,8 @@
 namespace cca {
 namespace {
 
+using Json = nlohmann::ordered_json;
+
 std::string numberText(double value) {
   char text[32];
   const auto end = std::to_chars(text, text + sizeof text, value).ptr;
@@ -146,7 +148,6 @@ void loadParameters(const std::string& ini_path, Parameters& p) {
 
 nlohmann::ordered_json parametersJson(const Parameters& p,
                                       const std::vector<std::string>& sections) {
-  using Json = nlohmann::ordered_json;
   Parameters copy = p;
   Json json = Json::object();
   for (const auto& field : listParameters(copy)) {

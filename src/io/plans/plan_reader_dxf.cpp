@@ -190,7 +190,6 @@ class DxfPlan {
 
   void finishWall() {
     const auto& points = entity_.points;
-    constexpr double kRadians = M_PI / 180.0;
     if (entity_.type == "LINE" && points.size() >= 2) {
       plan_.lines.emplace_back(points[0], points[1]);
     } else if (entity_.type == "LWPOLYLINE") {
@@ -198,8 +197,8 @@ class DxfPlan {
     } else if ((entity_.type == "ARC" || entity_.type == "CIRCLE") && !points.empty()) {
       double to = entity_.to_deg;
       while (to <= entity_.from_deg) to += 360.0;
-      addArc(points.front(), entity_.radius, kRadians * entity_.from_deg, kRadians * to,
-             plan_.lines);
+      addArc(points.front(), entity_.radius, kRadiansPerDegree * entity_.from_deg,
+             kRadiansPerDegree * to, plan_.lines);
     } else {
       ++rest_[entity_.type];
     }

@@ -12,8 +12,6 @@
 namespace cca {
 namespace {
 
-constexpr double kRadiansPerDegree = M_PI / 180.0;
-
 void configure(mrpt::slam::CMetricMapBuilderICP& icp, const IcpParameters& p) {
   icp.setVerbosityLevel(mrpt::system::LVL_ERROR);
   mrpt::maps::CSimplePointsMap::TMapDefinition points;

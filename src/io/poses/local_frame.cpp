@@ -1,21 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "io/poses/local_frame.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <utility>
+
+#include "geometry/median.hpp"
 
 namespace cca {
 namespace {
 
 constexpr double kRaster = 1000.0;        // m
 constexpr std::size_t kScansAhead = 100;  // enough for a median, little enough to keep
-
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 }  // namespace
 

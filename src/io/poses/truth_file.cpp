@@ -10,23 +10,23 @@
 namespace cca {
 namespace {
 
-struct Row {
+struct TruthRow {
   double key;  ///< s, or the number of the scan
   Pose2 pose;
 };
 
-std::vector<Row> readRows(const std::string& path) {
-  std::vector<Row> rows;
+std::vector<TruthRow> readRows(const std::string& path) {
+  std::vector<TruthRow> rows;
   std::ifstream file(path);
   for (std::string line; std::getline(file, line);) {
     std::istringstream values(line);
-    Row row{};
+    TruthRow row{};
     if (values >> row.key >> row.pose.x >> row.pose.y >> row.pose.theta) rows.push_back(row);
   }
   return rows;
 }
 
-bool countsScans(const std::vector<Row>& rows) {
+bool countsScans(const std::vector<TruthRow>& rows) {
   for (std::size_t k = 0; k < rows.size(); ++k) {
     if (rows[k].key != static_cast<double>(k)) return false;
   }
@@ -38,9 +38,9 @@ class LogWithTruth : public LogReader {
   LogWithTruth(std::unique_ptr<LogReader> log, const std::string& truth_path)
       : log_(std::move(log)), path_(truth_path), rows_(readRows(truth_path)) {
     by_number_ = countsScans(rows_);
-    readable_ =
-        !rows_.empty() && std::is_sorted(rows_.begin(), rows_.end(),
-                                         [](const Row& a, const Row& b) { return a.key < b.key; });
+    readable_ = !rows_.empty() &&
+                std::is_sorted(rows_.begin(), rows_.end(),
+                               [](const TruthRow& a, const TruthRow& b) { return a.key < b.key; });
   }
 
   std::optional<LogRecord> next() override {
@@ -63,18 +63,18 @@ class LogWithTruth : public LogReader {
  private:
   std::optional<Pose2> at(double key) const {
     const auto after = std::lower_bound(rows_.begin(), rows_.end(), key,
-                                        [](const Row& row, double k) { return row.key < k; });
+                                        [](const TruthRow& row, double k) { return row.key < k; });
     if (after == rows_.end()) return std::nullopt;
     if (after->key == key) return after->pose;
     if (after == rows_.begin()) return std::nullopt;
-    const Row &a = *std::prev(after), &b = *after;
+    const TruthRow &a = *std::prev(after), &b = *after;
     const double t = (key - a.key) / (b.key - a.key);
     return poseBetween(a.pose, b.pose, t);
   }
 
   std::unique_ptr<LogReader> log_;
   std::string path_;
-  std::vector<Row> rows_;
+  std::vector<TruthRow> rows_;
   bool by_number_ = false, readable_ = false;
   double number_ = 0.0;
 };

@@ -6,10 +6,14 @@
 #include "io/replay/replay.hpp"
 
 namespace cca {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+}  // namespace
 
 /// Lengths of runs: free, not free, free, ..., row by row from the lowest y.
 std::string replayWorld(const World& world) {
-  using Json = nlohmann::ordered_json;
   Json runs = Json::array();
   bool is_obstacle = false;
   std::int64_t length = 0;

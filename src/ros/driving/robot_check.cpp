@@ -13,6 +13,7 @@
 #include "cca_mrpt/sensing/missing_returns.hpp"
 #include "cca_mrpt/session/mapping_session.hpp"
 #include "cca_mrpt/slam/slam_localiser.hpp"
+#include "geometry/median.hpp"
 #include "mount_error.hpp"
 #include "ros/input/scan_period.hpp"
 #include "ros/input/scan_placement.hpp"
@@ -21,7 +22,6 @@
 namespace cca {
 namespace {
 
-constexpr double kDegrees = 180.0 / M_PI;
 constexpr double kSlowLaser = 0.15;   // s; scan_timeout grows with the period from there on
 constexpr double kClockAhead = 0.05;  // s; clocks that are kept by the network differ by less
 constexpr double kLate = 0.2;         // s, beyond the period: the robot is driven by what was
@@ -56,13 +56,6 @@ Finding fault(std::string what, std::string remedy) {
   return {Finding::Kind::kFault, std::move(what), std::move(remedy)};
 }
 
-double median(std::vector<double> values) {
-  if (values.empty()) return 0.0;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
 template <class Messages>
 double medianPeriod(const Messages& messages) {
   std::vector<double> periods;
@@ -81,9 +74,11 @@ std::string arcsOf(const sensor_msgs::LaserScan& scan, double least_deg, const I
   for (std::size_t i = 0; i < n; ++i) {
     std::size_t end = i;
     while (end < n && is(end)) ++end;
-    const double width = kDegrees * std::abs(scan.angle_increment) * static_cast<double>(end - i);
+    const double width =
+        kDegreesPerRadian * std::abs(scan.angle_increment) * static_cast<double>(end - i);
     const auto bearing = [&](std::size_t beam) {
-      return kDegrees * (scan.angle_min + static_cast<double>(beam) * scan.angle_increment);
+      return kDegreesPerRadian *
+             (scan.angle_min + static_cast<double>(beam) * scan.angle_increment);
     };
     if (end > i && width >= least_deg) {
       arcs += (arcs.empty() ? "" : ", ") + text("%.0f to %.0f deg", bearing(i), bearing(end - 1));
@@ -221,9 +216,10 @@ void RobotCheck::checkScans(std::vector<Finding>& findings) const {
   }
   const sensor_msgs::LaserScan& scan = scans_.front().message;
   const double period = medianPeriod(scans_);
-  const std::string what = text("scan: %.1f a second, %zu beams, %.0f to %.0f deg, %.2f to %.2f m",
-                                1.0 / period, scan.ranges.size(), kDegrees * scan.angle_min,
-                                kDegrees * scan.angle_max, scan.range_min, scan.range_max);
+  const std::string what =
+      text("scan: %.1f a second, %zu beams, %.0f to %.0f deg, %.2f to %.2f m", 1.0 / period,
+           scan.ranges.size(), kDegreesPerRadian * scan.angle_min,
+           kDegreesPerRadian * scan.angle_max, scan.range_min, scan.range_max);
   if (!(period > 0.0)) {
     findings.push_back(fault("scan: all have one stamp", "mend the driver: it does not tell time"));
   } else if (period > kSlowLaser) {
@@ -338,8 +334,9 @@ void RobotCheck::checkFrames(const Transforms& tf, std::vector<Finding>& finding
   try {
     const PlanarPose mount = tf.lookup(base, laser, ros::Time());
     const Pose2& T = mount.pose;
-    findings.push_back(good(text("tf: the laser is at %.2f, %.2f m, %.0f deg%s", T.x, T.y,
-                                 kDegrees * T.theta, mount.upside_down ? ", upside down" : "")));
+    findings.push_back(
+        good(text("tf: the laser is at %.2f, %.2f m, %.0f deg%s", T.x, T.y,
+                  kDegreesPerRadian * T.theta, mount.upside_down ? ", upside down" : "")));
   } catch (const std::runtime_error& error) {
     findings.push_back(
         fault(std::string("tf: the laser: ") + error.what(), "scans of a level laser are needed"));
@@ -402,9 +399,9 @@ void RobotCheck::checkMotion(const Transforms& tf, std::vector<Finding>& finding
   for (const double turn : by_scans) turned += std::abs(turn);
   const double way = wayOf(drive.by_scans);
   if (turned < kLeastTurn) {
-    findings.push_back(
-        note(text("the robot has turned by %.0f deg and gone %.1f m", kDegrees * turned, way),
-             "drive and turn it by hand meanwhile: scans tell sweep and odometry then"));
+    findings.push_back(note(
+        text("the robot has turned by %.0f deg and gone %.1f m", kDegreesPerRadian * turned, way),
+        "drive and turn it by hand meanwhile: scans tell sweep and odometry then"));
     return;
   }
   findings.push_back(sweepFinding(session.sweepDuration(0)));
@@ -440,7 +437,7 @@ void RobotCheck::checkMount(const Transforms& tf, const std::vector<Pose2>& by_s
     const Pose2 mount = Pose2{is_off ? off.x : 0.0, is_off ? off.y : 0.0, off.theta} * told;
     findings.push_back(fault(
         text("tf: by how it moves, the laser is at %.2f, %.2f m, %.0f deg, not where tf has it",
-             mount.x, mount.y, kDegrees * mount.theta),
+             mount.x, mount.y, kDegreesPerRadian * mount.theta),
         text("static_transform_publisher %.2f %.2f Z %.3f PITCH ROLL ", mount.x, mount.y,
              mount.theta) +
             base + " " + laser));

@@ -33,15 +33,14 @@ void setCovariances(const OdometryParameters& errors, double way, double turned,
                     nav_msgs::Odometry& odometry) {
   constexpr double kLeast = 1e-6;  // m^2, rad^2; nothing is known better, and 0 means: not told
   const auto square = [](double x) { return x * x; };
-  const double degree = M_PI / 180.0;
   auto &pose = odometry.pose.covariance, &twist = odometry.twist.covariance;
   for (std::size_t i = 0; i < 36; i += 7) pose[i] = twist[i] = kLeast;
-  const double heading = square(degree * errors.drift_noise_deg) * way +
-                         square(degree * errors.turn_noise_deg) * turned;
+  const double heading = square(kRadiansPerDegree * errors.drift_noise_deg) * way +
+                         square(kRadiansPerDegree * errors.turn_noise_deg) * turned;
   pose[0] = pose[7] += square(errors.distance_noise) * way + heading * square(way) / 3.0;
   pose[35] += heading;
   twist[0] += square(errors.distance_noise * odometry.twist.twist.linear.x);
-  twist[35] += square(degree * errors.turn_noise_deg * odometry.twist.twist.angular.z);
+  twist[35] += square(kRadiansPerDegree * errors.turn_noise_deg * odometry.twist.twist.angular.z);
 }
 
 }  // namespace

@@ -10,7 +10,7 @@
 namespace cca {
 namespace {
 
-const ros::Duration kKept(120.0);
+const ros::Duration kTransformsKept(120.0);
 
 /// By how much the stamps of moving transforms differ, and a second for rounding. tf2 adds it to a
 /// stamp, which must not leave the range of ros::Time; nor may it leave that of ros::Duration.
@@ -35,7 +35,7 @@ std::string frameName(const std::string& frame) {
   return !frame.empty() && frame.front() == '/' ? frame.substr(1) : frame;
 }
 
-Transforms::Transforms() : buffer_(kKept) {}
+Transforms::Transforms() : buffer_(kTransformsKept) {}
 
 Transforms::Transforms(const std::vector<Message>& messages) : buffer_(span(messages)) {
   for (const auto& message : messages) add(message.transforms, message.is_static);

@@ -6,7 +6,10 @@
 #include <cmath>
 #include <cstdio>
 #include <limits>
+#include <utility>
 #include <vector>
+
+#include "geometry/median.hpp"
 
 namespace cca {
 namespace {
@@ -74,10 +77,9 @@ void checkUnit(const sensor_msgs::LaserScan& m) {
   const auto isLargest = [&](float range) { return range >= 0.999f * largest; };
   returns.erase(std::remove_if(returns.begin(), returns.end(), isLargest), returns.end());
   if (returns.empty()) return;
-  const auto middle = returns.begin() + static_cast<std::ptrdiff_t>(returns.size() / 2);
-  std::nth_element(returns.begin(), middle, returns.end());
-  refuseUnless(*middle <= kFarthestMedian, "ranges must be metres: they look like millimetres",
-               "half of the returns are beyond %g, range_max %g", *middle, m.range_max);
+  const float middle = median(std::move(returns));
+  refuseUnless(middle <= kFarthestMedian, "ranges must be metres: they look like millimetres",
+               "half of the returns are beyond %g, range_max %g", middle, m.range_max);
 }
 
 }  // namespace

@@ -11,7 +11,7 @@
 namespace cca {
 namespace {
 
-const ros::WallDuration kPatience(5.0);  // localisations tell a pose with their first scans
+const ros::WallDuration kPoseAwaited(5.0);  // localisations tell a pose with their first scans
 
 }  // namespace
 
@@ -70,7 +70,7 @@ std::string choosePose(ros::NodeHandle& node, const FrameNames& frames,
       continue;
     }
     if (alone_since.isZero()) alone_since = now;
-    if (now - alone_since > kPatience) return "slam";
+    if (now - alone_since > kPoseAwaited) return "slam";
     tell("for somebody who tells where '" + frames.odom + "' is");
   }
   return {};
