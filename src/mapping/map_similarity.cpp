@@ -117,11 +117,14 @@ Memberships mapMemberships(const NewLine& line, const Wall& wall, const MapNoise
   return mu;
 }
 
+bool wouldOutgrow(const Wall& wall, const Wall& other) {
+  return outgrown(extentOf(wall), extentOf(other, wall));
+}
+
 Memberships mapMemberships(const Wall& wall, const Wall& other, const MapNoise& noise) {
   const double cosine = wall.fittedDirection().dot(other.fittedDirection());
   if (std::abs(cosine) < kComparable) return {};
   const Extent mine = extentOf(wall), theirs = extentOf(other, wall);
-  if (outgrown(mine, theirs)) return {};
   const PointSums &a = wall.profile.sums(), b = sumsInFrameOf(wall, other);
   if (a.w <= 0.0 || b.w <= 0.0) return {};
   const double sigma = noise.lateralSigma(), variance = sigma * sigma;

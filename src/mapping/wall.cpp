@@ -108,15 +108,14 @@ void absorb(Wall& wall, const Wall& other) {
   }
 }
 
-bool yieldOverlap(Wall& lesser, Wall& greater, const std::function<bool(double)>& alike) {
+bool yieldBins(Wall& lesser, Wall& greater, const std::function<bool(int, double)>& yields) {
   const FrameChange change(greater, lesser);
   bool moved = false;
   for (int i = lesser.profile.first(); i < lesser.profile.last(); ++i) {
     const SupportBin& bin = lesser.profile.bin(i);
     if (bin.hits() <= 0.0) continue;
     const Eigen::Vector2d td = greater.toWall(lesser.toMap(bin.mean()));
-    const bool is_beside = greater.profile.spans(SupportProfile::binOf(td.x()));
-    if (!is_beside || !alike(greater.offLine(td))) continue;
+    if (!yields(SupportProfile::binOf(td.x()), greater.offLine(td))) continue;
     greater.profile.add(change(lesser.profile.take(i)));
     moved = true;
   }

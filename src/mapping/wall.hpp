@@ -93,10 +93,9 @@ inline constexpr double kDirectionKnown = M_PI_4 / kNormalGate;
 
 /// Adds the other wall's bins, turned into this wall's frame.
 void absorb(Wall& wall, const Wall& other);
-/// Moves the bins of `lesser` that lie beside hits of `greater`, or in a short gap of them
-/// (SupportProfile::spans()), over to it where they are alike: a
-/// question of their distance [m] from its line. True where something moved.
-bool yieldOverlap(Wall& lesser, Wall& greater, const std::function<bool(double)>& alike);
+/// Moves bins of `lesser` over to `greater`: those that `yields` says, by the bin of `greater` that
+/// they lie at and their distance [m] from its line. True where something moved.
+bool yieldBins(Wall& lesser, Wall& greater, const std::function<bool(int, double)>& yields);
 /// The other wall's bin sums in this wall's frame.
 PointSums sumsInFrameOf(const Wall& wall, const Wall& other);
 /// Fits the line, and moves the frame onto it where the two have drifted apart.

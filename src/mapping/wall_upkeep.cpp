@@ -19,7 +19,9 @@ constexpr double kMostBeforeCheck = 100.0;
 constexpr double kSideBySide = 0.97;  // cosine of 14 degrees: more is a corner
 constexpr double kHitReach = 0.2;  // m, how far a wall's hits lie off its extent in another frame
 
-/// Where two walls that are not one run side by side all the same, the longer one takes it all.
+/// Where two walls that are not one run side by side all the same, the longer one takes what lies
+/// beside its hits. Of one wall that has two parts only for its length, it takes all between its
+/// ends.
 void shareOverlap(Slot a, Slot b, Walls& walls, const MapNoise& noise, const AlphaCut& cut) {
   const double cosine = walls[a].fittedDirection().dot(walls[b].fittedDirection());
   if (cosine < kSideBySide) return;
@@ -27,10 +29,15 @@ void shareOverlap(Slot a, Slot b, Walls& walls, const MapNoise& noise, const Alp
   const Slot lesser = a_lesser ? a : b, greater = a_lesser ? b : a;
   const Extent mine = extentOf(walls[greater]), theirs = extentOf(walls[lesser], walls[greater]);
   if (mine.last < theirs.first - kHitReach || theirs.last < mine.first - kHitReach) return;
-  const auto lie_on_each_other = [&](double off) {
-    return cut.similarity({1.0, 1.0, 1.0, 1.0, overlapOfPlace(off, noise)}) >= cut.value;
+  const bool are_parts = wouldOutgrow(walls[a], walls[b]) &&
+                         cut.similarity(mapMemberships(walls[a], walls[b], noise)) >= cut.value;
+  const SupportProfile& taker = walls[greater].profile;
+  const auto yields = [&](int bin, double off) {
+    if (are_parts) return taker.contains(bin);
+    const Memberships place{1.0, 1.0, 1.0, 1.0, overlapOfPlace(off, noise)};
+    return taker.spans(bin) && cut.similarity(place) >= cut.value;
   };
-  if (!yieldOverlap(walls[lesser], walls[greater], lie_on_each_other)) return;
+  if (!yieldBins(walls[lesser], walls[greater], yields)) return;
   walls.touch(lesser);
   walls.touch(greater);
 }
@@ -41,6 +48,7 @@ std::vector<Slot> groupOf(Slot slot, const std::vector<Slot>& near, const Walls&
                           const MapNoise& noise, const AlphaCut& cut) {
   if (cut.without(Part::kWallsToWalls)) return {};
   const auto similarity = [&](Slot a, Slot b) {
+    if (wouldOutgrow(walls[a], walls[b])) return 0.0;
     return cut.similarity(mapMemberships(walls[a], walls[b], noise));
   };
   std::vector<Slot> members{slot};

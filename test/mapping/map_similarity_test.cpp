@@ -90,10 +90,13 @@ TEST(MapMemberships, NoLineOfTheOtherSideIsTakenForAWallKnownFromOne) {
   EXPECT_GT(least(mapMemberships(line, wall, {})), 0.9);
 }
 
-TEST(MapMemberships, AreZeroWhereAWallWouldOutgrowItsBound) {
+TEST(WouldOutgrow, AsksForTheLengthOfBothTogether) {
   const Wall wall = wallFrom({0, 0}, 0.0, 15.0);
-  EXPECT_EQ(least(mapMemberships(wall, wallFrom({15.0, 0}, 0.0, 6.0), {})), 0.0);
-  EXPECT_GT(least(mapMemberships(wall, wallFrom({15.0, 0}, 0.0, 4.0), {})), 0.9);
+  EXPECT_TRUE(wouldOutgrow(wall, wallFrom({15.0, 0}, 0.0, 6.0)));
+  EXPECT_FALSE(wouldOutgrow(wall, wallFrom({15.0, 0}, 0.0, 4.0)));
+  const Wall longest = wallFrom({0, 0}, 0.0, 24.0);
+  EXPECT_FALSE(wouldOutgrow(longest, wallFrom({2.0, 0}, 0.0, 15.0)));  // adds nothing
+  EXPECT_TRUE(wouldOutgrow(longest, wallFrom({12.0, 0}, 0.0, 15.0)));
 }
 
 TEST(MapMemberships, OfTwoWallsDoNotDependOnWhichIsAskedFirst) {

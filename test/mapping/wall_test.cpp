@@ -112,13 +112,16 @@ TEST(Recut, ALineTakesAsManyReturnsAsItsPrice) {
   EXPECT_EQ(piecesOf(1.0, 1, 24.0), 0u);
 }
 
-TEST(YieldOverlap, SparseHitsBetweenThoseOfTheGreaterWallGoToIt) {
+TEST(YieldBins, SparseHitsBetweenThoseOfTheGreaterWallGoToIt) {
   Wall greater, lesser;
   for (int i = 0; i < 40; i += 2) greater.profile.hit((i + 0.5) * SupportProfile::kBinLength, 0.0);
   for (int i = 31; i < 60; i += 2) lesser.profile.hit((i + 0.5) * SupportProfile::kBinLength, 0.0);
   greater.fit = greater.profile.fit();
   lesser.fit = lesser.profile.fit();
-  EXPECT_TRUE(yieldOverlap(lesser, greater, [](double off) { return std::abs(off) < 0.03; }));
+  const auto lies_within = [&](int bin, double off) {
+    return greater.profile.spans(bin) && std::abs(off) < 0.03;
+  };
+  EXPECT_TRUE(yieldBins(lesser, greater, lies_within));
   lesser.profile.prune();
   EXPECT_EQ(lesser.profile.first(), 39);  // the greater ends at 38
 }

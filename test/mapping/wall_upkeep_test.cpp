@@ -95,5 +95,24 @@ TEST_F(WallOfTwoMetres, IsCutAtABendThatGrowsAfterASearchInVain) {
   EXPECT_EQ(wallCount(), 2) << scans;
 }
 
+/// The bins of [first, last) m in which a wall along x holds hits, as its stretches part them.
+std::size_t stretchCount(const Wall& wall) {
+  return wall.alive ? wall.profile.stretches().size() : 0;
+}
+
+TEST(SeeToTouched, OfOneWallThatIsTooLongThePartsDoNotShareALength) {
+  // The first 13 m of a wall of 24 m are known when all of it is seen: the returns of every second
+  // metre go to the one, all others to the other.
+  Walls walls;
+  const Walls::Slot shorter = walls.create(), longer = walls.create();
+  const int metre = static_cast<int>(std::lround(1.0 / SupportProfile::kBinLength));
+  for (int m = -1; m < 24; ++m)
+    hit(walls, m < 13 && m % 2 != 0 ? shorter : longer, m * metre, (m + 1) * metre, 5, 0.0);
+  std::uint64_t next_id = 1;
+  seeToTouched(walls, {}, {}, next_id);
+  EXPECT_EQ(stretchCount(walls[shorter]), 1u);  // what lies before the longer
+  EXPECT_EQ(stretchCount(walls[longer]), 1u);
+}
+
 }  // namespace
 }  // namespace cca
