@@ -20,8 +20,11 @@ constexpr double kFarthestLook = 12.0;  // m, at which beams still tell posts ap
 constexpr double kWidestBeam = 0.1;     // m, between beams where they are asked
 constexpr int kFewestLooks = 3;         // from different places: no passer-by
 constexpr double kBesideWall = 0.15;    // m; what stands nearer is the wall's own fringe
-constexpr double kLeastShare = 0.1;     // of the rays, that a cluster returns; a pane does a fifth
-constexpr int kRefuting = 20;           // rays in a row: one pane's cluster in a hundred
+/// Deviations of a return that the fringe is wide: one in 45 000 is scattered as far (4.2, as the
+/// price of a point on no line has it), and a wall has some thousands.
+constexpr double kFringe = 4.2;
+constexpr double kLeastShare = 0.1;  // of the rays, that a cluster returns; a pane does a fifth
+constexpr int kRefuting = 20;        // rays in a row: one pane's cluster in a hundred
 
 }  // namespace
 
@@ -51,22 +54,29 @@ void LooseReturns::add(const Scan& scan, const std::vector<Eigen::Vector2d>& loo
     Place& place = places_[squareKey(p, kPlaceSize)];
     place.sum += p;
     place.returns += 1.0;
+    place.ranges += (p - last_.position()).norm();
     place.looks += place.last != number_;
     place.last = number_;
   }
 }
 
 /// K-means whose means begin at the places seen most often, each taking over what lies around it.
-std::vector<LooseReturns::Cluster> LooseReturns::clusters(const std::vector<MapLine>& walls) const {
+std::vector<LooseReturns::Cluster> LooseReturns::clusters(const std::vector<MapLine>& walls,
+                                                          const MapNoise& noise) const {
   struct Seed {
     Cluster cluster;
     double returns;
+    double beside;  ///< m, up to which a wall may have scattered them
     std::int64_t key;
   };
   std::vector<Seed> seeds;
   for (const auto& [key, place] : places_) {
     if (place.looks < kFewestLooks) continue;
-    seeds.push_back({{place.sum / place.returns, place.looks}, place.returns, key});
+    const double scatter = std::sqrt(noise.lateralVariance(place.ranges / place.returns));
+    seeds.push_back({{place.sum / place.returns, place.looks},
+                     place.returns,
+                     std::max(kBesideWall, kFringe * scatter),
+                     key});
   }
   std::sort(seeds.begin(), seeds.end(), [](const Seed& a, const Seed& b) {
     return a.returns != b.returns ? a.returns > b.returns : a.key < b.key;
@@ -75,8 +85,8 @@ std::vector<LooseReturns::Cluster> LooseReturns::clusters(const std::vector<MapL
   std::unordered_map<std::int64_t, std::vector<std::size_t>> at;
   for (const Seed& seed : seeds) {
     const Eigen::Vector2d& p = seed.cluster.mean;
-    bool is_taken = std::any_of(walls.begin(), walls.end(), [&p](const MapLine& wall) {
-      return distanceToSegment(wall.segment.start, wall.segment.end, p) < kBesideWall;
+    bool is_taken = std::any_of(walls.begin(), walls.end(), [&](const MapLine& wall) {
+      return distanceToSegment(wall.segment.start, wall.segment.end, p) < seed.beside;
     });
     for (int k = 0; k < 9 && !is_taken; ++k) {
       const Eigen::Vector2d beside = inSquareAround(p, k, kPlaceSize);
@@ -141,7 +151,7 @@ double LooseReturns::shareOf(const LineSegment& row) const {
 
 std::vector<MapLine> LooseReturns::dottedWalls(const std::vector<MapLine>& walls,
                                                const MapNoise& noise) const {
-  const std::vector<Cluster> all = clusters(walls);
+  const std::vector<Cluster> all = clusters(walls, noise);
   std::vector<Eigen::Vector2d> means;
   for (const Cluster& cluster : all) means.push_back(cluster.mean);
   std::vector<MapLine> found;

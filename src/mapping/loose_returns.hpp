@@ -36,6 +36,7 @@ class LooseReturns {
   struct Place {
     Eigen::Vector2d sum = Eigen::Vector2d::Zero();
     double returns = 0.0;
+    double ranges = 0.0;   ///< m, their sum
     int looks = 0;         ///< scans that saw something there
     std::size_t last = 0;  ///< the last of them
   };
@@ -54,7 +55,7 @@ class LooseReturns {
     int returned = 0, passed = 0;
     int passed_since = 0;  ///< the last that returned
   };
-  std::vector<Cluster> clusters(const std::vector<MapLine>& walls) const;
+  std::vector<Cluster> clusters(const std::vector<MapLine>& walls, const MapNoise& noise) const;
   Verdict ask(const Eigen::Vector2d& p) const;
   double shareOf(const LineSegment& row) const;
 
