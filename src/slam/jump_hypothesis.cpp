@@ -2,6 +2,7 @@
 #include "slam/jump_hypothesis.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace cca {
 namespace {
@@ -36,8 +37,11 @@ std::optional<LocalMatch> JumpHypothesis::update(const KeyFrames& frames,
     reset();
   }
   if (tracked.here.agreement >= kDoubtful || surface.points.empty()) return std::nullopt;
-  const LocalMatch there = tracker.searchAllDirections(frames, surface, tracked.prior);
-  if (!monitor.isClearlyBetter(there, tracked.here)) return std::nullopt;
+  LocalMatch there = tracker.searchHere(frames, surface, tracked.prior, kWidestTurn);
+  if (!monitor.isClearlyBetter(there, tracked.here)) {
+    there = tracker.searchHere(frames, surface, tracked.prior, M_PI);
+    if (!monitor.isClearlyBetter(there, tracked.here)) return std::nullopt;
+  }
   const Pose2& T_map_there = there.match.T_map_query;
   T_frame_sensor_ = {T_map_frame.inverse() * T_map_there};
   claim_ = wayWithTurns(tracked.prior.mean.inverse() * T_map_there);

@@ -6,6 +6,8 @@
 #include <cstddef>
 #include <utility>
 
+#include "slam/tracking.hpp"
+
 namespace cca {
 namespace {
 
@@ -31,7 +33,7 @@ constexpr double kMostContradicted = 0.02, kTimesMore = 3.0, kMore = 0.005;
 /// has been moved contradict a whole visit of a museum (fhw, cut in two) by .13.
 constexpr double kMostContradictedAlone = 0.15;
 /// A hypothesis that puts the part beside what was seen is contradicted by nothing, and is no rival
-/// of one with this many times as much in common.
+/// of one with this many times as much in common; but for where the robot would be by its wheels.
 constexpr double kMoreInCommon = 2.0;
 /// Bound what a part costs: each hypothesis is judged by all scans of the part.
 constexpr std::size_t kMostHypotheses = 12, kLoopsOfEach = 4;
@@ -59,9 +61,17 @@ double wayOf(const PoseGraph& graph, int part) {
 
 double contradicted(const SightCount& sights) { return 1.0 - sights.agreement(); }
 
+/// Whether the loop puts its part where the odometry had it go on, but for a slip: what is new may
+/// have nothing in common with what was seen.
+bool goesOn(const PoseGraph& graph, const LoopVerdict& loop) {
+  const Pose2& first = graph.pose(graph.part(loop.frame));
+  const Eigen::Vector3d off = difference(motionOf(graph, loop) * first, first);
+  return off.head<2>().norm() < kWidestWindowHere && std::abs(off.z()) < kWidestTurn;
+}
+
 /// Whether all scans tell the first from the second, and for the first.
-bool isRefutedBy(const SightCount& best, const SightCount& other) {
-  if (kMoreInCommon * other.agree < best.agree) return true;
+bool isRefutedBy(const SightCount& best, const SightCount& other, bool other_goes_on) {
+  if (!other_goes_on && kMoreInCommon * other.agree < best.agree) return true;
   return contradicted(other) > kTimesMore * contradicted(best) + kMore;
 }
 
@@ -146,19 +156,23 @@ std::vector<LoopVerdict> PartPlacement::decide(const KeyFrames& frames, int part
     const auto second = std::find_if(loops.begin(), loops.end(), [&](const LoopVerdict& loop) {
       return loop.frame != loops.back().frame;
     });
-    if (second == loops.end()) continue;
+    const bool is_found_twice = second != loops.end();
+    if (!is_found_twice && !goesOn(graph, loops.back())) continue;
     bool has_like = false, stands_alone = true;
     for (const Judged& other : judged) {
       const LoopVerdict& loop = other.hypothesis->loops.back();
       if (putAlike(graph, loop, loops.back(), kNoRival, kNoRivalTurn)) continue;
       has_like = true;
-      stands_alone = stands_alone && isRefutedBy(best.sights, other.sights);
+      stands_alone = stands_alone && isRefutedBy(best.sights, other.sights, goesOn(graph, loop));
     }
     const bool is_clear = contradicted(best.sights) <= kMostContradicted;
+    const Eigen::Vector2d last = graph.pose(loops.back().frame).position();
     const double apart =
-        (graph.pose(second->frame).position() - graph.pose(loops.back().frame).position()).norm();
+        is_found_twice ? (graph.pose(second->frame).position() - last).norm() : 0.0;
     const bool is_enough = has_like ? is_clear && way >= kLongRoom : is_clear || apart >= kLongRoom;
-    if (stands_alone && is_enough) return {*second, loops.back()};
+    if (!stands_alone || !is_enough) continue;
+    if (is_found_twice) return {*second, loops.back()};
+    return {loops.back()};
   }
   return {};
 }

@@ -14,14 +14,15 @@ SightCount sightsOfParts(const KeyFrames& frames, const LoopVerdict& loop);
 
 /// Where a part of the graph lies in another one. Each place that a search finds, and each rival
 /// that scores nearly as well, is a hypothesis. Rooms that look alike are told apart by all scans
-/// of the part together: a hypothesis is believed when two frames have found it, the part has
-/// driven two metres, and the scans contradict every other one clearly more.
+/// of the part together: a hypothesis is believed when two frames have found it, or one finds it
+/// where the odometry had the robot go on, the part has driven two metres, and the scans contradict
+/// every other one clearly more.
 class PartPlacement {
  public:
   /// @param found  a place in another part, or its rival. Nothing happens where rays contradict it.
   void add(const KeyFrames& frames, const LoopVerdict& found);
-  /// The two loops that are believed, of all hypotheses about this part in the other one; none
-  /// while nothing decides.
+  /// The two loops that are believed, or the one that the odometry bears out, of all hypotheses
+  /// about this part in the other one; none while nothing decides.
   std::vector<LoopVerdict> decide(const KeyFrames& frames, int part, int other_part) const;
 
  private:

@@ -153,12 +153,12 @@ std::optional<SweepFit> ScanTracker::sweepMotion(const KeyFrames& frames,
   return matchSweep(surface, sweep, found.match.T_map_query, prior, belief, nearest(frames));
 }
 
-LocalMatch ScanTracker::searchAllDirections(const KeyFrames& frames, const ScanSurface& surface,
-                                            const PoseBelief& prior) const {
+LocalMatch ScanTracker::searchHere(const KeyFrames& frames, const ScanSurface& surface,
+                                   const PoseBelief& prior, double half_turn) const {
   SearchWindow window;
   window.centre = prior.mean;
   window.half_width = kWidestWindowHere;
-  window.half_turn = M_PI;
+  window.half_turn = half_turn;
   const Pose2 start = correlativeSearch(frames, surface, window);
   return matchLocally(frames, surface, withoutOdometry(prior), start, kFirstMatchReach);
 }

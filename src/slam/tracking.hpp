@@ -65,9 +65,10 @@ class ScanTracker {
                                       const SweptScan& sweep, const PoseBelief& prior,
                                       const SweepBelief& belief) const;
 
-  /// Matches a scan after a search in all directions, a metre around the prior's mean.
-  LocalMatch searchAllDirections(const KeyFrames& frames, const ScanSurface& surface,
-                                 const PoseBelief& prior) const;
+  /// Matches a scan after a search up to a metre and `half_turn` [rad] from the prior's mean,
+  /// within which no place is more likely than another.
+  LocalMatch searchHere(const KeyFrames& frames, const ScanSurface& surface,
+                        const PoseBelief& prior, double half_turn) const;
 
  private:
   std::vector<PlacedSurface> nearest(const KeyFrames& frames) const;

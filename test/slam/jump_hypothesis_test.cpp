@@ -76,5 +76,28 @@ TEST_F(Jump, IsGivenUpWhenTheNextScanAgreesHere) {
   EXPECT_FALSE(jump_.isOpen());
 }
 
+/// The same robot in the middle of four equal posts: a quarter of a turn shows it the same.
+class JumpAmongPosts : public Jump {
+ protected:
+  JumpAmongPosts() {
+    world_ = {};
+    for (const double x : {0.0, 6.0})
+      for (const double y : {-0.5, 5.5}) world_.addBox(x - 0.25, y - 0.25, x + 0.25, y + 0.25);
+    frames_ = {};
+    frames_.surfaces.push_back(seenFrom(start_));
+    frames_.graph.add(start_);
+    tracker_.lookAt(0);
+  }
+};
+
+TEST_F(JumpAmongPosts, IsNotAQuarterOfATurnWhereLessExplainsTheScan) {
+  for (const double turn : {0.2, 0.4, -0.5}) {
+    jump_.reset();
+    EXPECT_FALSE(scanAt({3.0, 2.5, turn}, {3.0, 2.5, 0.0}));
+    ASSERT_TRUE(jump_.isOpen()) << turn;
+    EXPECT_NEAR(jump_.poses().back().theta, turn, 0.05);
+  }
+}
+
 }  // namespace
 }  // namespace cca

@@ -25,18 +25,11 @@ test::WalledWorld likeRooms() {
 /// map is not known.
 class LikeRooms : public testing::Test {
  protected:
-  LikeRooms() {
-    for (const Pose2& pose : std::vector<Pose2>{{2.5, 4.0, 0.0},
-                                                {1.6, 3.0, 0.0},
-                                                {1.6, 1.0, 0.0},
-                                                {6.0, 1.0, 0.0},
-                                                {9.0, 1.0, 0.0},
-                                                {11.6, 1.0, 0.0},
-                                                {11.6, 3.0, 0.0},
-                                                {12.5, 4.0, 0.0},
-                                                {16.0, 1.0, 0.0}}) {
-      add(pose, pose);
-    }
+  explicit LikeRooms(std::size_t seen = 9) {
+    const std::vector<Pose2> poses{{2.5, 4.0, 0.0},  {1.6, 3.0, 0.0},  {1.6, 1.0, 0.0},
+                                   {6.0, 1.0, 0.0},  {9.0, 1.0, 0.0},  {11.6, 1.0, 0.0},
+                                   {11.6, 3.0, 0.0}, {12.5, 4.0, 0.0}, {16.0, 1.0, 0.0}};
+    for (std::size_t k = 0; k < seen; ++k) add(poses[k], poses[k]);
     first_of_part_ = frames_.size();
   }
 
@@ -74,7 +67,7 @@ class LikeRooms : public testing::Test {
   const std::vector<Pose2> into_corridor_{
       {11.6, 3.0, 0.0}, {11.6, 1.0, 0.0}, {13.0, 1.0, 0.0}, {14.5, 1.0, 0.0}};
   const double to_like_ = -10.0;
-  const Pose2 T_part_map_{3.0, -20.0, 1.2};
+  Pose2 T_part_map_{3.0, -20.0, 1.2};  // carried
   test::WalledWorld world_ = likeRooms();
   KeyFrames frames_;
   std::vector<Pose2> truth_;
@@ -121,6 +114,33 @@ TEST_F(LikeRooms, RaysOfBothPartsAgreeInTheRightPlaceAlone) {
   drive(into_corridor_);
   EXPECT_GT(sightsOfParts(frames_, loop(3, 7, 0.0)).agreement(), 0.99);
   EXPECT_LT(sightsOfParts(frames_, loop(3, 0, to_like_)).agreement(), 0.98);
+}
+
+TEST_F(LikeRooms, OneFrameIsEnoughWhereTheOdometryHasTheRobotGoOn) {
+  T_part_map_ = {0.3, -0.2, 0.05};  // a slip
+  drive(in_room_);
+  placement_.add(frames_, loop(1, 7, 0.0));
+  const std::vector<LoopVerdict> believed = decide();
+  ASSERT_EQ(believed.size(), 1u);
+  EXPECT_EQ(believed[0].candidate, 7);
+}
+
+/// The same where only the first room was seen, and the corridor as far as the second: the drive
+/// begins in a room that is new.
+class RoomNotSeen : public LikeRooms {
+ protected:
+  RoomNotSeen() : LikeRooms(5) {}
+};
+
+TEST_F(RoomNotSeen, TheOdometryIsBelievedBeforeALikeRoomThatHasMoreInCommon) {
+  T_part_map_ = {0.3, -0.2, 0.05};
+  for (int lap = 0; lap < 2; ++lap) drive(in_room_);
+  placement_.add(frames_, loop(1, 4, 0.0));
+  placement_.add(frames_, loop(1, 0, to_like_));
+  placement_.add(frames_, loop(3, 0, to_like_));
+  const std::vector<LoopVerdict> believed = decide();
+  ASSERT_EQ(believed.size(), 1u);
+  EXPECT_EQ(believed[0].candidate, 4);
 }
 
 }  // namespace
