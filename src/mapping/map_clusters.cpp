@@ -66,8 +66,8 @@ class Neighbourhood {
     const auto set = [&s](int i, int j, double value) { s(i, j) = s(j, i) = value; };
     for (int i = 0; i < w; ++i) {
       for (int j = i + 1; j < w; ++j) {
-        const Wall &a = walls[walls_[at(i)]], &b = walls[walls_[at(j)]];
-        set(i, j, wouldOutgrow(a, b) ? 0.0 : cut.similarity(mapMemberships(a, b, noise)));
+        set(i, j,
+            cut.similarity(mapMemberships(walls[walls_[at(i)]], walls[walls_[at(j)]], noise)));
       }
     }
     for (const Resemblance& r : resemblances) {

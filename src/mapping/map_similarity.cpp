@@ -122,6 +122,10 @@ bool wouldOutgrow(const Wall& wall, const Wall& other) {
 }
 
 Memberships mapMemberships(const Wall& wall, const Wall& other, const MapNoise& noise) {
+  return wouldOutgrow(wall, other) ? Memberships{} : membershipsOfAnyLength(wall, other, noise);
+}
+
+Memberships membershipsOfAnyLength(const Wall& wall, const Wall& other, const MapNoise& noise) {
   const double cosine = wall.fittedDirection().dot(other.fittedDirection());
   if (std::abs(cosine) < kComparable) return {};
   const Extent mine = extentOf(wall), theirs = extentOf(other, wall);

@@ -40,10 +40,13 @@ Memberships mapMemberships(const NewLine& line, const Wall& wall, const MapNoise
 /// Two walls. What they hold has been seen often, each time at its own pose error: bins are
 /// independent, but of two fronts side by side only one can be seen: what parts them is one error,
 /// and the overlap is asked alone. Else it asks whether they look the same way.
+/// @return  all 0 where one wall would be longer than kLongestWall.
 /// Cost: O(1), and O(bins) where the two lie side by side.
 Memberships mapMemberships(const Wall& a, const Wall& b, const MapNoise& noise);
 /// Whether one wall of both would be longer than kLongestWall.
 bool wouldOutgrow(const Wall& a, const Wall& b);
+/// The memberships of two walls, however long both together are.
+Memberships membershipsOfAnyLength(const Wall& a, const Wall& b, const MapNoise& noise);
 
 /// m, up to which two faces that look opposite ways are taken for one thin wall: its line may be
 /// that of either, or any between them.

@@ -29,8 +29,9 @@ void shareOverlap(Slot a, Slot b, Walls& walls, const MapNoise& noise, const Alp
   const Slot lesser = a_lesser ? a : b, greater = a_lesser ? b : a;
   const Extent mine = extentOf(walls[greater]), theirs = extentOf(walls[lesser], walls[greater]);
   if (mine.last < theirs.first - kHitReach || theirs.last < mine.first - kHitReach) return;
-  const bool are_parts = wouldOutgrow(walls[a], walls[b]) &&
-                         cut.similarity(mapMemberships(walls[a], walls[b], noise)) >= cut.value;
+  const bool are_parts =
+      wouldOutgrow(walls[a], walls[b]) &&
+      cut.similarity(membershipsOfAnyLength(walls[a], walls[b], noise)) >= cut.value;
   const SupportProfile& taker = walls[greater].profile;
   const auto yields = [&](int bin, double off) {
     if (are_parts) return taker.contains(bin);
@@ -48,7 +49,6 @@ std::vector<Slot> groupOf(Slot slot, const std::vector<Slot>& near, const Walls&
                           const MapNoise& noise, const AlphaCut& cut) {
   if (cut.without(Part::kWallsToWalls)) return {};
   const auto similarity = [&](Slot a, Slot b) {
-    if (wouldOutgrow(walls[a], walls[b])) return 0.0;
     return cut.similarity(mapMemberships(walls[a], walls[b], noise));
   };
   std::vector<Slot> members{slot};

@@ -90,6 +90,13 @@ TEST(MapMemberships, NoLineOfTheOtherSideIsTakenForAWallKnownFromOne) {
   EXPECT_GT(least(mapMemberships(line, wall, {})), 0.9);
 }
 
+TEST(MapMemberships, AreZeroWhereAWallWouldOutgrowItsBound) {
+  const Wall wall = wallFrom({0, 0}, 0.0, 15.0), too_long = wallFrom({15.0, 0}, 0.0, 6.0);
+  EXPECT_EQ(least(mapMemberships(wall, too_long, {})), 0.0);
+  EXPECT_GT(least(mapMemberships(wall, wallFrom({15.0, 0}, 0.0, 4.0), {})), 0.9);
+  EXPECT_GT(least(membershipsOfAnyLength(wall, too_long, {})), 0.9);
+}
+
 TEST(WouldOutgrow, AsksForTheLengthOfBothTogether) {
   const Wall wall = wallFrom({0, 0}, 0.0, 15.0);
   EXPECT_TRUE(wouldOutgrow(wall, wallFrom({15.0, 0}, 0.0, 6.0)));

@@ -95,7 +95,7 @@ TEST_F(WallOfTwoMetres, IsCutAtABendThatGrowsAfterASearchInVain) {
   EXPECT_EQ(wallCount(), 2) << scans;
 }
 
-/// The bins of [first, last) m in which a wall along x holds hits, as its stretches part them.
+/// Stretches of hits that a wall has; none once another has taken it in.
 std::size_t stretchCount(const Wall& wall) {
   return wall.alive ? wall.profile.stretches().size() : 0;
 }
