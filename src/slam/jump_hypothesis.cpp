@@ -37,10 +37,11 @@ std::optional<LocalMatch> JumpHypothesis::update(const KeyFrames& frames,
     reset();
   }
   if (tracked.here.agreement >= kDoubtful || surface.points.empty()) return std::nullopt;
-  LocalMatch there = tracker.searchHere(frames, surface, tracked.prior, kWidestTurn);
-  if (!monitor.isClearlyBetter(there, tracked.here)) {
-    there = tracker.searchHere(frames, surface, tracked.prior, M_PI);
-    if (!monitor.isClearlyBetter(there, tracked.here)) return std::nullopt;
+  LocalMatch there = tracker.searchHere(frames, surface, tracked.prior, M_PI);
+  if (!monitor.isClearlyBetter(there, tracked.here)) return std::nullopt;
+  if (std::abs((tracked.prior.mean.inverse() * there.match.T_map_query).theta) > kWidestTurn) {
+    const LocalMatch nearer = tracker.searchHere(frames, surface, tracked.prior, kWidestTurn);
+    if (monitor.isClearlyBetter(nearer, tracked.here)) there = nearer;
   }
   const Pose2& T_map_there = there.match.T_map_query;
   T_frame_sensor_ = {T_map_frame.inverse() * T_map_there};

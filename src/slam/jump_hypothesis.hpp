@@ -13,10 +13,10 @@ namespace cca {
 /// The belief that the robot has slipped or turned to another pose within a metre, which no
 /// odometry tells: recent scans agree there, and not where it was tracked to.
 ///
-/// One scan suggests the pose, from a search of turns below a radian, and in all directions where
-/// none of these explains it: columns look alike after half a turn. It is accepted once further
-/// scans agree there, over a way in proportion to the jump: a robot that nods on braking sees the
-/// floor for a third of a metre.
+/// One scan suggests the pose, from a search in all directions. Where that finds a turn of more
+/// than a radian, a smaller one that explains the scan as well is taken for it: columns look alike
+/// after half a turn. The pose is accepted once further scans agree there, over a way in proportion
+/// to the jump: a robot that nods on braking sees the floor for a third of a metre.
 class JumpHypothesis {
  public:
   /// A scan as it is tracked without a jump.
