@@ -116,13 +116,18 @@ double depthBeside(const Passage& passage, double resolution, bool left, IsOpen&
   const Eigen::Vector2d way = (passage.b - passage.a).normalized();
   const Eigen::Vector2d across = (left ? 1.0 : -1.0) * Eigen::Vector2d(-way.y(), way.x());
   double depth = 2.0 * resolution;
-  while (depth < kWidest && is_open(passage.middle() + depth * across)) depth += resolution;
+  while (is_open(passage.middle() + depth * across)) depth += resolution;
   return depth;
 }
 
 /// Whether a passage is a gap in a wall: as much wall as gap in its line, or more.
 bool isInWall(const Passage& passage, const RoomTuning& tuning) {
   return passage.evidence >= PassageEvidence::kCollinear && passage.support >= tuning.in_wall;
+}
+
+/// Whether a passage is a gap in something, and no mere narrowing of the space.
+bool isGap(const Passage& passage, const RoomTuning& tuning) {
+  return passage.evidence != PassageEvidence::kNarrowing || passage.support >= tuning.in_wall;
 }
 
 /// Whether the wall that ends at a passage leads elsewhere than across it.
@@ -258,18 +263,22 @@ class RegionGraph {
     const int a = root(border.rooms[0]), b = root(border.rooms[1]);
     const double width = border.passage.width();
     // A shallow room with its door in the long side is as wide as a square of its area.
-    const bool is_gap = border.passage.evidence != PassageEvidence::kNarrowing ||
-                        border.passage.support >= tuning_.in_wall;
     const auto besideOf = [&](std::size_t side, bool is_door) {  // m
       const std::size_t region = at(side ? b : a);
-      const double extent = is_door && is_gap
+      const double extent = is_door && isGap(border.passage, tuning_)
                                 ? std::max(2.0 * peak_[region], std::sqrt(area_[region]))
                                 : 2.0 * peak_[region];
       return std::max(1e-9, std::min(extent, beside_[k][side]));
     };
-    const double narrower = std::min(besideOf(0, true), besideOf(1, true));
-    const double as_door = std::max(width / narrower / widestDoor(border.passage, tuning_),
-                                    (width + tuning_.least_step) / narrower);
+    const bool is_left_narrower = besideOf(1, true) < besideOf(0, true);
+    const double narrower = besideOf(is_left_narrower, true);
+    const bool is_in_corridor =
+        depth_[k][is_left_narrower] > tuning_.shortest_corridor * narrower &&
+        2.0 * peak_[at(is_left_narrower ? b : a)] < tuning_.corridor_width * width;
+    const double widest = std::min(widestDoor(border.passage, tuning_),
+                                   is_in_corridor ? tuning_.widest_in_corridor : 1.0);
+    const double as_door =
+        std::max(width / narrower / widest, (width + tuning_.least_step) / narrower);
     if (border.passage.evidence == PassageEvidence::kNarrowing) return as_door;
     // A corridor's mouth.
     const double q0 = width / besideOf(0, false), q1 = width / besideOf(1, false);
@@ -280,7 +289,7 @@ class RegionGraph {
     double as_mouth = std::max(std::min(q0, q1) / widestMouth(border.passage, tuning_),
                                is_front ? 0.0 : other / tuning_.shallowest_mouth);
     // A niche joins last: it may be a piece of a corridor still.
-    if (arm_area < tuning_.mouth_area * width * width) as_mouth = std::max(as_mouth, kNiche);
+    if (arm_area < tuning_.shortest_corridor * width * width) as_mouth = std::max(as_mouth, kNiche);
     return std::min(as_door, as_mouth);
   }
 

@@ -11,12 +11,19 @@ namespace cca {
 
 /// When a passage parts two rooms. Its relative width is its width over that of the narrower of
 /// both regions: that of sections beside it, at most twice the greatest clearance in the region;
-/// or, for a gap that a line or a corner speaks for, the side of a square of its area if that is
+/// or, for a gap that a wall or a corner speaks for, the side of a square of its area if that is
 /// more.
 struct RoomTuning {
   double widest_narrowing = 0.55;  ///< relative width; of kNarrowing and kAtCorner
   double widest_abutting = 0.85;   ///< relative width of kAbutting: one jamb is a mere flank
   double widest_collinear = 0.9;   ///< the same of kCollinear and kBetweenEnds
+  /// The same of all of them across a corridor: between the recesses of its doors it is no narrower
+  /// than elsewhere, though sections beside such a stretch end in the recesses.
+  double widest_in_corridor = 0.75;
+  /// A corridor goes on straight for more than so many of its widths, and has that many squares of
+  /// its width; what is shorter is a niche.
+  double shortest_corridor = 2.5;
+  double corridor_width = 2.0;  ///< times a passage's width; what is wider anywhere is a hall
   /// Support [see wallSupport()] of a kAbutting below which the wall that ends there leads past the
   /// gap: it parts as a narrowing. Walls in line are then shorter than half of the gap.
   double least_support = 1.0 / 3.0;
@@ -30,7 +37,6 @@ struct RoomTuning {
   double widest_mouth = 0.45;
   double widest_front = 0.6;      ///< the same between two wall ends
   double shallowest_mouth = 0.6;  ///< its width over the depth of the other side: no crossing
-  double mouth_area = 2.5;        ///< squares of its width that a corridor has at least: no niche
   /// m^2; a toilet has .9 by 1.2 m at least, of which the cells on its walls take half a cell each.
   double smallest_room = 1.0;
   double least_clearance = 0.15;  ///< m to the next wall; with less a gap is none to pass through

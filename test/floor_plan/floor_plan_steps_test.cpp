@@ -263,6 +263,43 @@ TEST(RoomRegions, AreNotPartedByTheNoiseOfCellsInANarrowCorridor) {
   EXPECT_EQ(partitionIntoRooms(space, clearanceOf(space), nothingHidden(space), {narrow}).count, 1);
 }
 
+/// Two rooms of that many cells each, and a passage of 0.15 m between.
+Mask twoRoomsWithPassage(int length, int breadth, int width) {
+  Mask space;
+  space.columns = 2 * length + 5;
+  space.rows = breadth + 2;
+  space.values.assign(static_cast<std::size_t>(space.columns * space.rows), 0);
+  const int from = (space.rows - width) / 2;
+  for (int y = 1; y <= breadth; ++y) {
+    for (int x = 1; x < space.columns - 1; ++x)
+      space[{x, y}] = x <= length || x > length + 3 || (y >= from && y < from + width);
+  }
+  return space;
+}
+
+/// The passage of twoRoomsWithPassage().
+Passage passageOf(int length, int breadth, int width, PassageEvidence evidence, double support) {
+  const int from = (breadth + 2 - width) / 2;
+  Passage passage{{0.05 * (length + 2.5), 0.05 * from},
+                  {0.05 * (length + 2.5), 0.05 * (from + width)},
+                  evidence};
+  passage.support = support;
+  return passage;
+}
+
+TEST(RoomRegions, AreNotPartedAcrossACorridorBetweenItsRecesses) {
+  // 2.1 m wide but for a stretch of 1.7 m, as between the recesses of doors on both sides: in rooms
+  // of that breadth it is an opening, in a corridor none; one of 1.5 m is in both.
+  const auto count = [](int length, int width) {
+    const Mask space = twoRoomsWithPassage(length, 42, width);
+    const Passage gap = passageOf(length, 42, width, PassageEvidence::kAbutting, 0.9);
+    return partitionIntoRooms(space, clearanceOf(space), nothingHidden(space), {gap}).count;
+  };
+  EXPECT_EQ(count(80, 34), 2);
+  EXPECT_EQ(count(120, 34), 1);
+  EXPECT_EQ(count(120, 30), 2);
+}
+
 TEST(RoomRegions, ArePartedAtANarrowingInAWallByTheirAreas) {
   // A shallow room along a corridor of 2 m, its front of 1.5 m in the long side: a narrowing is
   // compared with twice the depth of the room, one in a wall with the side of a square.
