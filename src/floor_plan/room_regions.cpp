@@ -234,7 +234,23 @@ class RegionGraph {
     while (joined_[at(region)] != region) region = joined_[at(region)];
     return region;
   }
-  double area(int region) const { return area_[at(root(region))]; }
+  /// Whether each region is large enough for a room.
+  std::vector<char> areRooms() const {
+    std::vector<char> is_closed(joined_.size(), 1);
+    for (const RoomBorder& border : borders_) {
+      const int a = root(border.rooms[0]), b = root(border.rooms[1]);
+      if (a != b) is_closed[at(a)] = is_closed[at(b)] = 0;
+    }
+    const auto largest = std::max_element(area_.begin(), area_.end());
+    if (largest != area_.end()) is_closed[static_cast<std::size_t>(largest - area_.begin())] = 0;
+    std::vector<char> are_rooms;
+    for (std::size_t k = 0; k < joined_.size(); ++k) {
+      const std::size_t region = at(root(static_cast<int>(k)));
+      are_rooms.push_back(area_[region] >=
+                          (is_closed[region] ? tuning_.smallest_closed : tuning_.smallest_room));
+    }
+    return are_rooms;
+  }
   const std::vector<RoomBorder>& borders() const { return borders_; }
 
  private:
@@ -337,17 +353,15 @@ RoomRegions partitionIntoRooms(const Mask& space, const Raster<float>& clearance
   RegionGraph graph(parts.labels, static_cast<int>(parts.sizes.size()), clearance, hidden, cuts,
                     tuning);
   graph.joinAll();
+  const std::vector<char> are_rooms = graph.areRooms();
   RoomRegions rooms;
   rooms.labels = parts.labels;
   std::map<int, int> number;
   for (int& label : rooms.labels.values) {
     if (label < 0) continue;
-    const int root = graph.root(label);
-    if (graph.area(root) < tuning.smallest_room) {
-      label = -1;
-      continue;
-    }
-    label = number.emplace(root, static_cast<int>(number.size())).first->second;
+    label = are_rooms[static_cast<std::size_t>(label)]
+                ? number.emplace(graph.root(label), static_cast<int>(number.size())).first->second
+                : -1;
   }
   rooms.count = static_cast<int>(number.size());
   growLabels(space, rooms.labels);

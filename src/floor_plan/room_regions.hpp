@@ -39,6 +39,9 @@ struct RoomTuning {
   double shallowest_mouth = 0.6;  ///< its width over the depth of the other side: no crossing
   /// m^2; a toilet has .9 by 1.2 m at least, of which the cells on its walls take half a cell each.
   double smallest_room = 1.0;
+  /// m^2, 2 m by 2 m; of what no passage leads into, but for the largest room. Nobody was in there:
+  /// beams through gaps show some floor behind a wall, a room of another building is larger.
+  double smallest_closed = 4.0;
   double least_clearance = 0.15;  ///< m to the next wall; with less a gap is none to pass through
 };
 

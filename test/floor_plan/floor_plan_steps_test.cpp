@@ -300,6 +300,19 @@ TEST(RoomRegions, AreNotPartedAcrossACorridorBetweenItsRecesses) {
   EXPECT_EQ(count(120, 30), 2);
 }
 
+TEST(RoomRegions, AreNoSmallOnesThatNoPassageLeadsInto) {
+  const auto count = [](int length, int of_the_first) {
+    Mask space = twoRoomsWithPassage(length, 42, 4);  // 0.2 m between
+    for (int x = of_the_first + 1; x <= length; ++x) {
+      for (int y = 1; y <= 42; ++y) space[{x, y}] = 0;
+    }
+    return partitionIntoRooms(space, clearanceOf(space), nothingHidden(space), {}).count;
+  };
+  EXPECT_EQ(count(80, 40), 2);  // 2 m by 2.1 m, and 4 m by 2.1 m
+  EXPECT_EQ(count(80, 36), 1);
+  EXPECT_EQ(count(36, 30), 1);  // the largest is one in any case
+}
+
 TEST(RoomRegions, ArePartedAtANarrowingInAWallByTheirAreas) {
   // A shallow room along a corridor of 2 m, its front of 1.5 m in the long side: a narrowing is
   // compared with twice the depth of the room, one in a wall with the side of a square.
