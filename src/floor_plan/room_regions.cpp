@@ -139,6 +139,7 @@ bool isBesideWall(const Passage& passage, const RoomTuning& tuning) {
 double widestDoor(const Passage& passage, const RoomTuning& tuning) {
   switch (passage.evidence) {
     case PassageEvidence::kNarrowing:
+      return isGap(passage, tuning) ? tuning.widest_abutting : tuning.widest_narrowing;
     case PassageEvidence::kAtCorner:
       return tuning.widest_narrowing;
     case PassageEvidence::kAbutting:

@@ -14,9 +14,10 @@ namespace cca {
 /// or, for a gap that a wall or a corner speaks for, the side of a square of its area if that is
 /// more.
 struct RoomTuning {
-  double widest_narrowing = 0.55;  ///< relative width; of kNarrowing and kAtCorner
-  double widest_abutting = 0.85;   ///< relative width of kAbutting: one jamb is a mere flank
-  double widest_collinear = 0.9;   ///< the same of kCollinear and kBetweenEnds
+  double widest_narrowing = 0.55;  ///< relative width; of kNarrowing in no wall, and kAtCorner
+  /// Relative width of kAbutting, and of kNarrowing in a wall: one jamb is a mere flank.
+  double widest_abutting = 0.85;
+  double widest_collinear = 0.9;  ///< the same of kCollinear and kBetweenEnds
   /// The same of all of them across a corridor: between the recesses of its doors it is no narrower
   /// than elsewhere, though sections beside such a stretch end in the recesses.
   double widest_in_corridor = 0.75;

@@ -300,6 +300,16 @@ TEST(RoomRegions, AreNotPartedAcrossACorridorBetweenItsRecesses) {
   EXPECT_EQ(count(120, 30), 2);
 }
 
+TEST(RoomRegions, ArePartedAtANarrowingWithAsMuchWallAsGap) {
+  const Mask space = twoRoomsWithPassage(80, 80, 56);  // 4 m by 4 m, 2.8 m between
+  const auto count = [&](double support) {
+    const Passage narrow = passageOf(80, 80, 56, PassageEvidence::kNarrowing, support);
+    return partitionIntoRooms(space, clearanceOf(space), nothingHidden(space), {narrow}).count;
+  };
+  EXPECT_EQ(count(0.4), 1);
+  EXPECT_EQ(count(0.5), 2);
+}
+
 TEST(RoomRegions, AreNoSmallOnesThatNoPassageLeadsInto) {
   const auto count = [](int length, int of_the_first) {
     Mask space = twoRoomsWithPassage(length, 42, 4);  // 0.2 m between
