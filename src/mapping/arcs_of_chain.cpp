@@ -101,6 +101,13 @@ Telling byCorner(const PrefixMoments& runs, int first, int last, bool free, cons
   return best;
 }
 
+/// What an arc of at least so much chi-square saves where it replaces that at most, nats.
+double mostSaved(const Telling& told, double least_chi_square, double price) {
+  const double less = told.chi_square - least_chi_square;
+  const double by_lines = told.freedom > 0.0 ? told.chi_square / told.freedom : 1.0;
+  return told.price - price + 0.5 * less / (less < 0.0 ? std::max(1.0, by_lines) : 1.0);
+}
+
 /// What an arc saves where it replaces that, nats.
 double saving(const Telling& told, const FittedArc& fitted, double price) {
   // A wall may be rough: what neither its lines nor the arc explain is no sign of a bulge.
@@ -154,25 +161,36 @@ std::vector<ArcOfLinks> arcsOfChain(const std::vector<CurvePoint>& points,
   std::vector<Best> best(links.size() + 1);
   const PrefixMoments runs = weighedRuns(points);
   const auto at = [](int i) { return static_cast<std::size_t>(i); };
+  // Chi-square of the arc of links first to last at least: that of any arc of some of them.
+  std::vector<double> least(links.size() + 1, 0.0);
   const auto consider = [&](int first, int last, const std::optional<Limbs>& touched) {
     const int from = links[at(first)].first, to = links[at(last - 1)].last;
     const auto begin = links.begin() + first, end = links.begin() + last;
     const bool chain = std::any_of(begin, end, [](const ChainLink& l) { return l.is_line; });
     if (!touched && (to - from < kFewestOnArc || !chain)) return;
+    const double price = touched ? prices.pillar : prices.arc;
+    const double wanted = std::max(0.0, best[at(last)].saved - best[at(first)].saved);
+    const double least_chi_square = touched ? 0.0 : least[at(first)];
+    const Telling told = asTold(links, runs, first, last, prices);
+    if (mostSaved(told, least_chi_square, price) <= wanted) return;
+    const Telling corner = byCorner(runs, from, to, touched.has_value(), prices);
+    if (mostSaved(corner, least_chi_square, price) <= wanted) return;
     const auto fitted = fitArc(points, from, to, touched);
-    if (!fitted || bulge(fitted->arc) < least_bulge) return;
+    if (!fitted) return;
+    if (!touched) least[at(first)] = std::max(least[at(first)], fitted->chi_square);
+    if (bulge(fitted->arc) < least_bulge) return;
     if (!turnsOneWay(points, links, first, last, fitted->arc)) return;
     if (view && !isSeenFromOrigin(fitted->arc, points[at(from)].variance)) return;
-    const double price = touched ? prices.pillar : prices.arc;
-    const Telling told = asTold(links, runs, first, last, prices);
-    const Telling corner = byCorner(runs, from, to, touched.has_value(), prices);
     const double gain = std::min(saving(told, *fitted, price), saving(corner, *fitted, price));
     const double saved = best[at(first)].saved + gain;
     if (gain > 0.0 && saved > best[at(last)].saved) best[at(last)] = {saved, first, fitted->arc};
   };
   for (int last = 1; last <= n; ++last) {
     best[at(last)].saved = best[at(last - 1)].saved;
-    for (int first = last - 1; first >= 0; --first) consider(first, last, std::nullopt);
+    for (int first = last - 1; first >= 0; --first) {
+      least[at(first)] = std::max(least[at(first)], least[at(first + 1)]);
+      consider(first, last, std::nullopt);
+    }
   }
   if (view && view->limbs) consider(0, n, view->limbs);
   std::vector<ArcOfLinks> arcs;

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "cca_mrpt/sensing/range_noise.hpp"
+#include "geometry/cross.hpp"
 #include "mapping/arcs_of_chain.hpp"
 #include "mapping/corner_refinement.hpp"
 #include "mapping/line_merging.hpp"
@@ -22,7 +23,10 @@ namespace {
 constexpr double kOdds[] = {0.1, 0.4};
 /// Merging and refining both shorten the description and so must end; mostly after three rounds.
 constexpr int kMostRounds = 6;
-constexpr double kSetSigma = 0.03;  // m, where the study leaves the scan's own noise out
+/// Lines one behind another that may be a curved wall's facets: two that meet fit a corner as well.
+constexpr int kFewestFacets = 3;
+constexpr double kWidestFacet = M_PI / 3.0;  // rad; what turns by more is the corner of a room
+constexpr double kSetSigma = 0.03;           // m, where the study leaves the scan's own noise out
 
 /// A scan on its way to lines.
 struct ClusteredScan {
@@ -137,10 +141,33 @@ std::optional<Limbs> limbsOf(const ScanPoints& points, int first, int last) {
   return Limbs{turn.inverse() * p.normalized(), turn * q.normalized(), deviation * deviation};
 }
 
+/// Whether lines of a chain may be facets of a curved wall: so many turn the same way.
+bool hasFacets(const Chain& chain) {
+  int facets = 0;
+  double turned = 0.0;
+  Eigen::Vector2d before = Eigen::Vector2d::Zero();
+  for (const ChainLink& link : chain.links) {
+    const Eigen::Vector2d along = chain.points[static_cast<std::size_t>(link.last - 1)].position -
+                                  chain.points[static_cast<std::size_t>(link.first)].position;
+    if (!link.is_line) {
+      facets = 0;
+      continue;
+    }
+    const double turn = std::atan2(cross(before, along), before.dot(along));
+    const bool goes_on = facets > 0 && std::abs(turn) < kWidestFacet;
+    facets = !goes_on ? 1 : facets > 1 && turn * turned <= 0.0 ? 2 : facets + 1;
+    if (facets >= kFewestFacets) return true;
+    turned = turn;
+    before = along;
+  }
+  return false;
+}
+
 /// The arcs of a scan: those that tell runs without a break between them more briefly than lines
 /// do, see arcsOfChain().
+/// @param only_facets  none but curved walls: no pillars, at a tenth of the time.
 std::vector<Arc> arcsOfScan(const ScanPoints& points, const Runs& runs, PointNoise noise,
-                            double vertex_price) {
+                            double vertex_price, bool only_facets) {
   const double least_bulge =
       std::exchange(noise.straightness, 0.0);  // a bulge is told from the noise of the laser alone
   std::vector<Arc> arcs;
@@ -151,6 +178,7 @@ std::vector<Arc> arcsOfScan(const ScanPoints& points, const Runs& runs, PointNoi
     while (k < runs.size() && areNeighbours(points, runs[k - 1], runs[k])) {
       chain.add(points, runs[k++], noise);
     }
+    if (only_facets && !hasFacets(chain)) continue;
     const OneView view{limbsOf(points, first, runs[k - 1].last)};
     for (const ArcOfLinks& found :
          arcsOfChain(chain.points, chain.links, least_bulge, vertex_price, &view)) {
@@ -158,6 +186,17 @@ std::vector<Arc> arcsOfScan(const ScanPoints& points, const Runs& runs, PointNoi
     }
   }
   return arcs;
+}
+
+ScanFeatures featuresOf(const Scan& scan, const PointNoise& noise, const CcaParameters& parameters,
+                        bool only_facets) {
+  ClusteredScan clustered = cluster(scan, noise, parameters);
+  ScanFeatures features;
+  features.lines = linesOf(clustered, parameters);
+  beginBehindBreak(&clustered);
+  features.arcs = arcsOfScan(clustered.points, clustered.runs, clustered.noise,
+                             parameters.vertex_price, only_facets);
+  return features;
 }
 
 }  // namespace
@@ -168,18 +207,12 @@ std::vector<LineSegment> extractLines(const Scan& scan, const CcaParameters& par
 
 AnalysedScan analyse(Scan scan, const CcaParameters& parameters) {
   const PointNoise noise = noiseOf(scan, parameters);
-  std::vector<LineSegment> lines = linesOf(cluster(scan, noise, parameters), parameters);
-  return {std::move(scan), noise, std::move(lines)};
+  ScanFeatures features = featuresOf(scan, noise, parameters, true);
+  return {std::move(scan), noise, std::move(features.lines), std::move(features.arcs)};
 }
 
 ScanFeatures extractFeatures(const Scan& scan, const CcaParameters& parameters) {
-  ClusteredScan clustered = cluster(scan, noiseOf(scan, parameters), parameters);
-  ScanFeatures features;
-  features.lines = linesOf(clustered, parameters);
-  beginBehindBreak(&clustered);
-  features.arcs =
-      arcsOfScan(clustered.points, clustered.runs, clustered.noise, parameters.vertex_price);
-  return features;
+  return featuresOf(scan, noiseOf(scan, parameters), parameters, false);
 }
 
 }  // namespace cca

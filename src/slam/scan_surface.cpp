@@ -41,6 +41,25 @@ void takeNormalsOfLines(const std::vector<LineSegment>& lines, double straightne
   }
 }
 
+/// Whether a direction from the centre, of any length, meets the arc.
+bool spans(const Arc& arc, const Eigen::Vector2d& out) {
+  const double from_start = wrapAngle(std::atan2(out.y(), out.x()) - arc.start_angle);
+  return (from_start < 0.0 ? from_start + 2.0 * M_PI : from_start) <= arc.sweep;
+}
+
+/// A curved wall's lines are its chords. Their normals tell of a turn that is none.
+void takeNormalsOfArcs(const std::vector<Arc>& arcs, ScanSurface& surface) {
+  const double gate = kGates * surface.range_sigma;
+  for (const Arc& arc : arcs) {
+    for (ScanSurface::Point& point : surface.points) {
+      const Eigen::Vector2d out = point.position - arc.centre;
+      const double range = out.norm();
+      if (std::abs(range - arc.radius) > gate || !spans(arc, out)) continue;
+      point.normal = towardsSensor({-out.y() / range, out.x() / range}, point.position);
+    }
+  }
+}
+
 /// Five neighbouring returns are a surface where they are thin: a fifth as thick as long.
 constexpr double kThin = 0.05;
 constexpr int kNeighbours = 2;  // on either side: two of them would fit any line
@@ -134,6 +153,7 @@ ScanSurface scanSurface(const AnalysedScan& analysed) {
                               Eigen::Vector2d::Zero(), static_cast<int>(k)});
   }
   takeNormalsOfLines(analysed.lines, analysed.noise.straightness, surface);
+  takeNormalsOfArcs(analysed.arcs, surface);
   takeNormalsOfNeighbours(surface);
   takeFreeRangesOfThree(surface);
   surface.pack();

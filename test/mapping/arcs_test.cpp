@@ -131,6 +131,26 @@ TEST(ExtractFeatures, HasTheLinesOfExtractLinesAndNoArcWhereAllIsStraight) {
   }
 }
 
+TEST(Analyse, HasTheCurvedWallAndNeitherPillarsNorAnOctagonsSides) {
+  SegmentWorld round, octagon;
+  addArc(round, {0.0, 0.0}, 7.0, 0.0, 2.0 * kPi);
+  addArc(round, {2.0, 1.0}, 0.3, 0.0, 2.0 * kPi);
+  for (int i = 0; i < 8; ++i) {
+    const auto corner = [](int k) -> Eigen::Vector2d {
+      return 5.0 * Eigen::Vector2d(std::cos(k * kPi / 4.0), std::sin(k * kPi / 4.0));
+    };
+    octagon.walls.push_back({corner(i), corner(i + 1)});
+  }
+  std::mt19937 random(6);
+  for (int k = 0; k < 20; ++k) {
+    const Pose2 pose{0.1 * k - 1.0, -1.5, 0.3 * k};
+    const AnalysedScan analysed = analyse(round.scan(pose, 0.02, random));
+    ASSERT_FALSE(analysed.arcs.empty()) << k;
+    for (const Arc& arc : analysed.arcs) EXPECT_NEAR(arc.radius, 7.0, 1.0) << k;
+    EXPECT_TRUE(analyse(octagon.scan(pose, 0.02, random)).arcs.empty()) << k;
+  }
+}
+
 TEST(ExtractFeatures, GivesNothingForAScanOfNothing) {
   Scan scan;
   EXPECT_TRUE(extractFeatures(scan).arcs.empty());

@@ -26,6 +26,32 @@ TEST(ScanSurface, NormalsOfARoomPointAtTheSensorAcrossItsWalls) {
   EXPECT_GT(with_normal, 350);
 }
 
+/// A wall's facets are chords: their own normals are up to half a chord's angle off.
+TEST(ScanSurface, NormalsOfARoundHallPointAtItsCentre) {
+  constexpr int kChords = 180;
+  const auto at = [](int k) -> Eigen::Vector2d {
+    return 7.0 *
+           Eigen::Vector2d(std::cos(2.0 * M_PI * k / kChords), std::sin(2.0 * M_PI * k / kChords));
+  };
+  test::WalledWorld world;
+  for (int k = 0; k < kChords; ++k) world.addWall(at(k), at(k + 1));
+  for (const double sigma : {0.01, 0.03}) {
+    for (int k = 0; k < 10; ++k) {
+      const Pose2 pose{0.3 * k - 1.0, 2.0, 0.2 * k};
+      double sum_sq = 0.0, count = 0.0;
+      for (const auto& point : scanSurface(world.scan(pose, 361, 2.0 * M_PI, sigma)).points) {
+        if (point.normal.isZero()) continue;
+        const Eigen::Vector2d inward = -(pose * point.position).normalized();
+        const double off = cross(Pose2{0.0, 0.0, pose.theta} * point.normal, inward);
+        sum_sq += off * off;
+        ++count;
+      }
+      EXPECT_GT(count, 200.0);
+      EXPECT_LT(std::sqrt(sum_sq / count), 0.03) << sigma << " " << k;
+    }
+  }
+}
+
 TEST(ScanSurface, EachBeamFindsItsOwnReturn) {
   test::WalledWorld world;
   world.addBox(-3.0, -2.0, 4.0, 2.5);

@@ -26,7 +26,9 @@ namespace cca {
 /// Cost: O(N) for N beams, plus O(n^2) for n lines.
 std::vector<LineSegment> extractLines(const Scan& scan, const CcaParameters& parameters = {});
 
-/// The noise of a scan and the lines of extractLines(), together.
+/// The noise of a scan, the lines of extractLines(), and the arcs of extractFeatures() that are
+/// curved walls: where three lines or more, one behind another, turn the same way.
+/// Cost: that of extractLines(), and O(n) circle fits for each chain of n such lines.
 AnalysedScan analyse(Scan scan, const CcaParameters& parameters = {});
 
 /// What a scan shows, sensor frame. An arc stands for lines that are there as well, its chords.

@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "cca_mrpt/geometry/arc.hpp"
 #include "cca_mrpt/geometry/line_segment.hpp"
 #include "cca_mrpt/sensing/range_noise.hpp"
 #include "cca_mrpt/sensing/scan.hpp"
@@ -15,6 +16,7 @@ struct AnalysedScan {
   Scan scan;
   PointNoise noise;                ///< of its returns; with the straightness of walls
   std::vector<LineSegment> lines;  ///< of extractLines(), sensor frame
+  std::vector<Arc> arcs = {};      ///< its curved walls, sensor frame
 };
 
 }  // namespace cca
