@@ -18,7 +18,6 @@ constexpr double kLongestReturn = 100.0;  // m; no indoor wall is farther, and w
 constexpr double kLongestRay = 30.0;      // m; further out a beam is wider than a door
 constexpr double kClear = 0.1;            // m, two bins: the least that counts as "behind"
 constexpr double kBlind = 0.05;           // m, before the sensor: nothing is seen there
-constexpr double kStep = 0.4;             // m, along a ray: the index names a wall 0.3 m around it
 
 /// The wall of the new line that each return lies on; -1 where there is none. The lines may come in
 /// any order: those of a full turn begin at a corner, not at the first beam.

@@ -7,24 +7,20 @@
 #include "cca_mrpt/sensing/range_noise.hpp"
 #include "geometry/distance_to_segment.hpp"
 #include "geometry/square_key.hpp"
+#include "mapping/description_length.hpp"
 #include "mapping/rows_in_line.hpp"
 
 namespace cca {
 namespace {
 
-constexpr double kPlaceSize = 0.1;      // m: two posts' width; neighbours of a row stay apart
-constexpr double kFloorCell = 1.0;      // m, in which scans are counted
-constexpr std::size_t kMostLooks = 4;   // one more than the fewest: bounds the memory
-constexpr double kNewLook = 0.5;        // m, from the last scan kept in a cell
-constexpr double kFarthestLook = 12.0;  // m, at which beams still tell posts apart
-constexpr double kWidestBeam = 0.1;     // m, between beams where they are asked
-constexpr int kFewestLooks = 3;         // from different places: no passer-by
-constexpr double kBesideWall = 0.15;    // m; what stands nearer is the wall's own fringe
-/// Deviations of a return that the fringe is wide: one in 45 000 is scattered as far (4.2, as the
-/// price of a point on no line has it), and a wall has some thousands.
-constexpr double kFringe = 4.2;
-constexpr double kLeastShare = 0.1;  // of the rays, that a cluster returns; a pane does a fifth
-constexpr int kRefuting = 20;        // rays in a row: one pane's cluster in a hundred
+constexpr double kPlaceSize = 0.1;       // m: two posts' width; neighbours of a row stay apart
+constexpr double kFloorCell = 1.0;       // m, in which scans are counted
+constexpr double kNewLook = 0.5;         // m, from the last scan kept in a cell
+constexpr double kFarthestLook = 12.0;   // m, at which beams still tell posts apart
+constexpr std::size_t kFewestLooks = 3;  // from different places: no passer-by; one more is kept
+constexpr double kBesideWall = 0.15;     // m; what stands nearer is the wall's own fringe
+constexpr double kLeastShare = 0.1;      // of the rays, that a cluster returns; a pane does a fifth
+constexpr int kRefuting = 20;            // rays in a row: one pane's cluster in a hundred
 
 }  // namespace
 
@@ -43,7 +39,7 @@ void LooseReturns::add(const Scan& scan, const std::vector<Eigen::Vector2d>& loo
     look.free.push_back(static_cast<float>(scan.freeRange(beam)));
   }
   auto& here = looks_at_[squareKey(last_.position(), kFloorCell)];
-  if (here.size() < kMostLooks) {
+  if (here.size() <= kFewestLooks) {  // bounds the memory
     here.push_back(looks_.size());
     looks_.push_back(std::move(look));
   } else {  // the oldest of them goes
@@ -69,13 +65,15 @@ std::vector<LooseReturns::Cluster> LooseReturns::clusters(const std::vector<MapL
     double beside;  ///< m, up to which a wall may have scattered them
     std::int64_t key;
   };
+  // One return in 45 000 is scattered farther, and a wall has some thousands.
+  const double fringe = std::sqrt(2.0 * kPointPrice);
   std::vector<Seed> seeds;
   for (const auto& [key, place] : places_) {
-    if (place.looks < kFewestLooks) continue;
+    if (place.looks < static_cast<int>(kFewestLooks)) continue;
     const double scatter = std::sqrt(noise.lateralVariance(place.ranges / place.returns));
     seeds.push_back({{place.sum / place.returns, place.looks},
                      place.returns,
-                     std::max(kBesideWall, kFringe * scatter),
+                     std::max(kBesideWall, fringe * scatter),
                      key});
   }
   std::sort(seeds.begin(), seeds.end(), [](const Seed& a, const Seed& b) {
@@ -116,7 +114,7 @@ LooseReturns::Verdict LooseReturns::ask(const Eigen::Vector2d& p) const {
   for (const Look& look : looks_) {
     const Eigen::Vector2d v = look.T_map_sensor.inverse() * p;
     const double range = v.norm();
-    if (range > kFarthestLook || range * std::abs(look.angle_increment) > kWidestBeam) continue;
+    if (range > kFarthestLook || range * std::abs(look.angle_increment) > kPlaceSize) continue;
     const double turned =
         std::remainder(std::atan2(v.y(), v.x()) - look.angle_min -
                            0.5 * look.angle_increment * static_cast<double>(look.ranges.size()),
@@ -139,8 +137,7 @@ LooseReturns::Verdict LooseReturns::ask(const Eigen::Vector2d& p) const {
 
 double LooseReturns::shareOf(const LineSegment& row) const {
   Verdict all;
-  constexpr double kStep = 0.05;  // m, a bin of a wall
-  const int steps = std::max(1, static_cast<int>(row.length() / kStep));
+  const int steps = std::max(1, static_cast<int>(row.length() / SupportProfile::kBinLength));
   for (int k = 0; k <= steps; ++k) {
     const Verdict v = ask(row.start + (row.end - row.start) * k / steps);
     all.returned += v.returned;

@@ -14,7 +14,6 @@ namespace {
 
 using Slot = Walls::Slot;
 
-constexpr double kEndReach = 0.4;   // m, beyond its ends a line is compared with what stands there
 constexpr double kNewLength = 0.1;  // m, two bins that no wall explains
 
 /// A new line and a wall that resemble each other.
@@ -132,7 +131,7 @@ std::vector<Resemblance> resemblances(const std::vector<NewLine>& lines, const A
   std::vector<Resemblance> all;
   std::vector<Slot> near;
   for (std::size_t i = 0; i < lines.size(); ++i) {
-    const Eigen::Vector2d reach = lines[i].segment.direction() * kEndReach;
+    const Eigen::Vector2d reach = lines[i].segment.direction() * kGapOfLine;
     walls.near(lines[i].segment.start - reach, lines[i].segment.end + reach, near);
     for (const Slot slot : near) {
       const double s = cut.similarity(mapMemberships(lines[i], walls[slot], noise));

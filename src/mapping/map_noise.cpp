@@ -12,7 +12,6 @@ constexpr double kFinestOffset = 0.003;        // m; nothing is known better tha
 constexpr double kFinestAngle = 0.001;         // rad: the same 3 mm over three metres
 constexpr double kLongestMemory = 500.0;  // innovations; a step is then 0.4 %, and may still follow
 constexpr double kFirstOctave = 0.25;     // m, where it begins; few lasers see anything nearer
-constexpr double kLastOctave = 32.0;      // m; what is farther is as noisy
 constexpr double kFewestLines = 20.0;     // for a median of them to be told
 
 double stepped(double sigma, double innovation, double own_variance, double samples) {
@@ -44,7 +43,7 @@ void MapNoise::Median::learn(double value) {
 
 std::size_t MapNoise::octaveOf(double distance) {
   return static_cast<std::size_t>(
-      std::ilogb(std::clamp(distance, kFirstOctave, kLastOctave) / kFirstOctave));
+      std::clamp(std::ilogb(distance / kFirstOctave), 0, static_cast<int>(kOctaves) - 1));
 }
 
 void MapNoise::learnRange(double variance, double distance) {

@@ -10,8 +10,7 @@
 namespace cca {
 namespace {
 
-/// m, across which a wall is still the same to even odds: of one look, and of many.
-constexpr double kGapOfLine = 0.4, kGapOfWall = 1.0;
+constexpr double kGapOfWall = 1.0;  // m, as kGapOfLine, where both were seen many times
 /// Gates of the distance of two faces side by side, in deviations of a return, and the least that
 /// they fall to [m]. On one side: each has its own pose error. Opposite: the line between them lies
 /// within two deviations of either.

@@ -32,6 +32,9 @@ struct NewLine {
 // the offset at the place where the two are uncorrelated: these are the first two, in units of
 // their variances. Gates are 99.9 % quantiles.
 
+/// m, across which a wall is still the same to even odds where one of the two was seen once.
+inline constexpr double kGapOfLine = 0.4;
+
 /// A new line and a wall. From one look nobody can tell whether a face that looks the other way is
 /// that of a thin wall: overlap is 0 there, unless the wall is known to be two-sided.
 /// @return  all 0 where the wall would outgrow kLongestWall.

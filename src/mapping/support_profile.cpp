@@ -8,11 +8,10 @@ namespace cca {
 namespace {
 
 constexpr int kWindow = 2;           // bins on either side that speak for a place
-constexpr double kFewestRays = 2.0;  // that can refute a place: a single one may err
+constexpr double kFewestRays = 2.0;  // that refute a place, or part a wall: a single one may err
 /// From which on a place is free. While a map grows, the rays that passed before the wall was
 /// created are not counted; in hindsight all are, and the greater number decides.
 constexpr double kRaysPerHit = 0.5, kRaysPerHitInHindsight = 1.0;
-constexpr double kPartingRays = 2.0;  // that keep a gap open
 
 /// The mean point of a bin that holds hits, of its weight.
 PointSums meanPoint(const SupportBin& bin) {
@@ -91,7 +90,7 @@ bool SupportProfile::pass(double t, double rays) {
   if (!contains(i) || bin(i).passed >= SupportBin::kMostHits) return false;
   const double before = bin(i).passed;
   at(i).passed = std::min(before + rays, SupportBin::kMostHits);
-  if (bin(i).isRefuted() || before < kPartingRays) return true;
+  if (bin(i).isRefuted() || before < kFewestRays) return true;
   for (int k = std::max(first(), i - kWindow); k < std::min(last(), i + kWindow + 1); ++k) {
     if (bin(k).hits() <= 0.0) continue;
     const Counts now = countsAround(k);
@@ -178,8 +177,8 @@ std::vector<Stretch> SupportProfile::stretches() const {
       passed_since += bin(i).passed;
       continue;
     }
-    const bool joins = !found.empty() && i - found.back().range.last <= kBridgedBins &&
-                       passed_since < kPartingRays;
+    const bool joins =
+        !found.empty() && i - found.back().range.last <= kBridgedBins && passed_since < kFewestRays;
     if (!joins) found.push_back({{i, i}, {}});
     found.back().range.last = i + 1;
     passed_since = 0.0;

@@ -17,7 +17,6 @@ using Slot = Walls::Slot;
 /// Returns after which a wall is compared with its neighbours again, however many it has.
 constexpr double kMostBeforeCheck = 100.0;
 constexpr double kSideBySide = 0.97;  // cosine of 14 degrees: more is a corner
-constexpr double kHitReach = 0.2;  // m, how far a wall's hits lie off its extent in another frame
 
 /// Where two walls that are not one run side by side all the same, the longer one takes what lies
 /// beside its hits. Of one wall that has two parts only for its length, it takes all between its
@@ -27,8 +26,6 @@ void shareOverlap(Slot a, Slot b, Walls& walls, const MapNoise& noise, const Alp
   if (cosine < kSideBySide) return;
   const bool a_lesser = extentOf(walls[a]).length() < extentOf(walls[b]).length();
   const Slot lesser = a_lesser ? a : b, greater = a_lesser ? b : a;
-  const Extent mine = extentOf(walls[greater]), theirs = extentOf(walls[lesser], walls[greater]);
-  if (mine.last < theirs.first - kHitReach || theirs.last < mine.first - kHitReach) return;
   const bool are_parts =
       wouldOutgrow(walls[a], walls[b]) &&
       cut.similarity(membershipsOfAnyLength(walls[a], walls[b], noise)) >= cut.value;
