@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "mapping/hindsight.hpp"
 
-#include <algorithm>
-#include <cmath>
-
 #include "cca_mrpt/sensing/range_noise.hpp"
 #include "mapping/laser_evidence.hpp"
 
@@ -41,17 +38,8 @@ void removeScattered(const std::vector<PastScans::Kept>& scans, const MapNoise& 
     if (surplus[i] < 0) walls.remove(static_cast<Walls::Slot>(i));
 }
 
-/// Whether returns lie on another wall beside a point.
-bool isTakenOver(Walls::Slot slot, const Eigen::Vector2d& p, double gate, const Walls& walls) {
-  const std::vector<Walls::Slot>& near = walls.at(WallIndex::cellOf(p));
-  return std::any_of(near.begin(), near.end(), [&](Walls::Slot other) {
-    const Wall& wall = walls[other];
-    return other != slot && wall.hitNear(p) && std::abs(wall.offLine(wall.toWall(p))) <= gate;
-  });
-}
-
 /// What only scans that were not kept have seen stays, where no ray of those kept went through.
-void keepUnconfirmed(const Walls& standing, double gate, Walls& walls) {
+void keepUnconfirmed(const Walls& standing, Walls& walls) {
   const auto slots = static_cast<Walls::Slot>(standing.all().size());
   for (Walls::Slot slot = 0; slot < slots; ++slot) {
     const Wall& before = standing[slot];
@@ -61,7 +49,6 @@ void keepUnconfirmed(const Walls& standing, double gate, Walls& walls) {
       SupportBin seen = before.profile.bin(i);
       const SupportBin& now = wall.profile.bin(i);
       if (seen.hits() <= 0.0 || now.hits() > 0.0 || now.passed > 0.0) continue;
-      if (isTakenOver(slot, before.toMap(seen.mean()), gate, walls)) continue;
       seen.passed = 0.0;
       wall.profile.add(seen);
       wall.hits += seen.hits();
@@ -95,7 +82,7 @@ void reassignEvidence(const std::vector<PastScans::Kept>& scans, const MapNoise&
     });
     if (uses_rays) passRays(scan, beams, noise, walls);
   }
-  keepUnconfirmed(standing, gate, walls);
+  keepUnconfirmed(standing, walls);
 }
 
 }  // namespace cca
