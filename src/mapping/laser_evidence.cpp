@@ -16,7 +16,6 @@ namespace {
 using Slot = Walls::Slot;
 constexpr double kLongestReturn = 100.0;  // m; no indoor wall is farther, and work stays bounded
 constexpr double kLongestRay = 30.0;      // m; further out a beam is wider than a door
-constexpr double kClear = 0.1;            // m, two bins: the least that counts as "behind"
 constexpr double kBlind = 0.05;           // m, before the sensor: nothing is seen there
 
 /// The wall of the new line that each return lies on; -1 where there is none. The lines may come in
@@ -53,7 +52,9 @@ struct Rays {
 };
 
 Rays raysOf(const Scan& scan, const std::vector<Eigen::Vector2d>& beams, const MapNoise& noise) {
-  Rays rays{scan.T_map_sensor.position(), std::max(kClear, kGates * noise.lateralSigma()), {}};
+  Rays rays{scan.T_map_sensor.position(),
+            std::max(SupportProfile::kResolved, kGates * noise.lateralSigma()),
+            {}};
   rays.reach.reserve(scan.size());
   for (std::size_t beam = 0; beam < scan.size(); ++beam) {
     const double reach = scan.ranges[beam];

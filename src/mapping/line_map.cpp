@@ -23,12 +23,9 @@
 namespace cca {
 namespace {
 
-constexpr double kTellingLength = 1.0;   // m; shorter lines say little about the pose
-constexpr double kMostVisits = 200.0;    // what all scans share does not average out for ever
-constexpr double kFarthestPose = 1e7;    // m; beyond, a double no longer tells bins apart
-constexpr double kLongestSight = 500.0;  // m; no 2-D laser sees further
-constexpr double kCornerReach = 0.1;     // m, two bins of support
-constexpr double kSameRow = 0.5;         // m, between the middles of a dotted wall then and now
+constexpr double kTellingLength = 1.0;  // m; shorter lines say little about the pose
+constexpr double kFarthestPose = 1e7;   // m; beyond, a double no longer tells bins apart
+constexpr double kSameRow = 0.5;        // m, between the middles of a dotted wall then and now
 
 /// The line in the map frame, its sensor on the left, the pose error in its covariance.
 NewLine inMap(const LineSegment& line, const Pose2& T_map_sensor, const MapNoise& noise) {
@@ -123,7 +120,7 @@ std::vector<NewLine> LineMap::State::newLines(const std::vector<LineSegment>& li
   std::vector<NewLine> found;
   for (const LineSegment& line : lines) {
     const double length = line.length(), distance = line.moments.mean.norm();
-    const bool sane = length > 0.0 && length < kLongestSight && distance < kLongestSight;
+    const bool sane = length > 0.0 && length < kLongestRange && distance < kLongestRange;
     if (!sane || !(line.moments.weight > 0.0)) continue;
     const FittedLine fitted = fitLine(line.moments);
     const double freedom = line.moments.weight - 2.0;
@@ -138,7 +135,8 @@ void LineMap::State::learn(const std::vector<NewLine>& lines) {
     if (line.wall < 0) continue;
     Wall& wall = walls_[line.wall];
     walls_.touch(line.wall);
-    wall.visits = std::min(wall.visits + 1.0, kMostVisits);
+    // What all scans share does not average out for ever.
+    wall.visits = std::min(wall.visits + 1.0, SupportBin::kMostHits);
     const double length = line.segment.length();
     if (length < kTellingLength || wall.two_sided || parameters_.without(Part::kPoseNoise)) {
       continue;
@@ -171,14 +169,14 @@ std::vector<MapLine> LineMap::State::pieces() const {
 
 std::vector<MapLine> LineMap::State::lines() const {
   std::vector<MapLine> all = pieces();
-  joinCorners(all, kCornerReach);
+  joinCorners(all, SupportProfile::kResolved);
   all.insert(all.end(), dotted_.begin(), dotted_.end());
   return all;
 }
 
 std::vector<PolyLine> LineMap::State::polyLines() const {
   std::vector<MapLine> all = pieces();
-  const std::vector<Corner> corners = joinCorners(all, kCornerReach);
+  const std::vector<Corner> corners = joinCorners(all, SupportProfile::kResolved);
   return chainLines(all, corners);
 }
 

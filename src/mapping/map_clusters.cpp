@@ -14,8 +14,6 @@ namespace {
 
 using Slot = Walls::Slot;
 
-constexpr double kNewLength = 0.1;  // m, two bins that no wall explains
-
 /// A new line and a wall that resemble each other.
 struct Resemblance {
   int line;
@@ -23,7 +21,7 @@ struct Resemblance {
   double similarity;
 };
 
-/// Whether walls explain the line, but for less than kNewLength.
+/// Whether walls explain the line, but for less than SupportProfile::kResolved.
 bool isExplained(const NewLine& line, const MapNoise& noise, const Walls& walls) {
   const double length = line.segment.length();
   const int steps = 1 + static_cast<int>(length / SupportProfile::kBinLength);
@@ -32,7 +30,7 @@ bool isExplained(const NewLine& line, const MapNoise& noise, const Walls& walls)
     const double share = (i + 0.5) / steps;
     const Eigen::Vector2d p = line.segment.start + share * (line.segment.end - line.segment.start);
     if (walls.hitBy(p, line.viewpoint, kGates * noise.lateralSigma()) >= 0) continue;
-    if (length * ++open / steps >= kNewLength) return false;
+    if (length * ++open / steps >= SupportProfile::kResolved) return false;
   }
   return true;
 }

@@ -10,8 +10,7 @@ namespace cca {
 namespace {
 
 constexpr std::size_t kMostBeams = 90;  // evenly over the scan: more say the same
-constexpr double kOnWall = 0.15;        // m, across it; from there to kBehind a return says nothing
-constexpr double kBehind = 0.30;        // m, across it, and a ray has gone through
+constexpr double kOnWall = 0.15;        // m, across it; a ray has gone through from twice that on
 constexpr double kFewestHits = 10.0;    // of a bin, for the wall to stand there
 constexpr double kMemory = 0.998;       // of one scan: what is 500 scans old counts a third
 /// Returns taken for confirmed beforehand, those of some twenty scans: one odd scan is no evidence.
@@ -33,7 +32,7 @@ bool isCrossed(const Wall& wall, const Eigen::Vector2d& origin, const Eigen::Vec
   const Eigen::Vector2d from = wall.toWall(origin), to = wall.toWall(hit);
   const double off_from = wall.offLine(from), off_to = wall.offLine(to);
   if ((off_from > 0.0) == (off_to > 0.0)) return false;
-  if (std::abs(off_to) < kBehind || std::abs(off_from) < kBlindCompared) return false;
+  if (std::abs(off_to) < 2.0 * kOnWall || std::abs(off_from) < kBlindCompared) return false;
   const double t = from.x() + (to.x() - from.x()) * off_from / (off_from - off_to);
   return stands(wall, t) && stands(wall, t - kRimOfWall) && stands(wall, t + kRimOfWall);
 }

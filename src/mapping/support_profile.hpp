@@ -60,6 +60,8 @@ class SupportProfile {
  public:
   /// m; a jamb of 0.1 m has two, and ends are right to half a bin.
   static constexpr double kBinLength = 0.05;
+  /// m; what is nearer is not told apart: ends of a corner, a new wall, what lies behind one.
+  static constexpr double kResolved = 2.0 * kBinLength;
   static int binOf(double t) {
     const double x = t / kBinLength;
     const int i = static_cast<int>(x);  // towards zero; std::floor is a call on a plain x86-64
