@@ -49,6 +49,8 @@ struct Telling {
   double chi_square = 0.0;  ///< of the points on lines
   double freedom = 0.0;     ///< what that is to be expected
 
+  /// How many times its residuals are what noise makes them.
+  double roughness() const { return freedom > 0.0 ? chi_square / freedom : 1.0; }
   void addLine(double points, double line_chi_square, const Prices& prices) {
     price += price > 0.0 ? prices.next_line : prices.line;
     chi_square += line_chi_square;
@@ -104,17 +106,15 @@ Telling byCorner(const PrefixMoments& runs, int first, int last, bool free, cons
 /// What an arc of at least so much chi-square saves where it replaces that at most, nats.
 double mostSaved(const Telling& told, double least_chi_square, double price) {
   const double less = told.chi_square - least_chi_square;
-  const double by_lines = told.freedom > 0.0 ? told.chi_square / told.freedom : 1.0;
-  return told.price - price + 0.5 * less / (less < 0.0 ? std::max(1.0, by_lines) : 1.0);
+  return told.price - price + 0.5 * less / (less < 0.0 ? std::max(1.0, told.roughness()) : 1.0);
 }
 
 /// What an arc saves where it replaces that, nats.
 double saving(const Telling& told, const FittedArc& fitted, double price) {
   // A wall may be rough: what neither its lines nor the arc explain is no sign of a bulge.
-  const double by_lines = told.freedom > 0.0 ? told.chi_square / told.freedom : 1.0;
   if (std::isinf(told.chi_square)) return told.chi_square;
   const double by_arc = fitted.chi_square / std::max(1.0, fitted.arc.support - 3.0);
-  const double rough = std::max(1.0, std::min(by_lines, by_arc));
+  const double rough = std::max(1.0, std::min(told.roughness(), by_arc));
   return told.price - price + 0.5 * (told.chi_square - fitted.chi_square) / rough;
 }
 
