@@ -38,8 +38,13 @@ TEST(ScanSurface, NormalsOfARoundHallPointAtItsCentre) {
   for (const double sigma : {0.01, 0.03}) {
     for (int k = 0; k < 10; ++k) {
       const Pose2 pose{0.3 * k - 1.0, 2.0, 0.2 * k};
+      Scan scan = world.scan(pose, 361, 2.0 * M_PI, sigma);
+      // Lost beams, as MissingReturns tells them: no two scans lose the same.
+      for (std::size_t i = static_cast<std::size_t>(k); i < scan.size(); i += 33) {
+        scan.ranges[i] = std::numeric_limits<double>::quiet_NaN();
+      }
       double sum_sq = 0.0, count = 0.0;
-      for (const auto& point : scanSurface(world.scan(pose, 361, 2.0 * M_PI, sigma)).points) {
+      for (const auto& point : scanSurface(scan).points) {
         if (point.normal.isZero()) continue;
         const Eigen::Vector2d inward = -(pose * point.position).normalized();
         const double off = cross(Pose2{0.0, 0.0, pose.theta} * point.normal, inward);
