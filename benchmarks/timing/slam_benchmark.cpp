@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What a pose costs: slam_benchmark LOG... goes through logs as a robot would meet them, and prints
-// the processor time [ms] of Slam::step(), and of the last pass. Prints tables, as it measures
-// single steps, which Google Benchmark averages away.
+// What a pose costs, see kUsage. Prints tables, as it measures single steps, which Google Benchmark
+// averages away.
 #include <time.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdio>
+#include <exception>
 #include <filesystem>
+#include <string_view>
 #include <vector>
 
 #include "cca_mrpt/slam/slam.hpp"
@@ -16,6 +17,11 @@
 
 namespace cca {
 namespace {
+
+constexpr const char* kUsage =
+    "usage: slam_benchmark LOG...\n\n"
+    "Goes through logs as a robot would meet them, and prints the processor time [ms] of each step "
+    "of SLAM,\nand of the last pass over all. Status 2: a log cannot be read.";
 
 /// Of this thread: what else the machine does is not counted.
 double processorMs() {
@@ -58,8 +64,17 @@ void measure(const char* path) {
 }  // namespace cca
 
 int main(int argc, char** argv) {
+  if (argc < 2 || std::string_view(argv[1]) == "--help") {
+    std::puts(cca::kUsage);
+    return argc < 2 ? 2 : 0;
+  }
   std::puts(
       "| log | scans | beams | key frames | loops | median, ms | 90 % | 99 % | longest | last pass "
       "| scans/s |\n|---|---|---|---|---|---|---|---|---|---|---|");
-  for (int k = 1; k < argc; ++k) cca::measure(argv[k]);
+  try {
+    for (int k = 1; k < argc; ++k) cca::measure(argv[k]);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "slam_benchmark: %s\n", error.what());
+    return 2;
+  }
 }
