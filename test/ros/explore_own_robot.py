@@ -141,6 +141,9 @@ class ExploreOwnRobot(OwnMaster):
         self.with_true_poses(os.path.join(MAPS, "two_rooms.yaml"), "2,3,0", "--wrong-until", "8", "--path")
         self.assertIn("placed anew by corrected_path", self.told)
 
+    def test_two_rooms_with_a_laser_that_hangs_upside_down(self):
+        self.with_true_poses(os.path.join(MAPS, "two_rooms.yaml"), "2,3,0", "--upside-down")
+
     def with_a_bar_below_the_laser(self, sensor):
         """Across the way from the start to the door. It is no line of the map, or precision tells. The start is one from
         which each face of a wall comes into view: exploration ends once all floor has been seen (README, known limits)."""

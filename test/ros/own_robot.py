@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """own_robot.py WORLD.yaml X,Y,DEG REPORT.json [--latency S] [--localised] [--wrong-until S [--path]] [--speed N]
              [--seed N] [--bend DEG] [--stretch F] [--late S] [--told-mount X,Y,DEG] [--two-lasers | --turning-laser]
-             [--bar X1,Y1,X2,Y2 --bar-seen-by points|range]
+             [--upside-down] [--bar X1,Y1,X2,Y2 --bar-seen-by points|range]
 
 A robot that shares no code with the project: a disc on two wheels, whose base answers late and has limits,
 whose odometry is 2 % too long and turns a degree a metre (or --bend), and whose laser sees 270 degrees, hangs off the
@@ -10,7 +10,7 @@ centre, and errs by 1 cm. Gives /clock, scan, odom and tf, takes cmd_vel; --loca
 truth, which it is WRONG by for the first --wrong-until seconds; --path: then it tells where the robot has been,
 as corrected_path. --two-lasers: one looks ahead, one back, 150 degrees each, as scan_front and scan_rear.
 --turning-laser: a cheap one that looks all around in SLOW_SWEEP, beam by beam, clockwise, and loses LOST of them (+inf).
---late: stamps of scans are
+--upside-down: lasers that see all at once hang so, and tf says it. --late: stamps of scans are
 so much behind. --told-mount: where tf has the laser, whatever is so. --bar: lies
 below their plane; hazard_points or hazard_range tell what is within SHORT_SIGHT ahead. Time stands until a
 scan has been answered: how fast the machine is decides nothing. REPORT: contacts, share of the cells that it
@@ -26,7 +26,7 @@ import time
 import numpy
 import rospy
 import yaml
-from geometry_msgs.msg import Pose, PoseStamped, TransformStamped, Twist
+from geometry_msgs.msg import Pose, PoseStamped, Quaternion, TransformStamped, Twist
 from nav_msgs.msg import Odometry, Path
 from PIL import Image
 from rosgraph_msgs.msg import Clock
@@ -233,6 +233,10 @@ class OwnRobot:
             mx, my, degrees = map(float, options.told_mount.split(","))
             told = [(mx, my, math.radians(degrees))]
         frames = [transform("base_link", laser[1], mount, self.now()) for laser, mount in zip(lasers, told)]
+        if options.upside_down:
+            for frame in frames:  # half a turn about the beam ahead, then the mount's own turn
+                z, w = frame.transform.rotation.z, frame.transform.rotation.w
+                frame.transform.rotation = Quaternion(w, z, 0.0, 0.0)
         frames += [transform("base_link", "ranger_%d" % k, (0, 0, bearing), self.now())
                    for k, bearing in enumerate(SHORT_BEARINGS)]
         self.tf_static.publish(frames)
@@ -325,7 +329,8 @@ class OwnRobot:
             scan.angle_increment = field / (beams - 1)
             scan.scan_time, scan.range_min, scan.range_max = self.ticks_a_scan * TICK, 0.02, RANGE
             x, y, theta = compose(self.pose, T_robot_laser)
-            ranges = self.world.cast(x, y, theta + numpy.linspace(-0.5 * field, 0.5 * field, beams))
+            bearings = numpy.linspace(-0.5 * field, 0.5 * field, beams)
+            ranges = self.world.cast(x, y, theta + (-bearings if self.options.upside_down else bearings))
             scan.ranges = (ranges + self.random.normal(0.0, NOISE, beams)).tolist()
             publisher.publish(scan)
         self.answer.wait(PATIENCE if self.has_heard else FIRST_PATIENCE)
@@ -403,6 +408,7 @@ def main():
     parser.add_argument("--late", type=float, default=0.0)
     parser.add_argument("--told-mount")
     parser.add_argument("--turning-laser", action="store_true")
+    parser.add_argument("--upside-down", action="store_true")
     parser.add_argument("--localised", action="store_true")
     parser.add_argument("--wrong-until", type=float, default=0.0)
     parser.add_argument("--path", action="store_true")
