@@ -86,6 +86,7 @@ void constructRecord(LogRecord* self, nb::handle ranges, double angle_min, doubl
                      nb::handle sensor_pose, nb::handle pose, double free_range_without_return,
                      double sweep_duration, nb::handle motion) {
   LogRecord record;
+  record.is_judged = false;
   readScan(ranges, angle_min, angle_increment, record.scan);
   readPlace(nb::make_tuple(0.0, 0.0, 0.0), free_range_without_return, record.scan);
   record.has_time = time.has_value();
@@ -117,13 +118,14 @@ nb::tuple recordState(LogRecord& r) {
                         r.has_time ? std::optional<double>(r.time) : std::nullopt,
                         triple(r.odometry), triple(r.corrected), triple(r.T_robot_sensor),
                         triple(r.scan.T_map_sensor), r.scan.free_range_without_return,
-                        r.scan.sweep_duration, motionOf(r));
+                        r.scan.sweep_duration, motionOf(r), r.is_judged);
 }
 
 void restoreRecord(LogRecord& self, const nb::tuple& state) {
   constructRecord(&self, state[0], nb::cast<double>(state[1]), nb::cast<double>(state[2]),
                   nb::cast<std::optional<double>>(state[3]), state[4], state[5], state[6], state[7],
                   nb::cast<double>(state[8]), nb::cast<double>(state[9]), state[10]);
+  self.is_judged = nb::cast<bool>(state[11]);
 }
 
 std::string describeRecord(LogRecord& record) {
@@ -216,9 +218,15 @@ void addLogs(nb::module_& module) {
                              "Learns what it means when a beam of one laser does not return.")
       .def(nb::init<>())
       .def(
-          "judge", [](MissingReturns& own, LogRecord& record) { own.judge(record.scan); },
+          "judge",
+          [](MissingReturns& own, LogRecord& record) {
+            if (!record.is_judged) own.judge(record.scan);
+            record.is_judged = true;
+          },
           nb::arg("record"),
-          "Judge a scan by those before it: whether a missing return tells of free space.");
+          "Judge a scan by those before it: beams that were lost become NaN, and\n"
+          "`free_range_without_return` 0 where a missing return tells nothing of free space. Once: "
+          "what a log\ngives is judged already, and `Mapper.step` judges what is not.");
   nb::class_<Log>(module, "TextLog",
                   "The scans of a log that is text, one after the other, once; see `read_log`.")
       .def("__init__", &open, nb::arg("path"))

@@ -119,7 +119,9 @@ Args:
     angle_min: rad, bearing of beam 0 in the sensor frame, counter-clockwise.
     angle_increment: rad, from beam to beam; negative where the laser turns clockwise.
     pose: (x, y, theta) of the sensor in the map frame; m, m, rad.
-    free_range_without_return: m, up to which a beam without return is known to be free.
+    free_range_without_return: m, up to which a beam without return is known to be free. Of a laser that loses beams
+        singly, which its driver tells as +inf too, `MissingReturns` tells the lost ones; `Mapper` and `Explorer` ask
+        it by themselves.
 
 Raises:
     ValueError: naming the argument.)")

@@ -10,6 +10,7 @@
 #include "arguments.hpp"
 #include "cca_mrpt/localisation/given_poses.hpp"
 #include "cca_mrpt/navigation/world/exploration_grid.hpp"
+#include "cca_mrpt/sensing/missing_returns.hpp"
 #include "cca_mrpt/session/exploration_session.hpp"
 #include "mapping.hpp"
 #include "module.hpp"
@@ -26,6 +27,7 @@ using Pair = std::pair<double, double>;
 /// What step() needs besides the explorer itself: time never falls.
 struct Exploration {
   ExplorationSession session;
+  MissingReturns missing_returns;  ///< of its laser
   double time = -HUGE_VAL;
 };
 using SharedExplorer = Locked<Exploration>;
@@ -235,6 +237,7 @@ Action explore(SharedExplorer& explorer, nb::handle ranges, double angle_min,
   const auto action = explorer.with([&observation](Exploration& own) -> std::optional<Action> {
     if (observation.time < own.time) return std::nullopt;
     own.time = observation.time;
+    own.missing_returns.judge(observation.scan);
     return own.session.decide(
         own.session.sense(measurementOf(observation, std::nullopt), observation.velocity));
   });
@@ -261,7 +264,8 @@ void addExplorer(nb::module_& module) {
             ExplorerParameters parameters;
             readParameters(keywords, mapping, robot, parameters);
             new (self) SharedExplorer(Exploration{
-                ExplorationSession(std::make_unique<GivenPoses>(), {mapping, robot, parameters})});
+                ExplorationSession(std::make_unique<GivenPoses>(), {mapping, robot, parameters}),
+                {}});
           },
           nb::arg("parameters"), nb::sig(signature.c_str()))
       .def("__repr__",

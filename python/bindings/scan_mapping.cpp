@@ -57,6 +57,7 @@ Mapping::Mapping(PoseSource source, const CcaParameters& parameters, bool at_the
 }
 
 Estimate Mapping::add(LogRecord record) {
+  if (!record.is_judged) missing_returns.judge(record.scan);
   beams += record.scan.size();
   unguided += !record.odometry;
   ReplayMoment moment;

@@ -11,6 +11,7 @@
 #include <thread>
 
 #include "apps/runs/background_work.hpp"
+#include "cca_mrpt/sensing/missing_returns.hpp"
 #include "cca_mrpt/session/mapping_session.hpp"
 #include "cca_mrpt/slam/slam_localiser.hpp"
 #include "io/files/memory_file.hpp"
@@ -58,6 +59,7 @@ struct Mapping {
   std::unique_ptr<LivePage> page;          ///< null: none
   std::unique_ptr<ScanRecorder> recorder;  ///< the session's
   std::unique_ptr<MappingSession> session;
+  MissingReturns missing_returns;                    ///< of a laser whose records somebody made
   Eigen::Vector2d origin = Eigen::Vector2d::Zero();  ///< m, map frame: where its frame lies
   std::size_t beams = 0, unguided = 0;               ///< of all scans; scans without odometry
   std::optional<StoredMemory> earlier;  ///< of earlier drives, that this one goes on with

@@ -16,7 +16,7 @@ import numpy as np
 from gymnasium import spaces
 from numpy.typing import ArrayLike, NDArray
 
-from . import CellState, ExplorationGrid
+from . import CellState, ExplorationGrid, LogRecord, MissingReturns
 
 if TYPE_CHECKING:
     from typing_extensions import Unpack
@@ -93,6 +93,7 @@ class ExploreEnv(gymnasium.Env[Observation, NDArray[np.float32]]):
             return Simulation(world, start=start, seed=seed, **parameters)
 
         self._make = make
+        self._tells_lost_beams = parameters.get("missing", "told") == "told"
         self._period, self._enough = period, enough
         self._way_cost, self._contact_cost = way_cost, contact_cost
         self.render_mode = render_mode
@@ -118,7 +119,7 @@ class ExploreEnv(gymnasium.Env[Observation, NDArray[np.float32]]):
         start = (options or {}).get("start")
         self.simulation = self._make(int(self.np_random.integers(1, 2**31 - 1)), start)
         self._start = np.array(self.simulation.pose[:2])
-        self._grid = ExplorationGrid(self.simulation.resolution)
+        self._grid, self._missing_returns = ExplorationGrid(self.simulation.resolution), MissingReturns()
         self._revealed = self._distance = 0.0
         self._contacts = 0
         observation = self._look()
@@ -151,7 +152,11 @@ class ExploreEnv(gymnasium.Env[Observation, NDArray[np.float32]]):
         scan = dict(angle_min=self.simulation.angle_min, angle_increment=self.simulation.angle_increment)
         longest = self.simulation.free_range_without_return
         x, y, theta = self.simulation.pose
-        self._grid.insert(ranges, pose=(x, y, theta), free_range_without_return=longest, **scan)
+        record = LogRecord(ranges, free_range_without_return=longest, **scan)
+        if not self._tells_lost_beams:
+            self._missing_returns.judge(record)
+        self._grid.insert(record.ranges, pose=(x, y, theta),
+                          free_range_without_return=record.free_range_without_return, **scan)
         shown = np.where(np.isfinite(ranges), ranges, longest).clip(0.0, longest)
         around = self._grid.states_around((x, y), self._cells)
         velocity = np.clip(self.simulation.velocity, -self._limits, self._limits)

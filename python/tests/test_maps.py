@@ -43,6 +43,32 @@ def test_wheels_alone_are_not_believed(drive):
     assert len(slam) <= 7 < len(raw)
 
 
+def with_lost_beams(records, reach):
+    """The same by a laser that sees so far, m, and loses 3 % of its beams, which its driver tells as +inf."""
+    random, lossy = np.random.default_rng(5), []
+    for record in records:
+        ranges = np.where(random.random(len(record.ranges)) < 0.03, np.inf, record.ranges)
+        lossy.append(cca_mrpt.LogRecord(ranges, **FULL_TURN, time=record.time, odometry=record.odometry,
+                                        free_range_without_return=reach))
+    return lossy
+
+
+@pytest.mark.parametrize("made_by", [lambda records: cca_mrpt.map(records), lambda records: stepped(records).finish()])
+def test_lost_beams_of_somebodys_own_scans_free_nothing_behind_walls(made_by, drive):
+    records, _ = drive
+    free = [int((made.grid.cells == 1).sum()) for made in (made_by(records), made_by(with_lost_beams(records, 30.0)))]
+    assert abs(free[1] - free[0]) < 0.02 * free[0]
+    walls = np.isfinite(np.stack([record.ranges for record in records]))
+    assert walls.all() and all(np.isinf(record.ranges).any() for record in with_lost_beams(records, 30.0))
+
+
+def stepped(records):
+    mapper = cca_mrpt.Mapper()
+    for record in records:
+        mapper.step(record)
+    return mapper
+
+
 def test_scan_by_scan_is_the_same_as_the_log_as_a_whole(drive):
     records, _ = drive
     mapper = cca_mrpt.Mapper()

@@ -14,10 +14,11 @@ namespace cca {
 /// One laser scan of a log with all the poses that the log knows for it (of the robot's base where
 /// the log tells the sensor's place on it, else of the sensor).
 struct LogRecord {
-  Scan scan;             ///< T_map_sensor from `corrected`, else `odometry`, else identity
-  double time = 0.0;     ///< s; 0 where the log does not tell
-  bool has_time = true;  ///< whether the log tells the time of this scan
-  Pose2 T_robot_sensor;  ///< identity where the log does not tell
+  Scan scan;              ///< T_map_sensor from `corrected`, else `odometry`, else identity
+  double time = 0.0;      ///< s; 0 where the log does not tell
+  bool has_time = true;   ///< whether the log tells the time of this scan
+  bool is_judged = true;  ///< by MissingReturns; readers do so
+  Pose2 T_robot_sensor;   ///< identity where the log does not tell
   std::optional<Pose2> corrected;   ///< T_map_robot as a SLAM system had stored it
   std::optional<Pose2> odometry;    ///< T_odom_robot
   std::optional<Pose2> truth;       ///< T_map_robot of a simulation
