@@ -151,6 +151,28 @@ TEST(GeoJson, HoldsLinesAndPolyLinesWithTheirProperties) {
   EXPECT_EQ(chain["geometry"]["coordinates"].size(), 3U);
 }
 
+TEST(DottedWalls, AreToldApartInEachFormatOfLines) {
+  auto products = corner();
+  products.lines.back().kind = LineKind::kDotted;  // line 7, of no chain
+  const auto json = nlohmann::json::parse(linesGeoJson(products.lines, products.poly_lines));
+  EXPECT_EQ(json["features"][0]["properties"]["line_kind"], "wall");
+  EXPECT_EQ(json["features"][2]["properties"]["line_kind"], "dotted");
+  EXPECT_EQ(readLinesCsv(linesCsv(products.lines), "a").back().kind, LineKind::kDotted);
+  const auto times = [](const std::string& text, const std::string& part) {
+    int count = 0;
+    for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) {
+      ++count;
+    }
+    return count;
+  };
+  const std::string svg = linesSvg(products.lines, products.poly_lines, {});
+  EXPECT_EQ(times(svg, "data-id=\"7\" data-support=\"70.0\" stroke-dasharray="), 1);
+  EXPECT_EQ(times(svg, "stroke-dasharray="), 1);
+  const std::string dxf = linesDxf(products.lines, products.poly_lines, {});
+  EXPECT_EQ(times(dxf, "8\nDOTTED\n100\nAcDbLine"), 1);
+  EXPECT_EQ(times(dxf, "8\nLINES\n100\nAcDbLine"), 3);
+}
+
 TEST(Arcs, AreRowsOfCentreRadiusAndExtent) {
   EXPECT_EQ(arcsCsv(pillarAndBend()),
             "x,y,radius,start_deg,sweep_deg,sigma_x,sigma_y,sigma_radius,line_ids\n"

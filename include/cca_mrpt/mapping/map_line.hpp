@@ -16,6 +16,9 @@ enum class LineKind : std::uint8_t {
   kDotted,  ///< posts, or a pane that few beams return from: rays pass between
 };
 
+/// As files name it.
+inline const char* nameOf(LineKind kind) { return kind == LineKind::kDotted ? "dotted" : "wall"; }
+
 /// One segment of the map, in the map frame.
 struct MapLine {
   std::uint64_t id = 0;  ///< stable while the line exists

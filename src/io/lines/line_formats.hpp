@@ -28,11 +28,12 @@ std::vector<MapLine> readLinesCsv(const std::string& text, const std::string& na
 
 /// A line map as a GeoJSON FeatureCollection: longitude and latitude where the place of the map on
 /// the Earth is told (`origin` keeps it), else metres of the map frame, which a `note` says.
-/// Each line is a LineString with `kind` "line", `id`, `support`, `length` and `covariance`
-/// (offset-offset, offset-angle, angle-angle; m^2, m rad, rad^2); each poly-line one more with
-/// `kind` "poly_line", `length` and `line_ids`; each arc one with `kind` "arc", `centre`, `radius`,
-/// `start_deg`, `sweep_deg` and `line_ids`, its coordinates 5 degrees apart; the trajectory, where
-/// there is one, a last with `kind` "trajectory". Properties are in metres of the map frame always.
+/// Each line is a LineString with `kind` "line", `id`, `support`, `share`, `line_kind` ("wall" or
+/// "dotted"), `length` and `covariance` (offset-offset, offset-angle, angle-angle; m^2, m rad,
+/// rad^2); each poly-line one more with `kind` "poly_line", `length` and `line_ids`; each arc one
+/// with `kind` "arc", `centre`, `radius`, `start_deg`, `sweep_deg` and `line_ids`, its coordinates
+/// 5 degrees apart; the trajectory, where there is one, a last with `kind` "trajectory". Properties
+/// are in metres of the map frame always.
 std::string linesGeoJson(const std::vector<MapLine>& lines, const std::vector<PolyLine>& poly_lines,
                          const std::vector<Pose2>& trajectory = {},
                          const std::vector<MapArc>& arcs = {},
@@ -49,7 +50,7 @@ struct ChainsAndTrajectory {
 ChainsAndTrajectory readLinesGeoJson(const std::string& text, const std::string& name);
 
 /// A floor plan to scale (1 : 100, when printed unscaled) as SVG: poly-lines as polylines, what is
-/// part of none as lines; ids and supports as data attributes.
+/// part of none as lines, dashed where they are dotted; ids and supports as data attributes.
 /// @param trajectory  drawn thin below the lines; may be empty.
 /// @param arcs        drawn thin beside their chords.
 /// @param place       an arrow shows where north is; nothing: no arrow. A scale bar is always
@@ -59,7 +60,8 @@ std::string linesSvg(const std::vector<MapLine>& lines, const std::vector<PolyLi
                      const std::optional<GeoReference>& place = {});
 
 /// A floor plan as DXF of AutoCAD 2000, which says that its unit is the metre: layers POLYLINES,
-/// LINES (the same walls one by one; switched off), ARCS and TRAJECTORY. Arcs are ARC or CIRCLE;
+/// DOTTED (dotted walls, which are in no chain), LINES (all walls one by one; switched off), ARCS
+/// and TRAJECTORY. Arcs are ARC or CIRCLE;
 /// their chords stay.
 std::string linesDxf(const std::vector<MapLine>& lines, const std::vector<PolyLine>& poly_lines,
                      const std::vector<Pose2>& trajectory, const std::vector<MapArc>& arcs = {});

@@ -19,7 +19,6 @@ namespace {
 
 constexpr std::array<const char*, 9> kColumns = {
     "x1", "y1", "x2", "y2", "id", "support", "sigma_offset", "sigma_angle_deg", "share"};
-constexpr const char* kDotted = "dotted";
 constexpr std::size_t kNeeded = 4;
 constexpr double kLargestValue =
     1e16;  // in whatever column: what is read must fit a row when written
@@ -71,7 +70,7 @@ std::string linesCsv(const std::vector<MapLine>& lines) {
     std::snprintf(row, sizeof row, "%.4f,%.4f,%.4f,%.4f,%" PRIu64 ",%.1f,%.4f,%.6f,%.6f,%s,%.4f\n",
                   s.start.x(), s.start.y(), s.end.x(), s.end.y(), line.id, line.support, s.length(),
                   sigma(s.covariance(0, 0)), kDegreesPerRadian * sigma(s.covariance(1, 1)),
-                  line.kind == LineKind::kDotted ? kDotted : "wall", line.share);
+                  nameOf(line.kind), line.share);
     text += row;
   }
   return text;
@@ -127,7 +126,7 @@ std::vector<MapLine> readLinesCsv(const std::string& text, const std::string& na
     const double offset = std::min(std::abs(value[6]), kLargestSigma);
     const double angle = std::min(std::abs(value[7]), kLargestSigma) / kDegreesPerRadian;
     line.segment.covariance << offset * offset, 0.0, 0.0, angle * angle;
-    const bool is_dotted = kind_at < values.size() && values[kind_at] == kDotted;
+    const bool is_dotted = kind_at < values.size() && values[kind_at] == nameOf(LineKind::kDotted);
     line.kind = is_dotted ? LineKind::kDotted : LineKind::kWall;
     line.share = value[8];
     lines.push_back(line);

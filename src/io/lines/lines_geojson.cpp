@@ -24,6 +24,7 @@ Json lineFeature(const MapLine& line, const GeoPositions& position) {
                   {"id", line.id},
                   {"support", line.support},
                   {"share", inTenthousandths(line.share)},
+                  {"line_kind", nameOf(line.kind)},
                   {"length", inTenthousandths(line.segment.length())},
                   {"covariance", {c(0, 0), c(0, 1), c(1, 1)}}},
                  Json::array({position(line.segment.start), position(line.segment.end)}));

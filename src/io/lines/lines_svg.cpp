@@ -114,6 +114,7 @@ std::string linesSvg(const std::vector<MapLine>& lines, const std::vector<PolyLi
     const auto &a = line.segment.start, &b = line.segment.end;
     text +=
         format("<line data-id=\"%" PRIu64 "\" data-support=\"%.1f\" ", line.id, line.support) +
+        (line.kind == LineKind::kDotted ? "stroke-dasharray=\"0.15 0.1\" " : "") +
         format("x1=\"%.4f\" y1=\"%.4f\" x2=\"%.4f\" y2=\"%.4f\"/>\n", a.x(), -a.y(), b.x(), -b.y());
   }
   text += "</g>\n<g id=\"arcs\" stroke=\"#3f9a5f\" stroke-width=\"0.02\">\n";
