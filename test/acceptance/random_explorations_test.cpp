@@ -85,7 +85,7 @@ struct Outcome {
   double distance = 0.0, time = 0.0, least_coverage = 1.0, coverage = 0.0;
 };
 
-/// Ten minutes are twenty times what the slowest place takes without noise and movers.
+/// s. Half an hour is sixty times what the slowest place takes without noise and movers.
 constexpr double kLongestTime = 1800.0;
 
 struct Trial {
