@@ -100,7 +100,8 @@ TEST(MapPicture, ShowsAMapOfMoreCellsThanAnImageHolds) {
 }
 
 TEST(LinesCsv, ReadsBackWhatItWrote) {
-  const auto lines = corner().lines;
+  auto lines = corner().lines;
+  lines[1].segment.covariance << 4e-4, 5e-6, 5e-6, 1e-6;
   const auto back = readLinesCsv(linesCsv(lines), "lines.csv");
   ASSERT_EQ(back.size(), lines.size());
   for (std::size_t k = 0; k < lines.size(); ++k) {
@@ -108,6 +109,10 @@ TEST(LinesCsv, ReadsBackWhatItWrote) {
     EXPECT_EQ(back[k].support, lines[k].support);
     EXPECT_LT((back[k].segment.start - lines[k].segment.start).norm(), 1e-4);
     EXPECT_LT((back[k].segment.end - lines[k].segment.end).norm(), 1e-4);
+    const Eigen::Matrix2d &c = lines[k].segment.covariance, &d = back[k].segment.covariance;
+    EXPECT_NEAR(d(0, 0), c(0, 0), 1e-3 * c(0, 0));
+    EXPECT_NEAR(d(0, 1), c(0, 1), 1e-8);
+    EXPECT_NEAR(d(1, 1), c(1, 1), 1e-3 * c(1, 1));
   }
 }
 

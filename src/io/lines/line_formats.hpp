@@ -13,10 +13,10 @@ namespace cca {
 inline constexpr double kFarthestPlan = 1e8;  ///< m, from (0, 0): beyond, it is in other units
 
 /// A line map as CSV, header
-/// `x1,y1,x2,y2,id,support,length,sigma_offset,sigma_angle_deg,kind,share`: end points [m, map
-/// frame], stable id, laser returns, length [m], the standard deviations of the line's lateral
-/// offset at its middle [m] and of its orientation [deg], `wall` or `dotted`, and the share of its
-/// length that returns.
+/// `x1,y1,x2,y2,id,support,length,sigma_offset,sigma_angle_deg,kind,share,sigma_start,sigma_end`:
+/// end points [m, map frame], stable id, laser returns, length [m], the standard deviations of the
+/// line's lateral offset at its middle [m] and of its orientation [deg], `wall` or `dotted`, the
+/// share of its length that returns, and the standard deviations of its offset at its ends [m].
 std::string linesCsv(const std::vector<MapLine>& lines);
 
 /// Reads linesCsv() back, and any CSV whose header names x1, y1, x2 and y2, by commas, or by

@@ -17,14 +17,31 @@
 namespace cca {
 namespace {
 
-constexpr std::array<const char*, 9> kColumns = {
-    "x1", "y1", "x2", "y2", "id", "support", "sigma_offset", "sigma_angle_deg", "share"};
+constexpr std::array<const char*, 11> kColumns = {
+    "x1",    "y1",          "x2",       "y2", "id", "support", "sigma_offset", "sigma_angle_deg",
+    "share", "sigma_start", "sigma_end"};
 constexpr std::size_t kNeeded = 4;
 constexpr double kLargestValue =
     1e16;  // in whatever column: what is read must fit a row when written
 constexpr double kLargestSigma = 1e8;  // m or deg; its square keeps its digits
 
 double sigma(double variance) { return std::sqrt(std::max(0.0, variance)); }
+
+/// m, lateral, of a line at a place that lies so far, m, beyond its middle.
+double sigmaAt(double beyond, const Eigen::Matrix2d& c) {
+  return sigma(c(0, 0) + 2.0 * beyond * c(0, 1) + beyond * beyond * c(1, 1));
+}
+
+/// Of a line's offset and angle, from their deviations and those of its ends, which are equal where
+/// nobody has told them.
+Eigen::Matrix2d covarianceOf(double offset, double angle, double start, double end, double length) {
+  const double most = offset * angle;
+  const double both = length > 0.0 ? 0.5 * (end * end - start * start) / length : 0.0;
+  Eigen::Matrix2d c;
+  c << offset * offset, std::clamp(both, -most, most), 0.0, angle * angle;
+  c(1, 0) = c(0, 1);
+  return c;
+}
 
 std::vector<std::string> cells(std::string row) {
   if (!row.empty() && row.back() == '\r') row.pop_back();
@@ -63,14 +80,18 @@ double number(const std::string& cell, double largest, const std::string& where)
 }  // namespace
 
 std::string linesCsv(const std::vector<MapLine>& lines) {
-  std::string text = "x1,y1,x2,y2,id,support,length,sigma_offset,sigma_angle_deg,kind,share\n";
-  char row[256];
+  std::string text =
+      "x1,y1,x2,y2,id,support,length,sigma_offset,sigma_angle_deg,kind,share,sigma_start,sigma_"
+      "end\n";
+  char row[320];
   for (const MapLine& line : lines) {
     const LineSegment& s = line.segment;
-    std::snprintf(row, sizeof row, "%.4f,%.4f,%.4f,%.4f,%" PRIu64 ",%.1f,%.4f,%.6f,%.6f,%s,%.4f\n",
-                  s.start.x(), s.start.y(), s.end.x(), s.end.y(), line.id, line.support, s.length(),
-                  sigma(s.covariance(0, 0)), kDegreesPerRadian * sigma(s.covariance(1, 1)),
-                  nameOf(line.kind), line.share);
+    const double half = 0.5 * s.length();
+    std::snprintf(
+        row, sizeof row, "%.4f,%.4f,%.4f,%.4f,%" PRIu64 ",%.1f,%.4f,%.6f,%.6f,%s,%.4f,%.6f,%.6f\n",
+        s.start.x(), s.start.y(), s.end.x(), s.end.y(), line.id, line.support, s.length(),
+        sigma(s.covariance(0, 0)), kDegreesPerRadian * sigma(s.covariance(1, 1)), nameOf(line.kind),
+        line.share, sigmaAt(-half, s.covariance), sigmaAt(half, s.covariance));
     text += row;
   }
   return text;
@@ -125,7 +146,9 @@ std::vector<MapLine> readLinesCsv(const std::string& text, const std::string& na
     line.support = value[5];
     const double offset = std::min(std::abs(value[6]), kLargestSigma);
     const double angle = std::min(std::abs(value[7]), kLargestSigma) / kDegreesPerRadian;
-    line.segment.covariance << offset * offset, 0.0, 0.0, angle * angle;
+    const double start = std::min(std::abs(value[9]), kLargestSigma);
+    const double end = std::min(std::abs(value[10]), kLargestSigma);
+    line.segment.covariance = covarianceOf(offset, angle, start, end, line.segment.length());
     const bool is_dotted = kind_at < values.size() && values[kind_at] == nameOf(LineKind::kDotted);
     line.kind = is_dotted ? LineKind::kDotted : LineKind::kWall;
     line.share = value[8];
