@@ -51,7 +51,7 @@ std::optional<LocalMatch> JumpHypothesis::update(const KeyFrames& frames,
 }
 
 bool JumpHypothesis::isAccepted() const {
-  const int scans = static_cast<int>(T_frame_sensor_.size());
+  const std::size_t scans = T_frame_sensor_.size();
   return scans >= kStandingScans ||
          (scans > 1 && way_ >= std::max(kLeastWayOfJump, kWayOfClaim * claim_));
 }
