@@ -50,6 +50,10 @@ std::optional<LocalMatch> JumpHypothesis::update(const KeyFrames& frames,
   return std::nullopt;
 }
 
+bool JumpHypothesis::mayBeSlip() const {
+  return isOpen() && claim_ <= wayWithTurns({kWidestWindowHere, 0.0, kWidestTurn});
+}
+
 bool JumpHypothesis::isAccepted() const {
   const std::size_t scans = T_frame_sensor_.size();
   return scans >= kStandingScans ||

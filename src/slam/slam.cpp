@@ -51,7 +51,7 @@ SlamPose Slam::State::step(const AnalysedScan& analysed, const Pose2& T_robot_se
   }
 
   const Pose2 T_last_now = frames_.graph.pose(frames_.size() - 1).inverse() * T_map_sensor_;
-  if (monitor_.isLost()) {
+  if (monitor_.isLost() && !jump_.mayBeSlip()) {
     startPart(newFrame(scan, T_robot_sensor, std::move(surface)));
   } else if (!is_doubtful && isKeyFrameDue(T_last_now, surface)) {
     const GraphEdge edge = odometry_.edge(frames_.size() - 1);
