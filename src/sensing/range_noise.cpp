@@ -70,7 +70,6 @@ double medianDeviation(std::vector<Deviation>* all) {
 constexpr double kWantedSigma = 0.005;  // m; the clearance of the driver allows for it
 constexpr double kPatch = 0.03;         // m, to each side: no corner is rounded farther
 constexpr double kFarther = 0.75;       // sigmas; beyond, an edge has been smoothed away
-constexpr double kGate = 3.0 * 2.45;    // sigmas, of a second difference
 
 }  // namespace
 
@@ -104,7 +103,7 @@ Scan smoothScan(const Scan& scan, double range_sigma) {
       const double left = scan.ranges[static_cast<std::size_t>(i + k)];
       const double right = scan.ranges[static_cast<std::size_t>(i - k)];
       if (!isReturn(left) || !isReturn(right)) continue;
-      if (std::abs(left + right - 2.0 * range) > kGate * range_sigma) continue;
+      if (std::abs(left + right - 2.0 * range) > kGates * kSecondDifference * range_sigma) continue;
       sum_left += left;
       sum_right += right;
       ++count;

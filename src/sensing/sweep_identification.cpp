@@ -14,10 +14,8 @@ namespace {
 constexpr double kAtRest = 0.05;        // rad/s; such a scan is bent by no sweep worth telling
 constexpr double kTurning = 0.3;        // rad/s, by which bent scans differ from others
 constexpr double kDriving = 0.25;       // m/s, likewise: 5 cm between the ends of a slow sweep
-constexpr double kAsFast = 0.02;        // m/s, by which odometry's speed wavers
 constexpr double kTurnedAway = 0.5;     // rad: a turn at constant rate shows its sweep at the seam
 constexpr double kNearReference = 0.8;  // m; farther off, other surfaces come into view
-constexpr double kLongestTurn = 7.0;    // rad, a full turn: odometry's heading has drifted by then
 constexpr double kClip = 0.3;           // m, of a difference: occlusions are no matter of the sweep
 constexpr std::size_t kPoints = 180;    // of a scan that are compared
 constexpr double kLeastCommon = 0.4;    // of them, that the reference has to see
@@ -112,12 +110,13 @@ void SweepIdentification::add(const Scan& scan, double duration, const Twist& se
     reference_->turned += std::abs(wrapAngle(T_odom_sensor.theta - last_->theta));
   }
   last_ = T_odom_sensor;
+  // After a full turn the odometry's heading has drifted.
   const bool is_near =
-      reference_ && reference_->turned < kLongestTurn &&
+      reference_ && reference_->turned < 2.0 * M_PI &&
       (T_odom_sensor.position() - reference_->T_odom_sensor.position()).norm() < kNearReference;
   const bool is_comparable = is_near && isComparable(sensor, T_odom_sensor);
   const bool is_straighter = reference_ && std::abs(sensor.angular) < kAtRest &&
-                             sensor.linear.norm() < reference_->linear.norm() + kAsFast;
+                             sensor.linear.norm() < reference_->linear.norm();
   if (!is_near || (is_straighter && !is_comparable)) {
     return begin(scan, duration, sensor, T_odom_sensor);
   }

@@ -50,8 +50,12 @@ std::optional<LocalMatch> JumpHypothesis::update(const KeyFrames& frames,
   return std::nullopt;
 }
 
+bool JumpHypothesis::mayBeSlip() const {
+  return isOpen() && claim_ <= wayWithTurns({kWidestWindowHere, 0.0, kWidestTurn});
+}
+
 bool JumpHypothesis::isAccepted() const {
-  const int scans = static_cast<int>(T_frame_sensor_.size());
+  const std::size_t scans = T_frame_sensor_.size();
   return scans >= kStandingScans ||
          (scans > 1 && way_ >= std::max(kLeastWayOfJump, kWayOfClaim * claim_));
 }

@@ -34,6 +34,9 @@ class JumpHypothesis {
                                    const Tracked& tracked);
 
   bool isOpen() const { return !T_frame_sensor_.empty(); }
+  /// Whether it is in question, and claims no more than a metre and a radian: a wheel may have
+  /// slipped so, and the robot is not lost yet.
+  bool mayBeSlip() const;
   /// The poses of the scans since the jump, in the last key frame; the newest last.
   const std::vector<Pose2>& poses() const { return T_frame_sensor_; }
   void reset() { *this = {}; }

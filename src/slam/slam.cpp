@@ -13,9 +13,6 @@
 namespace cca {
 namespace {
 
-/// From a key frame to the next.
-constexpr MatchScale kStepMatch{0.15, 0.04};
-
 std::optional<Pose2> sensorOf(const std::optional<Pose2>& T_odom_robot,
                               const Pose2& T_robot_sensor) {
   if (!T_odom_robot || !isFinite(*T_odom_robot)) return std::nullopt;
@@ -54,7 +51,7 @@ SlamPose Slam::State::step(const AnalysedScan& analysed, const Pose2& T_robot_se
   }
 
   const Pose2 T_last_now = frames_.graph.pose(frames_.size() - 1).inverse() * T_map_sensor_;
-  if (monitor_.isLost()) {
+  if (monitor_.isLost() && !jump_.mayBeSlip()) {
     startPart(newFrame(scan, T_robot_sensor, std::move(surface)));
   } else if (!is_doubtful && isKeyFrameDue(T_last_now, surface)) {
     const GraphEdge edge = odometry_.edge(frames_.size() - 1);
@@ -186,7 +183,7 @@ void Slam::State::addKeyFrame(int frame, const GraphEdge& odometry, bool is_meas
   back_end_.connectOdometry(frames_.graph, odometry, scale);
   removeMovers(frames_, frame, tracker_.view());
   for (const int other : tracker_.view()) {
-    if (auto edge = matchEdge(frames_, other, frame, kStepMatch)) {
+    if (auto edge = matchEdge(frames_, other, frame, scaleOf(kTiedSigma))) {
       if (other == odometry.from && is_measured) learnScale(odometry, *edge);
       if (other >= frame - kFramesOfVisit) edge->kind = EdgeKind::kMatch;
       back_end_.connectMatch(frames_.graph, *edge);
@@ -205,7 +202,8 @@ void Slam::State::learnScale(const GraphEdge& odometry, const GraphEdge& match) 
   const Eigen::Vector2d ahead = by_odometry / way;
   // Its returns count as if they erred by the reach of the match; they err less. What it says
   // nothing of may be off by a metre.
-  const double share = noiseShare(frames_.surfaces[static_cast<std::size_t>(match.to)], kStepMatch);
+  const double share =
+      noiseShare(frames_.surfaces[static_cast<std::size_t>(match.to)], scaleOf(kTiedSigma));
   const Eigen::Matrix3d covariance =
       (match.information / (share * share) + Eigen::Matrix3d::Identity()).inverse();
   motion_.learnWay(way / (1.0 + motion_.longer()), ahead.dot(match.T_from_to.position()),
@@ -213,20 +211,18 @@ void Slam::State::learnScale(const GraphEdge& odometry, const GraphEdge& match) 
 }
 
 /// Begins a part of the graph with a frame. The scans in doubt before it were the first that were
-/// taken there, where they agree with it.
+/// taken there.
 void Slam::State::startPart(int frame) {
   tracker_.lookAt(frame);
   back_end_.beginPart();
   jump_.reset();
-  const std::vector<ScanSurface>& doubtful = monitor_.scans();
-  const std::size_t earlier = doubtful.empty() ? 0 : doubtful.size() - 1;
-  const ScanSurface& first = frames_.surfaces[static_cast<std::size_t>(frame)];
+  const std::size_t doubtful = monitor_.scans(), earlier = doubtful > 0 ? doubtful - 1 : 0;
   for (std::size_t k = 0; k < earlier; ++k) {
     DrivenScan& scan = scans_[scans_.size() - earlier + k];
     scan.T_frame_sensor =
         T_map_sensor_.inverse() * frames_.graph.pose(scan.frame) * scan.T_frame_sensor;
     scan.frame = frame;
-    scan.is_doubtful = !monitor_.isUsual(mutualSights(first, doubtful[k], scan.T_frame_sensor));
+    scan.is_doubtful = false;
   }
   monitor_.clear();
   if (frame > 0) corrections_.count();  // what was seen in doubt is nowhere in the map
