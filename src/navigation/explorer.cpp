@@ -14,9 +14,6 @@
 namespace cca {
 namespace {
 
-constexpr double kHome = 0.3;  // m; the robot, as wide, stands on the place where it began
-// s; who stands in the only path for a moment may leave, and so may the trace of who passed.
-constexpr double kPathLost = 10.0;
 constexpr int kMostHeld = 2;  // times on one errand: the first may have been somebody who passed
 // Number of the goal, see Plan::goal; those of errands lie below.
 constexpr int kHomeGoal = Plan::kLookAround - 1;
@@ -186,7 +183,7 @@ bool Explorer::waitsForWay(const Plan& plan, double time) {
   if (plan.phase == PlanPhase::kDriving) shut_in_->stop();
   if (!plan.isFinished() || plan.unreachedArea() < kMuchUnreached) return false;
   shut_in_->run(time);
-  return !shut_in_->isOver(kPathLost, time);
+  return !shut_in_->isOver(PathProgress::kPatience, time);
 }
 
 Explorer::Intent Explorer::goHome(const Observation& seen) {
@@ -195,7 +192,7 @@ Explorer::Intent Explorer::goHome(const Observation& seen) {
   GoalOutcome outcome = driver_->takeOutcome();
   const bool is_of_home = outcome.goal == kHomeGoal;
   const bool is_back = is_of_home && outcome.status == GoalStatus::kReached;
-  if (is_back || (robot - T_map_start_->position()).norm() < kHome)
+  if (is_back || (robot - T_map_start_->position()).norm() < kBesideGoal)
     return {ExplorationStatus::kFinished, why + "; back at the start"};
   if (is_of_home && outcome.status == GoalStatus::kGivenUp)
     return {ExplorationStatus::kFinished, why + "; the way back to the start is blocked"};
@@ -243,7 +240,7 @@ Explorer::Intent Explorer::runErrand(const Observation& seen) {
   if (!path.empty() && (path.back() - goal).norm() >= kBesideGoal) path.clear();
   if (path.empty()) {
     errand_->without_path.run(seen.time);
-    if (errand_->without_path.isOver(kPathLost, seen.time))
+    if (errand_->without_path.isOver(PathProgress::kPatience, seen.time))
       return endErrand(ExplorationStatus::kUnreachable, "no known way leads there");
     intent.reason = "waiting for a way to where it was sent";
   } else {

@@ -10,13 +10,13 @@
 namespace cca {
 namespace {
 
-constexpr double kShorter = 0.02;    // m: less is noise of the pose, not way
-constexpr double kAnotherWay = 0.5;  // m longer, from one step to the next
-constexpr double kPatience = 10.0;   // s, and a whole turn
-constexpr double kSlowest = 0.2;     // of full speed: who is slower on the whole way is stuck
-constexpr double kGrace = 30.0;      // s, for turns, people and narrow places on any way
+constexpr double kShorter = 0.02;  // m: less is noise of the pose, not way
+constexpr double kSlowest = 0.2;   // of full speed: who is slower on the whole way is stuck
+constexpr double kGrace = 30.0;    // s, for turns, people and narrow places on any way
 
-constexpr double kMoved = 0.5;   // m, any way, within kPatience: slower is standing
+// m, clearly elsewhere. Who goes less within kPatience, any way, stands; a way that is longer by
+// more from one step to the next is another one.
+constexpr double kMoved = 0.5;
 constexpr double kWalked = 0.2;  // m, along a boundary, which may wind back
 
 }  // namespace
@@ -34,7 +34,7 @@ void PathProgress::note(int goal, const std::vector<Eigen::Vector2d>& way, doubl
     deadline_ = time + kGrace + more + left / (kSlowest * robot.max_linear_velocity);
   }
   const bool was_corrected = std::exchange(is_corrected_, false);
-  const bool has_changed = left < least_ - kShorter || left > last_ + kAnotherWay;
+  const bool has_changed = left < least_ - kShorter || left > last_ + kMoved;
   const bool gets_on = is_another_goal || (has_changed && !was_corrected);
   if (gets_on) clock_.restart(time);
   if (gets_on || was_corrected) {

@@ -38,6 +38,8 @@ class PathProgress {
   void note(int goal, const std::vector<Eigen::Vector2d>& way, double time,
             const RobotParameters& robot, bool looks_around = false);
   static constexpr double kLookAround = 0.5;  ///< of the full turning rate, while looking around
+  /// s; who stands in the path for a moment may leave, and so may the trace of who passed.
+  static constexpr double kPatience = 10.0;
 
   /// Standing still by order is no failure: the time since the last call does not count.
   void pauseTimers(double time);

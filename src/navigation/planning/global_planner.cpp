@@ -110,13 +110,10 @@ bool GlobalPlanner::goalStands(const PlanningScene& scene) const {
   return isGoalUnseen(scene.world()) && !scene.isExhausted(goal_->cell);
 }
 
-// The first leg, which begins where the robot is, counts only where the robot stands clear itself.
 bool GlobalPlanner::pathStands(const PlanningScene& scene) const {
   const double r = scene.grid().resolution();
-  const PassableSpace space = scene.space();
-  const bool stands_clear = space.isTraversable(scene.grid().cellOf(plan_.path.front()));
-  for (std::size_t i = stands_clear ? 1 : 2; i < plan_.path.size(); ++i) {
-    if (!isClearLine(space, plan_.path[i - 1] / r, plan_.path[i] / r)) return false;
+  for (std::size_t i = 1; i < plan_.path.size(); ++i) {
+    if (!isClearLine(scene.space(), plan_.path[i - 1] / r, plan_.path[i] / r)) return false;
   }
   return true;
 }
@@ -271,7 +268,7 @@ void GlobalPlanner::explain(const ExplorationGrid& grid, const Eigen::Vector2d& 
 GlobalPlanner::Choice GlobalPlanner::nextStop(const PlanningScene& scene, const ViewPoint& best) {
   const ViewSearch::Filter open = openOnes(scene);
   const std::size_t shown = observer_ ? ViewSearch::kMostStops - 1 : 1;
-  auto weighed = view_search_.nextBest(scene, parameters_.strategy, open, {best}, shown);
+  auto weighed = view_search_.nextBest(parameters_.strategy, open, {best}, shown);
   const std::string next = weighed.empty()
                                ? "nothing else is worth its way"
                                : "next best " + promiseOf(scene.grid(), weighed.front());
@@ -353,11 +350,10 @@ std::vector<Eigen::Vector2d> GlobalPlanner::pathTo(const WorldModel& world,
   PlanningScene scene = sceneOf(world);
   scene.blockPath(lost_path);
   if (!scene.grid().covers(robot_map) || !scene.grid().covers(goal_map)) return {};
-  constexpr int kNearEnough = 10;  // cells, 0.5 m: past the clearance of a place beside a wall
   std::vector<Eigen::Vector2d> path;
   do {
     Cell goal;
-    if (!nearestTraversable(scene.space(), scene.grid().cellOf(goal_map), kNearEnough, goal))
+    if (!nearestTraversable(scene.space(), scene.grid().cellOf(goal_map), kBesideWalls, goal))
       continue;
     scene.findPaths(robot_map, goal);
     path = scene.pathTo(goal);

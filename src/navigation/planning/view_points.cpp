@@ -15,10 +15,6 @@ namespace {
 // drives some 3 % farther.
 constexpr double kFreeWay = 1.0;
 
-/// Cells' length that rays may go through opaque ones: by so much a surface may lie before such a
-/// cell's middle, and a ray before the surface may cut the cell's corner.
-constexpr double kCut = ExplorationGrid::kBehindSurface;
-
 // m^2 for each metre of a wall's face that was not seen, across the view: so half a metre reaches
 // the smallest gain. What is expected of it is less: at 0.2 the robot drives a quarter farther in
 // apartments, halls and galleries; at 0.05 to 0.08 it leaves faces and crowded corners unseen.
@@ -32,7 +28,8 @@ bool isOpaque(CellState state) {
   return state == CellState::kPresumedWall || state == CellState::kOccupied;
 }
 
-/// Follows a ray to where it has gone through more than kCut cells' length of opaque cells.
+/// Follows a ray to where it has gone through more opaque cells than a surface may lie before their
+/// middles: a ray before the surface may cut a cell's corner.
 /// @param visit  void(Cell, CellState, double entered): for each cell, see walkBeam.
 /// @return the ray's length, in cells.
 template <class Visit>
@@ -42,7 +39,7 @@ double followRay(const ExplorationGrid& grid, Cell from, const Eigen::Vector2d& 
   walkBeam(middleOf(from), direction, reach, [&](Cell c, double entered) {
     if (opaque_since >= 0.0) {
       opaque += entered - opaque_since;
-      if (opaque > kCut) {
+      if (opaque > ExplorationGrid::kBehindSurface) {
         end = opaque_since;
         return false;
       }
@@ -160,8 +157,6 @@ void markRays(Cell from, Cell to, double reach, std::vector<bool>& marks) {
 
 constexpr double kPerMetre = 0.2;  // lambda of [Gonzalez-Banos & Latombe 2002]
 
-constexpr int kEntryAside = 12;  // cells, from a frontier's middle
-
 }  // namespace
 
 bool isInView(const ExplorationGrid& grid, Cell from, Cell to, double range) {
@@ -216,7 +211,7 @@ std::vector<ViewPoint> frontierPlaces(const PlanningScene& scene, std::size_t sm
   for (const Frontier& frontier : scene.world().frontiers()) {
     Cell entry;
     if (frontier.cells.size() < smallest_frontier ||
-        !nearestTraversable(scene.space(), frontier.middle, kEntryAside, entry) ||
+        !nearestTraversable(scene.space(), frontier.middle, kBesideWalls, entry) ||
         !scene.distances().isReached(entry) || scene.isExhausted(entry))
       continue;
     ViewPoint view = viewFrom(scene.grid(), entry, scene.world().laserRange(), frontier_cells);

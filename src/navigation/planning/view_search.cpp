@@ -14,7 +14,6 @@ constexpr int kLooksAtATime = 60 * kLook;  // some 10 ms, 20 in a wide hall
 constexpr std::size_t kWorthAskingAgain = 200;  // cells newly seen: half a square metre
 constexpr double kMostExpected = 10.0;          // m^2, that any place may show
 constexpr double kMostDetour = 1.0;             // m, for what is seen in passing
-constexpr double kElsewhere = 2.0;              // m, a frontier's length: what is another goal
 constexpr double kNone = -std::numeric_limits<double>::infinity();
 
 /// m^2 / m, what is expected for the way: a place at hand is a metre off, too.
@@ -67,10 +66,8 @@ bool ViewSearch::canBeSeen(const PlanningScene& scene, Cell target) const {
   });
 }
 
-std::vector<ViewPoint> ViewSearch::nextBest(const PlanningScene& scene, Strategy strategy,
-                                            const Filter& filter, std::vector<ViewPoint> chosen,
-                                            std::size_t most) const {
-  const double elsewhere = kElsewhere / scene.grid().resolution();
+std::vector<ViewPoint> ViewSearch::nextBest(Strategy strategy, const Filter& filter,
+                                            std::vector<ViewPoint> chosen, std::size_t most) const {
   std::vector<ViewPoint> others;
   while (others.size() < most) {
     const ViewPoint* best = nullptr;
@@ -78,7 +75,7 @@ std::vector<ViewPoint> ViewSearch::nextBest(const PlanningScene& scene, Strategy
       const bool is_worse = best && scoreOf(strategy, view) <= scoreOf(strategy, *best);
       if (is_worse || !isWorthItsWay(view, filter)) continue;
       const bool is_shown = std::any_of(chosen.begin(), chosen.end(), [&](const ViewPoint& other) {
-        return distanceBetween(view.target, other.target) < elsewhere;
+        return distanceBetween(view.target, other.target) < WorldModel::kFrontierExtent;
       });
       if (!is_shown) best = &view;
     }

@@ -56,9 +56,8 @@ class ViewSearch {
   /// The best viewpoints whose targets lie two metres at least from those of the chosen ones and
   /// from each other, as they were last evaluated; the best first. For people.
   /// Cost: O(viewpoints) for each.
-  std::vector<ViewPoint> nextBest(const PlanningScene& scene, Strategy strategy,
-                                  const Filter& filter, std::vector<ViewPoint> chosen,
-                                  std::size_t most) const;
+  std::vector<ViewPoint> nextBest(Strategy strategy, const Filter& filter,
+                                  std::vector<ViewPoint> chosen, std::size_t most) const;
 
   /// Whether a target is in view of a viewpoint that the paths last found lead to.
   bool canBeSeen(const PlanningScene& scene, Cell target) const;

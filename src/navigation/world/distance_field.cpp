@@ -7,8 +7,6 @@
 namespace cca {
 namespace {
 
-constexpr double kStartReach = 0.5;  // m, from a robot that stands too near to something
-
 // Bits of a block: 4 y + x.
 constexpr unsigned kLeft = 0x1111, kRight = 0x8888, kBottom = 0x000F, kTop = 0xF000, kAll = 0xFFFF;
 
@@ -115,7 +113,7 @@ void DistanceField::search(const PassableSpace& space, double resolution, Cell s
   unit_ = resolution * FreeSpace::kBlock / kStraight;
   for (auto& bucket : queue_) bucket.clear();
   waiting_ = 0;
-  started_ = findStart(space, start, static_cast<int>(kStartReach / resolution), start_);
+  started_ = findStart(space, start, kBesideWalls, start_);
   if (!started_) return;
   const Cell first = FreeSpace::blockOf(start_);
   relax(nodes_[first], {first, space.traversableCells(first), FreeSpace::bitOf(start_)}, 0);

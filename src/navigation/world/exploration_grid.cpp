@@ -16,12 +16,10 @@ constexpr int kPass = 8, kReturn = 2 * kPass;  // weight of a beam that passes, 
 // Bounds of the evidence: 8 scans forget an obstacle.
 constexpr int kSurest = 8 * kPass, kFreest = -4 * kPass;
 // Cells. Noise of this deviation leaves nearly every return in its cell or beside it; of a beam of
-// twice the deviation four are worth one.
+// twice the deviation four are worth one. What lies so near before a return is not known to be
+// free: noise and rounding must not open the wall.
 constexpr double kSmallNoise = 0.3;
-constexpr double kWithin = 2.0;  // deviations: where a beam may be
-// Cells. What lies before a return is known to be free only up to this distance: noise and rounding
-// must not open the wall.
-constexpr double kBeforeSurface = 0.3;
+constexpr double kWithin = 2.0;       // deviations: where a beam may be
 constexpr double kWidestGuess = 1.5;  // m, of a wall between two returns
 // Rays between two beams: enough to 23 m where these are a degree apart. It bounds the cost.
 constexpr std::size_t kMostBetween = 8;
@@ -83,8 +81,7 @@ void ExplorationGrid::insert(const Scan& raw_scan, double range_sigma) {
   markSurfaces(points);
   for (std::size_t i = 0; i < scan.size(); ++i) {
     const double range = certain_ranges_[i];
-    const double free_range =
-        isReturn(scan.ranges[i]) ? range - kBeforeSurface * resolution_ : range;
+    const double free_range = isReturn(scan.ranges[i]) ? range - kSmallNoise * resolution_ : range;
     if (!(free_range > 0.0)) continue;
     passThrough(origin, directions_[i], std::min(free_range / resolution_, kLongestRangeCells),
                 scan.ranges[i]);
@@ -171,7 +168,7 @@ void ExplorationGrid::presumeFree(const Scan& scan) {
   const double apart = std::abs(scan.angle_increment);
   for (std::size_t i = 0; i + 1 < scan.size(); ++i) {
     const double range =
-        std::min({freeRange(i), freeRange(i + 1), kLongestRangeCells}) - kBeforeSurface;
+        std::min({freeRange(i), freeRange(i + 1), kLongestRangeCells}) - kSmallNoise;
     if (!(range > 0.0)) continue;
     const auto between =
         static_cast<std::size_t>(std::min(range * apart, static_cast<double>(kMostBetween)));

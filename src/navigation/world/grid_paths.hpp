@@ -84,6 +84,9 @@ class DistanceField {
   bool started_ = false;
 };
 
+/// Cells, 0.5 m: past the clearance of a place beside a wall, or of a robot too near to one.
+inline constexpr int kBesideWalls = 10;
+
 /// The nearest traversable cell to c, by rings of growing Chebyshev distance; c itself first.
 /// @return whether there is one within `reach` cells; then it is in `found`.
 bool nearestTraversable(const PassableSpace& space, Cell c, int reach, Cell& found);

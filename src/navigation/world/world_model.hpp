@@ -57,6 +57,7 @@ class WorldModel {
   /// soon see them free again, so they are to be told with each scan for as long as they count.
   void markHazards(const std::vector<Eigen::Vector2d>& places_map);
 
+  static constexpr int kFrontierExtent = 40;  ///< cells, 2 m: as much as a near view shows well
   /// See FrontierCells::frontiers(); those longer than 2 m are several.
   std::vector<Frontier> frontiers() const { return frontier_cells_.frontiers(kFrontierExtent); }
   /// The cells of all frontiers of at least so many cells: a small one may be a missing cell of a
@@ -79,8 +80,6 @@ class WorldModel {
   double laserRange() const { return laser_range_; }
 
  private:
-  static constexpr int kFrontierExtent = 40;  // cells, 2 m: as much as a view from near shows well
-
   void learnRange(const Scan& scan);
   void presumeFreeBelow(const Eigen::Vector2d& robot_map);
   void notePassage(const Eigen::Vector2d& robot_map);

@@ -52,21 +52,17 @@ Contact nextContact(const ConfigurationSpace& space, int contact, double angle, 
   return next;
 }
 
-constexpr double kPlaceSpacing = 0.1;  // m, half of kTolerance: between two places none is missed
-constexpr double kTolerance = 0.2;     // m, below the robot's width: not the wall's other side
-constexpr double kLeastLength = 1.0;   // m, less than once around a single point
-constexpr double kOverlap = 0.8;       // m, walked twice: seen from all of the loop
+constexpr double kTolerance = 0.2;  // m, below the robot's width: not the wall's other side
+// m, walked twice: seen from all of the loop; less than once around a single point.
+constexpr double kOverlap = 0.8;
 constexpr double kTurnTolerance =
     0.8;  // rad, of the whole turn; the boundary is seen anew each time
 
-constexpr double kTracedAhead = 4.0;    // m, traced in front of the robot
-constexpr double kAheadClosely = 0.6;   // m, traced where nothing farther ahead matters
-constexpr double kLookedAt = 0.15;      // m, by which the nearest place may be missed
-constexpr double kSensed = 8.0;         // m, traced each way for the first d_followed
-constexpr double kBeside = 1.0;         // m; a boundary farther off is another one
-constexpr double kBoundaryMoves = 0.3;  // m, at most, between two steps
-constexpr double kNarrow = 0.3;         // m ahead, past the hull of a robot of usual radius
-constexpr double kHidden = 0.1;         // m, beyond what a beam sees
+constexpr double kTracedAhead = 4.0;  // m, traced in front of the robot
+constexpr double kSensed = 8.0;       // m, traced each way for the first d_followed
+// m: a boundary moves less from one step to the next; as far ahead is past a usual robot's hull.
+constexpr double kHull = 0.3;
+constexpr double kHidden = 0.1;  // m, beyond what a beam sees
 
 bool isInSight(const LocalView& view, const Eigen::Vector2d& p_map) {
   const double distance = (p_map - view.T_map_sensor.position()).norm();
@@ -116,14 +112,14 @@ std::vector<BoundaryPoint> traceBoundary(
 void LoopDetector::add(const Eigen::Vector2d& p_map, double length, double heading) {
   const bool again = std::any_of(places_.begin(), places_.end(), [&](const Place& place) {
     const double turned = std::abs(heading - place.heading);
-    return length - place.length >= kLeastLength &&
-           std::abs(turned - 2.0 * M_PI) <= kTurnTolerance &&
+    return length - place.length >= kOverlap && std::abs(turned - 2.0 * M_PI) <= kTurnTolerance &&
            (p_map - place.p_map).norm() <= kTolerance;
   });
   if (again && again_since_ < 0.0) again_since_ = length;
   if (!again) again_since_ = -1.0;
   closed_ = closed_ || (again && length - again_since_ >= kOverlap);
-  if (places_.empty() || length - places_.back().length >= kPlaceSpacing) {
+  // No farther apart than half of the tolerance: between two places none is missed.
+  if (places_.empty() || 2.0 * (length - places_.back().length) >= kTolerance) {
     places_.push_back({p_map, length, heading});
   }
 }
@@ -153,7 +149,7 @@ std::optional<Eigen::Vector2d> BoundaryFollower::step(const Eigen::Vector2d& goa
   // Out of sight, the boundary beside the robot is the one that it has been following.
   const bool found = findAnchor(view, trace_space);
   auto trace = traceBoundary(trace_space, found ? trace_[anchor_].center_map : x, on_the_right_,
-                             closely_ ? kAheadClosely : kTracedAhead, seen);
+                             closely_ ? 2.0 * kHull : kTracedAhead, seen);
   if (trace.empty() || (!found && (trace.front().center_map - x).norm() > kBeside)) {
     return std::nullopt;
   }
@@ -175,8 +171,7 @@ std::optional<Eigen::Vector2d> BoundaryFollower::step(const Eigen::Vector2d& goa
 bool BoundaryFollower::findAnchor(const LocalView& view, const ConfigurationSpace& space) {
   for (std::size_t i = anchor_; i < trace_.size(); ++i) {
     const Eigen::Vector2d& p = trace_[i].center_map;
-    if (!isInSight(view, p) || std::abs(space.clearance(p) - space.radius) > kBoundaryMoves)
-      continue;
+    if (!isInSight(view, p) || std::abs(space.clearance(p) - space.radius) > kHull) continue;
     length_ += trace_[i].length - trace_[anchor_].length;
     heading_ += trace_[i].heading - trace_[anchor_].heading;
     anchor_ = i;
@@ -187,7 +182,7 @@ bool BoundaryFollower::findAnchor(const LocalView& view, const ConfigurationSpac
 
 void BoundaryFollower::noteNarrowPlace() {
   for (const BoundaryPoint& point : trace_) {
-    if (point.length < kNarrow) continue;
+    if (point.length < kHull) continue;
     const double turn = (point.heading - trace_.front().heading) * (on_the_right_ ? -1.0 : 1.0);
     if (!narrow_map_ || turn > narrow_turn_) {
       narrow_map_ = point.center_map;
@@ -197,7 +192,7 @@ void BoundaryFollower::noteNarrowPlace() {
   }
 }
 
-bool BoundaryFollower::lookedAtNearest() const { return least_reach_ < d_followed_ + kLookedAt; }
+bool BoundaryFollower::lookedAtNearest() const { return least_reach_ < d_followed_ + kTolerance; }
 
 bool BoundaryFollower::hasLooped() const {
   return loop_.closed() && (lookedAtNearest() || closely_);
@@ -239,7 +234,7 @@ void BoundaryFollower::moveAnchor(const Eigen::Vector2d& x_map, const Eigen::Vec
               heading_ + trace_[i].heading - trace_.front().heading);
   }
   anchor_ = nearest;
-  if (trace_[nearest].length > kNarrow) narrow_map_.reset();
+  if (trace_[nearest].length > kHull) narrow_map_.reset();
   length_ += trace_[nearest].length;
   heading_ += trace_[nearest].heading - trace_.front().heading;
 }

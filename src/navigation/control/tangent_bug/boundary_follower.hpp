@@ -77,6 +77,7 @@ class BoundaryFollower {
                                       const ConfigurationSpace& way_space, double d_reach);
 
   bool onTheRight() const { return on_the_right_; }
+  static constexpr double kBeside = 1.0;  ///< m; a boundary that is farther off is another one
   double followedDistance() const { return d_followed_; }  ///< d_followed, m
   /// Whether the boundary has been circled, and its place nearest to the goal been looked at:
   /// d_reach has come close to d_followed. Where a short cut passed that place by, a second round

@@ -12,17 +12,14 @@
 namespace cca {
 namespace {
 
-constexpr double kGoalTolerance = 0.1;  // m, two cells of the grid that goals come from
-constexpr double kAtTheGoal = 0.07;     // m, worth leaving any boundary
-constexpr double kLeave = 0.1;          // m, by which d_reach must be below d_followed
-constexpr double kUnsure = 0.03;        // of the distance: beams are sparse far away
-constexpr double kInVain = 0.4;         // m, around a place that was promised in vain
-constexpr double kLookAgain = 0.5;      // of the distance from which that was found out
-// Of the margin, given up on the way.
+// m, two cells of the grid that goals come from. A boundary is left for what is nearer by as much.
+constexpr double kGoalTolerance = 0.1;
+constexpr double kUnsure = 0.03;    // of the distance: beams are sparse far away
+constexpr double kInVain = 0.4;     // m, around a place that was promised in vain
+constexpr double kLookAgain = 0.5;  // of the distance from which that was found out
+// Of the margin, given up on the way, and half of it along a boundary.
 constexpr double kSlack = 1.0 - RobotParameters::kLeastMargin;
-constexpr double kTraceSlack = 0.3;       // of the margin, given up along a boundary
 constexpr double kOnTheBoundary = 0.001;  // m; rounding must not count as touching
-constexpr double kSameArea = 1.0;         // m; from farther off another boundary may be near
 constexpr double kLost = 1.0;             // s; noise hides a boundary for some scans
 // Boundaries followed and gaps shut, without coming nearer to the goal. The proof needs fewer;
 // noise and moving obstacles break it, and then this is the end.
@@ -53,7 +50,7 @@ Velocity TangentBug::step(const Surroundings& surroundings, const Velocity& velo
   target_.reset();
   time_ = time;
   const double distance = (pursuit_.goal_map - T_map_robot.position()).norm();
-  if (distance < pursuit_.least_distance - kLeave) {
+  if (distance < pursuit_.least_distance - kGoalTolerance) {
     pursuit_.least_distance = distance;
     pursuit_.tries = 0;
   }
@@ -121,7 +118,7 @@ void TangentBug::observe(const Surroundings& surroundings, double time) {
   local_.way_space.radius = std::clamp(local_.way_space.clearance(x) - kOnTheBoundary,
                                        robot().radius, radius - kSlack * robot().safety_margin);
   local_.trace_space = {view_.obstacles,
-                        local_.way_space.radius + (kSlack - kTraceSlack) * robot().safety_margin};
+                        local_.way_space.radius + 0.5 * kSlack * robot().safety_margin};
   local_.free_ranges = local_.way_space.freeRanges(x, kDirections, view_.horizon);
   local_.nodes = localTangentGraph(view_, local_.way_space, local_.free_ranges, radius);
   findReach();
@@ -185,7 +182,8 @@ std::optional<Eigen::Vector2d> TangentBug::startFollowing() {
   const Eigen::Vector2d last =
       pursuit_.motion_to_goal.lastDirection().value_or(view_.T_map_robot.heading());
   const bool on_the_right = cross(towards_goal, last) > 0.0;
-  if (!pursuit_.started_at_map || (x - *pursuit_.started_at_map).norm() > kSameArea) {
+  if (!pursuit_.started_at_map ||
+      (x - *pursuit_.started_at_map).norm() > BoundaryFollower::kBeside) {
     pursuit_.started_at_map = x;
     ++pursuit_.tries;
   }
@@ -202,11 +200,11 @@ std::optional<Eigen::Vector2d> TangentBug::followBoundary() {
   const auto target = pursuit_.follower.step(pursuit_.goal_map, view_, local_.trace_space,
                                              local_.way_space, local_.d_reach);
   const double unsure = kUnsure * (local_.reach_map - view_.T_map_robot.position()).norm();
-  if (local_.d_reach < pursuit_.follower.followedDistance() - kLeave - unsure ||
-      local_.d_reach < kAtTheGoal) {
+  if (local_.d_reach < pursuit_.follower.followedDistance() - kGoalTolerance - unsure ||
+      local_.d_reach < kGoalTolerance) {
     pursuit_.state = TangentBugState::kMotionToGoal;
     const double farthest =
-        std::max(pursuit_.follower.followedDistance() - 0.5 * kLeave, kGoalTolerance);
+        std::max(pursuit_.follower.followedDistance() - 0.5 * kGoalTolerance, kGoalTolerance);
     pursuit_.motion_to_goal.startFromBoundary(local_.reach_map, farthest,
                                               pursuit_.follower.onTheRight());
     return local_.reach_map;

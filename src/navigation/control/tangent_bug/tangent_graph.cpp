@@ -11,7 +11,6 @@ namespace cca {
 namespace {
 
 constexpr double kSlide = 0.01;  // m, how much deeper a slide along a disc may lead
-constexpr double kTouch = 1e-9;  // m; rounding of equal distances
 
 // The radius of a disc as seen from a place at this distance from its centre.
 double discRadius(double radius, double distance) {
@@ -69,7 +68,7 @@ std::vector<FreeRange> ConfigurationSpace::freeRanges(
     for (int k = static_cast<int>(std::ceil((bearing - half) / step)); k <= last; ++k) {
       const auto bearing_index = static_cast<std::size_t>((k % count + count) % count);
       FreeRange& range = ranges[bearing_index];
-      if (range.distance < distance - disc - kTouch) continue;  // nearer than the whole disc
+      if (range.distance < distance - disc) continue;  // nearer than the whole disc
       const Eigen::Vector2d& direction = directions[bearing_index];
       const double aside = cross(direction, to);
       const double inside = disc * disc - aside * aside;
