@@ -9,12 +9,15 @@
 #include <utility>
 
 #include "geometry/cross.hpp"
+#include "mapping/support_profile.hpp"
+#include "mapping/wall_index.hpp"
+#include "sensing/gates.hpp"
 
 namespace cca {
 namespace {
 
 constexpr double kLeastSine = 0.2;  // flatter intersections are fixed by noise
-constexpr double kMostCut = 0.5;    // of a line that a corner may take away
+constexpr double kMostCut = 0.5;    // of a line that a corner, or what it meets, may take away
 
 using End = Corner::End;
 
@@ -44,6 +47,18 @@ bool meet(const std::vector<MapLine>& lines, const End& a, const End& b, double 
   if (cut_a > kMostCut * s.length() || cut_b > kMostCut * t.length()) return false;
   *corner = {std::abs(along_a) + std::abs(along_b), a, b, p + along_a * u};
   return true;
+}
+
+/// How far, m, the end `p` of a line that goes on from there to `inwards` lies beyond another line,
+/// which reaches so far or lacks `lack`, m, at most; 0 where it does not.
+double overshoot(const Eigen::Vector2d& p, const Eigen::Vector2d& inwards, const LineSegment& wall,
+                 double lack) {
+  const Eigen::Vector2d along = wall.direction();
+  const double sine = cross(along, inwards);
+  if (std::abs(sine) < kLeastSine) return 0.0;
+  const double beyond = cross(along, wall.start - p) / sine, length = wall.length();
+  const double at = along.dot(p + beyond * inwards - wall.start);
+  return at > -lack && at < length + lack && beyond < length ? beyond : 0.0;
 }
 
 std::size_t numberOf(const End& end) { return 2 * end.line + (end.last ? 1 : 0); }
@@ -78,6 +93,32 @@ class EndGrid {
 };
 
 }  // namespace
+
+void cutOvershoots(std::vector<MapLine>& lines, double scatter) {
+  WallIndex index;
+  std::vector<WallIndex::Cell> cells;
+  for (std::size_t k = 0; k < lines.size(); ++k) {
+    const LineSegment& s = lines[k].segment;
+    cells.clear();
+    index.insert(static_cast<WallIndex::Slot>(k), s.start, s.end, scatter, cells);
+  }
+  const double lack = std::max(SupportProfile::kResolved, scatter);
+  std::vector<LineSegment> whole;
+  for (const MapLine& line : lines) whole.push_back(line.segment);
+  for (std::size_t k = 0; k < lines.size(); ++k) {
+    const double longest = std::min(scatter, kMostCut * whole[k].length());
+    for (const bool last : {false, true}) {
+      Eigen::Vector2d& p = pointOf(lines, {k, last});
+      const Eigen::Vector2d inwards = (last ? -1.0 : 1.0) * whole[k].direction();
+      double cut = 0.0;
+      for (const WallIndex::Slot other : index.at(WallIndex::cellOf(p))) {
+        const double beyond = overshoot(p, inwards, whole[static_cast<std::size_t>(other)], lack);
+        if (beyond < longest) cut = std::max(cut, beyond);
+      }
+      p += cut * inwards;
+    }
+  }
+}
 
 std::vector<Corner> joinCorners(std::vector<MapLine>& lines, double reach) {
   const EndGrid grid(lines, reach);

@@ -17,6 +17,12 @@ struct Corner {
   End a, b;
 };
 
+/// Cuts off what of a line lies beyond another one that it meets, by no more than returns scatter
+/// along it: a wall ends where the next one begins. An end loses half of its line at most.
+/// @param lines    changed.
+/// @param scatter  m. Cost: O(n) for n lines of a map.
+void cutOvershoots(std::vector<MapLine>& lines, double scatter);
+
 /// Moves ends that meet to the intersection of their lines: both within `reach` of it, at an angle
 /// that fixes it. An end takes part in one corner, the tightest that it can have.
 ///

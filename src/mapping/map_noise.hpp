@@ -4,6 +4,8 @@
 #include <array>
 #include <cstddef>
 
+#include "cca_mrpt/sensing/scan.hpp"
+
 namespace cca {
 
 /// What misplaces a new line against the map, learned from the lines themselves.
@@ -34,6 +36,8 @@ class MapNoise {
   /// were seen in its octave of distance, or in the next nearer one of which enough is known: not
   /// below that of all returns. Lasers that triangulate err by a share of the range.
   double lateralVariance(double range) const;
+  /// The same of the farthest lines of which enough is known, without what poses add.
+  double farVariance() const { return lateralVariance(kLongestRange) - offsetVariance(); }
 
  private:
   struct Median {
