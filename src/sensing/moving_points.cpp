@@ -23,6 +23,7 @@ constexpr double kStill = 0.05;    // m, beyond the noise: a walker of 0.15 m/s 
 constexpr double kStampError = 0.01;  // s, between a scan's beams and its pose
 constexpr double kPlaceError = 0.01;  // m, of a scan's pose as seen from another's
 constexpr double kHeeded = 2.0;       // m; what is farther cannot come before the robot stands
+constexpr double kStandsLong = 5.0;   // s; who walks about pauses for two, or leans for some more
 constexpr double kCell = 0.05;  // m, of what stands: with its neighbours, the noise of two scans
 
 Cell cellOf(const Eigen::Vector2d& p_map) { return cellAt(p_map / kCell); }

@@ -49,8 +49,6 @@ class MovingPoints {
   static constexpr double kFarthest = 6.0;  ///< m; a leg has one beam of a cheap laser there
   /// s; longer than people pause, who are gone again after two
   static constexpr double kMemory = 3.0;
-  /// s; who walks about pauses for two, or leans for some more
-  static constexpr double kStandsLong = 5.0;
 
  private:
   struct Past {

@@ -15,7 +15,8 @@ namespace {
 
 constexpr double kTurningGain = 2.5;  // 1/s; stable at 10 Hz with one period of delay
 
-constexpr double kStep = 0.05;  // s, of the predicted motion
+constexpr double kStep = 0.05;      // s, of the predicted motion
+constexpr double kNoMotion = 1e-9;  // m/s: what rounding leaves of a speed that was braked
 // m, by which a hazard may come nearer that is inside the clearance, and inside the robot itself: a
 // robot that touches something only turns or leaves.
 constexpr double kDeeper = 1e-4, kDeeperInside = 1e-9;
@@ -61,7 +62,7 @@ StoppingPath stoppingPath(const PredictedState& start, const Velocity& command, 
   }
   velocity = {linear, command.angular};
   // Until it drives no more: a disc that turns on goes nowhere.
-  while (velocity.linear > 0.0) {
+  while (velocity.linear > kNoMotion) {
     advance({towards(velocity.linear, 0.0, brakes.linear * kStep),
              towards(velocity.angular, 0.0, brakes.angular * kStep)});
   }

@@ -27,9 +27,10 @@ constexpr double kBetweenBeams = 0.004;
 constexpr double kHeld = 1.0, kGettingAway = 3.0;
 // Two people who cannot pass one another and the robot behind them would wait for one another for
 // ever. Who has stood within reach of a standing robot for longer than people pause has seen it:
-// the robot then creeps past for as long, half a metre, reckoning with a step aside instead of a
-// walk, and waits anew. Not one whose commands act late: of 20 drives among walkers who see nothing
-// four then touched one, else 2 of 280.
+// the robot then creeps past, reckoning with a step aside instead of a walk. Not one whose commands
+// act late: of 20 drives among walkers who see nothing four then touched one, else 2 of 280.
+constexpr double kStoodLong = 5.0;    // s; people pause for two, kMemory is three
+constexpr double kCreepsPast = 4.0;   // s, 40 cm: past a body. Then it waits anew.
 constexpr double kCreeping = 0.1;     // m/s; it stands again within 1 cm
 constexpr double kStepAside = 0.2;    // m/s, of who has stood there
 constexpr double kWithinReach = 1.0;  // m; from farther off a walker still counts as one
@@ -143,8 +144,7 @@ void VelocityController::noteWhetherPeopleStand(bool is_held, double nearest_mov
   } else {
     people_stand_.stop();
   }
-  if (people_stand_.isOver(MovingPoints::kStandsLong, time))
-    creeps_past_until_ = time + MovingPoints::kStandsLong;
+  if (people_stand_.isOver(kStoodLong, time)) creeps_past_until_ = time + kCreepsPast;
 }
 
 // Where ranges are noisy, one scan that reads far must not be enough to go a step nearer: a robot
