@@ -201,6 +201,10 @@ Args:
           "sensor_pose", [](const LogRecord& record) { return triple(record.T_robot_sensor); },
           "(x, y, theta) of the laser in the robot's frame; m, m, rad.")
       .def_prop_ro(
+          "free_range_without_return",
+          [](const LogRecord& record) { return record.scan.free_range_without_return; },
+          "m, up to which a beam without return is known to be free; 0: it tells nothing.")
+      .def_prop_ro(
           "sweep_duration", [](const LogRecord& record) { return record.scan.sweep_duration; },
           "s, from the first beam to the last; 0 where the log does not tell.")
       .def_prop_ro("motion", &motionOf,

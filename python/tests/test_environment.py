@@ -82,6 +82,12 @@ def test_the_explorer_sees_all_and_ends_the_episode(walls):
     assert info["distance_m"] < 12.0
 
 
+def test_lost_beams_free_nothing_behind_walls(walls):
+    free = [make(world=walls, dropout=share, missing="inf", range=30.0).reset(seed=3, options={"start": (1.0, 1.0, 0.0)})[0]
+            ["map"] == int(cca_mrpt.CellState.FREE) for share in (0.0, 0.05)]
+    assert (free[1] & ~free[0]).sum() < 0.02 * free[0].sum()
+
+
 @pytest.mark.parametrize("arguments, named", [
     (dict(world="no_such_file.yaml"), "world: "),
     (dict(world=np.zeros((2, 2), bool)), "world: "),
