@@ -149,14 +149,13 @@ class ExploreEnv(gymnasium.Env[Observation, NDArray[np.float32]]):
 
     def _look(self) -> Observation:
         ranges = self.simulation.observe()
-        scan = dict(angle_min=self.simulation.angle_min, angle_increment=self.simulation.angle_increment)
+        first, between = self.simulation.angle_min, self.simulation.angle_increment
         longest = self.simulation.free_range_without_return
         x, y, theta = self.simulation.pose
-        record = LogRecord(ranges, free_range_without_return=longest, **scan)
+        record = LogRecord(ranges, first, between, free_range_without_return=longest)
         if not self._tells_lost_beams:
             self._missing_returns.judge(record)
-        self._grid.insert(record.ranges, pose=(x, y, theta),
-                          free_range_without_return=record.free_range_without_return, **scan)
+        self._grid.insert(record.ranges, first, between, (x, y, theta), record.free_range_without_return)
         shown = np.where(np.isfinite(ranges), ranges, longest).clip(0.0, longest)
         around = self._grid.states_around((x, y), self._cells)
         velocity = np.clip(self.simulation.velocity, -self._limits, self._limits)

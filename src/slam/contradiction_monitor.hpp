@@ -2,13 +2,14 @@
 #pragma once
 
 #include <cstddef>
+#include <vector>
 
 #include "slam/tracking.hpp"
 
 namespace cca {
 
 /// Scans, some seconds, that decide without any motion.
-inline constexpr std::size_t kStandingScans = 50;
+inline constexpr int kStandingScans = 50;
 
 /// Decides from scans in a row that contradict the map whether the robot is lost.
 ///
@@ -28,6 +29,9 @@ class ContradictionMonitor {
   /// clearly better than here.
   bool isClearlyBetter(const LocalMatch& there, const LocalMatch& here) const;
 
+  /// Whether two scans agree about as well as usual.
+  bool isUsual(const SightCount& sights) const;
+
   /// Takes the agreement of a scan into the running mean.
   /// @param step  since the last scan. A contradiction counts by it, so that a stay of some seconds
   ///              among people does not make contradiction usual.
@@ -41,15 +45,15 @@ class ContradictionMonitor {
 
   /// Whether the contradictions since the last clear() say that the robot is lost.
   bool isLost() const;
-  /// How many scans have contradicted the map, in a row.
-  std::size_t scans() const { return run_.scans; }
+  /// The scans that contradicted the map, in a row.
+  const std::vector<ScanSurface>& scans() const { return run_.scans; }
 
  private:
   struct Run {
-    std::size_t scans = 0;
-    ScanSurface last;
+    std::vector<ScanSurface> scans;
     double way = 0.0;                ///< m
     double way_with_turns = 0.0;     ///< m, see wayWithTurns()
+    Pose2 T_first_last;              ///< of these scans
     bool agrees_with_itself = true;  ///< the scans show one place: no people, no floor
     double usual = 0.0;              ///< usualAgreement() before it
   };

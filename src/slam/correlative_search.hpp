@@ -10,17 +10,6 @@
 
 namespace cca {
 
-/// m, of the cells of a search that a match follows: a third of what that reaches.
-inline constexpr double kSearchCell = 0.1;
-/// m, of the returns that search and of those that they are sought among: farther off, beams of a
-/// degree are farther apart than what is taken.
-inline constexpr double kSearchReach = 15.0;
-/// Of the pyramid, beside the finest: coarsest cells of 16 nearly span a usual window, one bound a
-/// direction.
-inline constexpr int kSearchLevels = 4;
-/// Cells between the returns that search: what lies nearer says the same.
-inline constexpr double kSpacingOverCell = 2.0;
-
 /// Where to search: about `centre`, within these half widths.
 struct SearchWindow {
   Pose2 centre;

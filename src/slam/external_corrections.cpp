@@ -7,16 +7,16 @@
 
 #include "cca_mrpt/mapping/line_map.hpp"
 #include "cca_mrpt/mapping/scan_agreement.hpp"
-#include "slam/key_frames.hpp"
 
 namespace cca {
 namespace {
 
 // Of map -> odom, between two scans: more than localisations correct at a step, and than wheels
 // err on the way between the two.
-constexpr double kLeap = 0.1, kWheels = 0.1;  // m, of what is seen; of the way with turns
-/// m, of what is seen: a correction by less moves no wall by more than its noise.
-constexpr double kWorthCorrecting = 0.02;
+constexpr double kLeap = 0.1, kLeapTurn = 0.035, kWheels = 0.1;  // m, rad, of the way
+constexpr double kTurnWay = 0.3;                                 // m/rad: wheels turn for that, too
+/// m, rad: a correction by less moves no wall by more than its noise.
+constexpr double kWorthCorrecting = 0.02, kWorthCorrectingTurn = 0.01;
 constexpr double kSameTime = 0.05;  // s, of a pose and a scan
 // Returns, of the 90 that a scan is compared by: wheels that slipped by a tenth of a radian come to
 // 13, a localisation that was wrong by a metre to 65 and more.
@@ -31,6 +31,8 @@ Pose2 between(const Pose2& a, const Pose2& b, double share, const Pose2& at) {
   const Pose2 from = a * at, to = b * at;
   return from * part(from.inverse() * to, share) * at.inverse();
 }
+
+double wayOf(const Pose2& step) { return step.position().norm() + kTurnWay * std::abs(step.theta); }
 
 }  // namespace
 
@@ -48,7 +50,7 @@ Estimate ExternalCorrections::update(const Measurement& measurement, const Analy
   Step now{measurement.time, 0.0, T_odom_robot, T_map_odom_before};
   if (estimate.is_known) now.T_map_odom = estimate.T_map_robot * T_odom_robot.inverse();
   if (!steps_.empty()) {
-    now.way = steps_.back().way + wayWithTurns(steps_.back().T_odom_robot.inverse() * T_odom_robot);
+    now.way = steps_.back().way + wayOf(steps_.back().T_odom_robot.inverse() * T_odom_robot);
     const bool has_leapt = hasLeapt(now);
     if (is_told_ ? is_path_new_ || has_leapt : has_leapt) {
       const auto corrected = is_told_ ? afterPath(now) : afterLeap(now, analysed.scan, past);
@@ -89,7 +91,7 @@ bool ExternalCorrections::hasLeapt(const Step& now) const {
   const Pose2 expected = before.T_map_odom * now.T_odom_robot;
   const Pose2 off = expected.inverse() * (now.T_map_odom * now.T_odom_robot);
   const double by_wheels = kWheels * (now.way - before.way);
-  return moveOf(difference(off, {})) > kLeap + by_wheels;
+  return off.position().norm() > kLeap + by_wheels || std::abs(off.theta) > kLeapTurn + by_wheels;
 }
 
 /// The leap, from nothing at the step `since` to all of it now; of what lies before, all or none.
@@ -155,7 +157,8 @@ std::optional<ExternalCorrections::Odometries> ExternalCorrections::afterPath(
       T = between(T_from, T_to, (step.time - from) / (to - from), step.T_odom_robot);
     }
     const Pose2 off = (step.T_map_odom * step.T_odom_robot).inverse() * (T * step.T_odom_robot);
-    is_worth_it = is_worth_it || moveOf(difference(off, {})) > kWorthCorrecting;
+    is_worth_it = is_worth_it || off.position().norm() > kWorthCorrecting ||
+                  std::abs(off.theta) > kWorthCorrectingTurn;
     T_map_odom.push_back(T);
   }
   if (!is_worth_it) return std::nullopt;

@@ -10,9 +10,11 @@ namespace {
 /// Cells of the likelihood pyramid that a search looks up in one scan: some 5 ms. Of a lost robot
 /// in an office it takes five to ten times as many, and a key frame at walking pace as many scans.
 constexpr int kCellsAtOnce = 2000000;
-/// Poses are solved for again when the graph has grown by a visit, and by this share: all solutions
-/// of a drive together cost a few of the last one.
-constexpr int kOptimiseShare = 10;
+/// Poses are solved for again when the graph has grown by this, and by this share: all solutions of
+/// a drive together cost a few of the last one.
+constexpr int kOptimiseAfter = 15, kOptimiseShare = 10;
+/// Rounds of the bundle adjustment: from its first reach to its last in five, and as many there.
+constexpr int kAdjustRounds = 10;
 
 }  // namespace
 
@@ -52,7 +54,7 @@ bool GraphBackEnd::advance(KeyFrames& frames, MapPart& map, double scale) {
   }
   const int grown = frames.size() - 1 - last_optimised_;
   const int share = (frames.size() - 1) / kOptimiseShare;
-  if (has_new_edges_ && grown >= std::max(kFramesOfVisit, share)) {
+  if (has_new_edges_ && grown >= std::max(kOptimiseAfter, share)) {
     startOptimisation(frames.graph, scale, {});
   }
   return false;
@@ -106,7 +108,7 @@ void GraphBackEnd::applyOptimisation(KeyFrames& frames, MapPart& map) {
 void GraphBackEnd::connectRevisits(KeyFrames& frames, int frame) {
   for (const int other : framesInView(frames, frame, frames.graph.pose(frame), kViewFrames)) {
     if (other >= frame - kViewFrames) continue;
-    const auto edge = matchEdge(frames, other, frame, scaleOf(kFirstMatchReach));
+    const auto edge = matchEdge(frames, other, frame, kRevisitMatch);
     if (edge) frames.graph.connect(*edge);
     has_new_edges_ = has_new_edges_ || edge;
   }

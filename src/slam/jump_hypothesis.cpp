@@ -55,7 +55,7 @@ bool JumpHypothesis::mayBeSlip() const {
 }
 
 bool JumpHypothesis::isAccepted() const {
-  const std::size_t scans = T_frame_sensor_.size();
+  const int scans = static_cast<int>(T_frame_sensor_.size());
   return scans >= kStandingScans ||
          (scans > 1 && way_ >= std::max(kLeastWayOfJump, kWayOfClaim * claim_));
 }

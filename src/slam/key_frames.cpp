@@ -11,8 +11,12 @@
 namespace cca {
 namespace {
 
+/// A turn of half a radian costs two scans as much of their common view as a metre.
+constexpr double kTurnCost = 2.0;
+
 double apartness(const Pose2& a, const Pose2& b, bool full_turn) {
-  return full_turn ? (a.position() - b.position()).norm() : wayWithTurns(a.inverse() * b);
+  const double turn = full_turn ? 0.0 : std::abs(wrapAngle(a.theta - b.theta));
+  return (a.position() - b.position()).norm() + kTurnCost * turn;
 }
 
 /// Two frames have something to say of each other from so many paired returns on.
@@ -84,6 +88,7 @@ std::optional<GraphEdge> matchEdge(const KeyFrames& frames, int from, int to,
 }
 
 std::vector<FramePair> pairsInView(const KeyFrames& frames, std::size_t of_each) {
+  constexpr double kSameVisit = 10.0;  // m of way: wheels still hold the two together
   std::vector<double> way(static_cast<std::size_t>(frames.size()), 0.0);
   for (int k = 1; k < frames.size(); ++k) {
     way[static_cast<std::size_t>(k)] =
@@ -111,9 +116,8 @@ std::vector<FramePair> pairsInView(const KeyFrames& frames, std::size_t of_each)
         const Pose2 &a = frames.graph.pose(k), &b = frames.graph.pose(m);
         if (m == k || (a.position() - b.position()).norm() > kCommonView) continue;
         if (frames.graph.part(m) != frames.graph.part(k)) continue;
-        const bool same_visit =
-            std::abs(way[static_cast<std::size_t>(m)] - way[static_cast<std::size_t>(k)]) <=
-            kFramesOfVisit * kFrameDistance;
+        const bool same_visit = std::abs(way[static_cast<std::size_t>(m)] -
+                                         way[static_cast<std::size_t>(k)]) <= kSameVisit;
         const double apart =
             apartness(a, b, frames.surfaces[static_cast<std::size_t>(k)].is_full_turn);
         (same_visit ? same : other).push_back({apart, m});
@@ -153,7 +157,10 @@ class PairEdge {
   const std::optional<GraphEdge>& edge() const { return edge_; }
 
  private:
-  bool isAt(const Pose2& pose) const { return moveOf(difference(pose, T_from_to_)) < kSettled; }
+  bool isAt(const Pose2& pose) const {
+    const Eigen::Vector3d moved = difference(pose, T_from_to_);
+    return moved.head<2>().norm() + kTurnArm * std::abs(moved.z()) < kSettled;
+  }
 
   int from_, to_;
   Pose2 T_from_to_;
@@ -165,6 +172,7 @@ class PairEdge {
 
 void adjust(KeyFrames& frames, int rounds, const DoAll& do_all) {
   constexpr double kNarrows = 0.8;  // slower than a match of one scan: each round moves all poses
+  constexpr int kAtOnce = 64;       // matches, so that sharing them out costs nothing
   std::vector<PairEdge> pairs;
   for (const FramePair& pair : pairsInView(frames, kPairsOfEach)) {
     // In both directions: the lines of either are the other's measure.
@@ -178,9 +186,10 @@ void adjust(KeyFrames& frames, int rounds, const DoAll& do_all) {
   }
   double reach = kFirstMatchReach;
   for (int round = 0; round < rounds; ++round) {
-    do_all((count + kPairsAtOnce - 1) / kPairsAtOnce, [&](int part) {
-      for (int k = part * kPairsAtOnce; k < std::min(count, (part + 1) * kPairsAtOnce); ++k) {
-        pairs[static_cast<std::size_t>(k)].match(frames, scaleOf(reach), reach > kFinestReach);
+    const MatchScale scale{reach, 0.25 * reach};
+    do_all((count + kAtOnce - 1) / kAtOnce, [&](int part) {
+      for (int k = part * kAtOnce; k < std::min(count, (part + 1) * kAtOnce); ++k) {
+        pairs[static_cast<std::size_t>(k)].match(frames, scale, reach > kFinestReach);
       }
     });
     std::vector<GraphEdge> edges = steps;

@@ -51,6 +51,9 @@ std::vector<int> framesInView(const KeyFrames& frames, int anchor, const Pose2& 
 std::optional<GraphEdge> matchEdge(const KeyFrames& frames, int from, int to,
                                    const MatchScale& scale);
 
+/// Of a match to the frames of an earlier visit, after a loop: it is off by what the loop's
+/// optimisation left, as of a first match.
+inline constexpr MatchScale kRevisitMatch{0.3, 0.08};
 /// Frames, ten metres of way: what is nearer in the order of frames is of the same visit.
 inline constexpr int kFramesOfVisit = 20;
 
@@ -59,14 +62,10 @@ struct FramePair {
   int first, second;   ///< first < second
   bool is_same_visit;  ///< ten metres of way apart at the most
 };
-/// Pairs that are matched or compared in one go, so that sharing them out costs nothing.
-inline constexpr int kPairsAtOnce = 64;
 /// Each frame with those that have most in common with it: as many of the same visit as of others.
 /// @param of_each  of each of the two, at the most. @return  in the order of the frames.
 std::vector<FramePair> pairsInView(const KeyFrames& frames, std::size_t of_each);
 
-/// Rounds of adjust(): from its first reach to its last in five, and as many there.
-inline constexpr int kAdjustRounds = 10;
 /// All frames and the scans between them made to agree: pairs of frames that see the same place are
 /// matched anew where they stand, and all poses solved for at once; and again, the reach shrinking
 /// (bundle adjustment). What the wheels say stays as it is.

@@ -9,6 +9,10 @@ namespace {
 
 /// Two loops speak of one place where they lie this near [m] to each other.
 constexpr double kNeighbourWay = 12.0;
+/// The more places were offered, the more likely one of them agrees by chance, most of all where
+/// the right one has not been seen yet and its like has: rays have to agree by more in wide windows
+/// [m].
+constexpr double kAgreeNear = 0.8, kNearWindow = 1.0;
 /// Between shelves, or doors, one place is as another a few metres on, whose like has not been seen
 /// yet: nothing but the way can tell. What moves by more than this [m] has to be likely.
 constexpr double kFarMove = 3.0, kLikelySigmas = 1.5;
@@ -34,7 +38,8 @@ bool saySamePlace(const PoseGraph& graph, const LoopVerdict& a, const LoopVerdic
 }
 
 bool isCredible(const LoopVerdict& verdict) {
-  return verdict.agreement > kAgreeAnywhere &&
+  const double doubt = (1.0 - kAgreeNear) * kNearWindow / std::max(kNearWindow, verdict.window);
+  return verdict.agreement > std::min(1.0 - doubt, kAgreeAnywhere) &&
          verdict.moved <= std::max(kFarMove, kLikelySigmas * verdict.sigma) &&
          verdict.moved <= M_SQRT2 * verdict.window &&  // the match after the search may slide away
          verdict.common > kLeastCommon && !verdict.has_rival;

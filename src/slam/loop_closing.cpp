@@ -14,14 +14,19 @@ constexpr double kMostSigma = 8.0;  // m, beyond which a place is looked for any
                                     // a half window, for the cost grows with its square
 constexpr double kSigmas = 2.5;     // half window: 98.8 % of what is likely
 constexpr int kRecent = 8;          // frames that look for their place together
+constexpr double kRecentWay = 8.0;  // m; what lies farther back has drifted from the frame
 constexpr int kEarlier = 12;        // frames that they are compared with
+constexpr double kCell = 0.1;       // m, of the search; matches reach 0.3 m
+constexpr int kLevels = 4;          // coarsest cells of 1.6 m: five to the widest half window
 constexpr int kLevelsAnywhere = 6;  // 13 m, for a whole building
+constexpr double kSpacing = 0.2;    // m, of the returns that search
+constexpr double kReach = 15.0;     // m, of the returns that are searched among
 /// Of the best place in a window, to be matched and judged by rays at all; these decide.
 constexpr double kLeastScore = 0.45;
 /// Among all places of a building some score so much without being the right one; those that rays
 /// agree with score .88 and more.
 constexpr double kLeastScoreAnywhere = 0.8;
-constexpr double kCellAnywhere = 0.2;                     // m, twice that of others: a first place
+constexpr double kCellAnywhere = 0.2, kSpacingAnywhere = 0.4;  // m, twice the others: a first place
 constexpr double kRivalDistance = 0.6, kRivalTurn = 0.3;  // m, rad, from the best place at least
 
 /// Returns of frames in the axes that `T_base_map` leads to.
@@ -50,8 +55,11 @@ std::vector<SurfacePoint> facing(std::vector<SurfacePoint> points) {
 /// The frame and those driven before it.
 std::vector<int> recentFrames(const KeyFrames& frames, int frame) {
   std::vector<int> recent{frame};
+  double way = 0.0;
   for (int k = frame; k > 0 && static_cast<int>(recent.size()) < kRecent; --k) {
     if (frames.graph.part(k - 1) != frames.graph.part(frame)) break;
+    way += (frames.graph.pose(k).position() - frames.graph.pose(k - 1).position()).norm();
+    if (way > kRecentWay) break;
     recent.push_back(k - 1);
   }
   return recent;
@@ -152,12 +160,10 @@ PlaceSearch PlaceSearch::atVisit(const KeyFrames& frames, int frame,
   const Pose2 T_frame_map = frames.graph.pose(frame).inverse();
   const Pose2 T_earlier_map = frames.graph.pose(earlier).inverse();
   return {known, window.centre, recent, around,
-          PoseSearch(
-              thinned(pointsOf(frames, recent, T_frame_map, kSearchReach),
-                      kSpacingOverCell * kSearchCell),
-              LikelihoodPyramid(pointsOf(frames, around, T_earlier_map, kFarthestSurface),
-                                Eigen::Vector2d::Zero(), kSearchReach, kSearchLevels, kSearchCell),
-              window, kLeastScore)};
+          PoseSearch(thinned(pointsOf(frames, recent, T_frame_map, kReach), kSpacing),
+                     LikelihoodPyramid(pointsOf(frames, around, T_earlier_map, kFarthestSurface),
+                                       Eigen::Vector2d::Zero(), kReach, kLevels, kCell),
+                     window, kLeastScore)};
 }
 
 PlaceSearch PlaceSearch::anywhere(const KeyFrames& frames, int frame, int part) {
@@ -177,13 +183,13 @@ PlaceSearch PlaceSearch::anywhere(const KeyFrames& frames, int frame, int part) 
   known.window = window.half_width = 0.5 * place.sizes().maxCoeff() + kCommonView;
   const std::vector<int> recent = recentFrames(frames, frame);
   const Pose2 T_frame_map = frames.graph.pose(frame).inverse();
-  return {known, std::nullopt, recent, all,
-          PoseSearch(thinned(facing(pointsOf(frames, recent, T_frame_map, kSearchReach)),
-                             kSpacingOverCell * kCellAnywhere),
-                     LikelihoodPyramid(pointsOf(frames, all, {}, kFarthestSurface), centre,
-                                       window.half_width + kSearchReach, kLevelsAnywhere,
-                                       kCellAnywhere, LikelihoodPyramid::Facing::kAlike),
-                     window, kLeastScoreAnywhere)};
+  return {
+      known, std::nullopt, recent, all,
+      PoseSearch(thinned(facing(pointsOf(frames, recent, T_frame_map, kReach)), kSpacingAnywhere),
+                 LikelihoodPyramid(pointsOf(frames, all, {}, kFarthestSurface), centre,
+                                   window.half_width + kReach, kLevelsAnywhere, kCellAnywhere,
+                                   LikelihoodPyramid::Facing::kAlike),
+                 window, kLeastScoreAnywhere)};
 }
 
 bool PlaceSearch::advance(int cells) {

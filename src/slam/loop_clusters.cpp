@@ -10,8 +10,7 @@
 namespace cca {
 namespace {
 
-constexpr std::size_t kMostOfEach =
-    10;  // to be left out, to be taken in: bounds the work of a round
+constexpr std::size_t kMostWithout = 10, kMostWith = 8;  // bound the work of a round
 
 }  // namespace
 
@@ -55,8 +54,8 @@ std::vector<LoopChange> changesOf(const std::vector<LoopOfCluster>& loops) {
   };
   std::sort(without.begin(), without.end(), earlier);
   std::sort(with.begin(), with.end(), earlier);
-  if (without.size() > kMostOfEach) without.resize(kMostOfEach);
-  if (with.size() > kMostOfEach) with.resize(kMostOfEach);
+  if (without.size() > kMostWithout) without.resize(kMostWithout);
+  if (with.size() > kMostWith) with.resize(kMostWith);
   without.insert(without.end(), with.begin(), with.end());
   return without;
 }

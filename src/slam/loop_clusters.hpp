@@ -26,7 +26,7 @@ struct LoopChange {
 };
 
 /// Clusters to be left out, those first that were found in the widest windows; and to be taken in,
-/// those first that most frames found. Twenty at the most.
+/// those first that most frames found. Eighteen at the most.
 std::vector<LoopChange> changesOf(const std::vector<LoopOfCluster>& loops);
 
 }  // namespace cca

@@ -9,7 +9,6 @@
 
 #include "slam/loop_closer.hpp"
 #include "slam/loop_clusters.hpp"
-#include "slam/tracking.hpp"
 
 namespace cca {
 namespace {
@@ -22,8 +21,9 @@ constexpr double kContradicted = 0.1;
 /// m, rad; how far the map may be off there: two and a half times as far is searched, 2 or 6 m. By
 /// the bound that the graph knows, a corridor's next doors would be as likely.
 constexpr double kOffBy[] = {0.75, 2.4}, kTurnedBy = 0.05;
-constexpr int kRoughRounds = 5;      // of adjust(): they end at its reach
-constexpr double kAnotherMap = 0.5;  // m, between a frame's places in two maps
+constexpr int kRoughRounds = 5, kLastRounds = 10;  // of adjust(); the rough ones end at its reach
+constexpr double kAnotherMap = 0.5;                // m, between a frame's places in two maps
+constexpr double kTieAgrees = 0.9;                 // of the rays of both
 
 struct Hypothesis {
   std::vector<LoopOfCluster> loops;  ///< all that are known
@@ -87,7 +87,7 @@ class LoopJury {
     }
     frames_.graph = best_.graph;
     if (review.has_changed) {
-      adjust(frames_, kAdjustRounds, do_all_);
+      adjust(frames_, kLastRounds, do_all_);
       best_.agreement = agreementOfVisits(frames_, do_all_);
       review.loops.clear();
       for (const LoopOfCluster& loop : best_.loops) {
@@ -232,9 +232,8 @@ class LoopJury {
       if (loop.is_believed) graph.connect(edgeOf(loop.verdict));
     }
     for (const SeenPair& pair : best_.agreement.pairs) {
-      if (pair.frames.is_same_visit || pair.sights.agreement() < kGoodAgreement) continue;
-      const auto edge =
-          matchEdge(frames_, pair.frames.first, pair.frames.second, scaleOf(kFirstMatchReach));
+      if (pair.frames.is_same_visit || pair.sights.agreement() < kTieAgrees) continue;
+      const auto edge = matchEdge(frames_, pair.frames.first, pair.frames.second, kRevisitMatch);
       if (edge) graph.connect(*edge);
     }
     // A loop alone ties two parts, though it errs.

@@ -7,6 +7,10 @@
 namespace cca {
 namespace {
 
+// First guess of the random part, wide: it is scaled by what matches show.
+constexpr double kPerWay = 0.10;        // of the way
+constexpr double kPerTurn = 0.15;       // of the turn: skids turn most
+constexpr double kTurnPerWay = 0.07;    // rad / m: 4 degrees a metre
 constexpr double kShiftPerTurn = 0.05;  // m / rad: the axis of turning is known to 5 cm
 /// m, rad; what a robot that stands may have been pushed.
 constexpr double kStandingShift = 0.02, kStandingTurn = 0.01;
@@ -19,6 +23,8 @@ constexpr double kRandomWay = 0.02;
 /// What is learned of the way in one place is not so well known in another, floors differ: windows
 /// narrower than that take a place for its like more often.
 constexpr double kVaries = 0.04;
+/// m; of a shorter way a match says too little.
+constexpr double kLeastWay = 0.05;
 /// Sweeps that the first guess of the change within one stands for.
 constexpr double kBelieved = 10.0;
 /// Squared deviations: three. One wild step does not undo what hundred have taught.
@@ -30,13 +36,13 @@ constexpr double kLeastScale = 0.02, kMostScale = 10.0;
 double squared(double x) { return x * x; }
 
 double wayVariance(const Pose2& step) {
-  return squared(kStandingShift) + squared(kMostError * step.position().norm()) +
+  return squared(kStandingShift) + squared(kPerWay * step.position().norm()) +
          squared(kShiftPerTurn * step.theta);
 }
 
 double turnVariance(const Pose2& step) {
-  return squared(kStandingTurn) + squared(kMostError * step.position().norm()) +
-         squared(kMostError * step.theta);
+  return squared(kStandingTurn) + squared(kTurnPerWay * step.position().norm()) +
+         squared(kPerTurn * step.theta);
 }
 
 }  // namespace
@@ -89,7 +95,8 @@ void MotionPrior::learn(const std::optional<Pose2>& step, const MotionBelief& be
 
   const double heading_variance = turn_scale_ * turnVariance(*step) + covariance(2, 2);
   const double whole_turn_error = wrapAngle(matched.theta - step->theta);
-  if (std::abs(whole_turn_error) < kSlip * x.norm()) {
+  if (squared(turn_error) < 9.0 * (belief.covariance(2, 2) + covariance(2, 2)) &&
+      std::abs(whole_turn_error) < kSlip * x.norm()) {
     const Eigen::Vector2d known = turns_covariance_ * x;
     const Eigen::Vector2d gain = known / (x.dot(known) + heading_variance);
     turns_ += gain * (whole_turn_error - turns_.dot(x));
@@ -108,7 +115,7 @@ void MotionPrior::learnChange(double error, double expected) {
 }
 
 void MotionPrior::learnWay(double way, double matched, double variance) {
-  if (std::abs(matched - way) > kSlip * way) return;
+  if (way < kLeastWay || std::abs(matched - way) > kSlip * way) return;
   const double error = matched - way * (1.0 + longer_);
   const double systematic = way * way * longer_variance_;
   double random = squared(kRandomWay * way) + variance;

@@ -14,10 +14,6 @@ struct MotionBelief {
   Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  ///< m^2, m rad, rad^2; axes of `before`
 };
 
-/// Of the way, of the turn, and rad / m of way: a systematic error is not above these, and they are
-/// the first guess of the random part, wide: it is scaled by what matches show.
-inline constexpr double kMostError = 0.1;
-
 /// What the wheels are worth: how far matches had to correct them, learned as the robot drives,
 /// beginning wide [Thrun, Burgard & Fox 2005, ch. 5; Vizzo et al. 2023].
 ///
@@ -55,10 +51,14 @@ class MotionPrior {
   double longer() const { return longer_; }
 
  private:
+  /// A systematic error is not above these: a tenth of the way, .1 rad a metre, a tenth of the
+  /// turn.
+  static constexpr double kSystematic = 0.1;
+
   // Of the heading, by (way as told, turn as it was): recursive least squares.
   Eigen::Vector2d turns_ = Eigen::Vector2d::Zero();
-  Eigen::Matrix2d turns_covariance_ = kMostError * kMostError * Eigen::Matrix2d::Identity();
-  double longer_ = 0.0, longer_variance_ = kMostError * kMostError;
+  Eigen::Matrix2d turns_covariance_ = kSystematic * kSystematic * Eigen::Matrix2d::Identity();
+  double longer_ = 0.0, longer_variance_ = kSystematic * kSystematic;
   double scale_ = 1.0,
          turn_scale_ = 1.0;  ///< of the random part's variances, over their first guess
   double change_share_ = 1.0, change_weight_ = 0.0;

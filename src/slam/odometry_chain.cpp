@@ -4,9 +4,14 @@
 #include <Eigen/LU>
 
 #include "slam/pose_covariance.hpp"
-#include "slam/tracking.hpp"
 
 namespace cca {
+namespace {
+
+/// m^2, rad^2; variance of the odometry over a jump: the size of the search for it.
+constexpr double kJumpVariance = 1.0;
+
+}  // namespace
 
 std::optional<Pose2> OdometryChain::stepTo(const std::optional<Pose2>& T_odom_sensor) const {
   if (!T_odom_sensor || !last_odom_sensor_) return std::nullopt;
@@ -30,8 +35,7 @@ void OdometryChain::extend(const MotionBelief& motion, bool is_measured) {
 
 void OdometryChain::jumpTo(const Pose2& T_frame_sensor) {
   T_frame_sensor_ = T_frame_sensor;
-  const Eigen::Vector3d searched(kWidestWindowHere, kWidestWindowHere, kWidestTurn);
-  covariance_.diagonal() += searched.cwiseAbs2();
+  covariance_ += kJumpVariance * Eigen::Matrix3d::Identity();
   is_measured_ = false;
 }
 

@@ -11,8 +11,8 @@
 namespace cca {
 namespace {
 
-/// Frames of a part that are asked what they see of those around them.
-constexpr std::size_t kMostAsked = 40;
+/// Frames of a part that are asked, and frames around each of them.
+constexpr std::size_t kMostAsked = 40, kJudgesOfPart = 6;
 /// m; farther from the loop the part's own drift contradicts.
 constexpr double kJudgedAround = 20.0;
 /// m, rad; loops that put the part within this say the same. Rivals lie .6 m apart or more, and
@@ -35,8 +35,8 @@ constexpr double kMostContradictedAlone = 0.15;
 /// A hypothesis that puts the part beside what was seen is contradicted by nothing, and is no rival
 /// of one with this many times as much in common; but for where the robot would be by its wheels.
 constexpr double kMoreInCommon = 2.0;
-/// Bounds what a part costs: each hypothesis is judged by all scans of the part.
-constexpr std::size_t kMostHypotheses = 12;
+/// Bound what a part costs: each hypothesis is judged by all scans of the part.
+constexpr std::size_t kMostHypotheses = 12, kLoopsOfEach = 4;
 
 /// Takes the part of the loop's frame to where the loop puts it.
 Pose2 motionOf(const PoseGraph& graph, const LoopVerdict& loop) {
@@ -97,7 +97,7 @@ SightCount sightsOfParts(const KeyFrames& frames, const LoopVerdict& loop) {
       const double apart = (graph.pose(k).position() - here.position()).norm();
       if (apart < kCommonView) near.push_back({apart, k});
     }
-    const auto count = std::min(near.size(), kJudges);
+    const auto count = std::min(near.size(), kJudgesOfPart);
     std::partial_sort(near.begin(), near.begin() + static_cast<std::ptrdiff_t>(count), near.end());
     near.resize(count);
     const ScanSurface& surface = frames.surfaces[static_cast<std::size_t>(own[i])];
@@ -122,7 +122,8 @@ void PartPlacement::add(const KeyFrames& frames, const LoopVerdict& found) {
     if (!putAlike(graph, found, known, kSamePlace, kSameTurn)) continue;
     hypothesis.loops.push_back(found);
     // The first one stays: it tells how far the place has held.
-    if (hypothesis.loops.size() > 2) hypothesis.loops.erase(hypothesis.loops.begin() + 1);
+    if (hypothesis.loops.size() > kLoopsOfEach)
+      hypothesis.loops.erase(hypothesis.loops.begin() + 1);
     return;
   }
   hypotheses_.push_back({{found}});

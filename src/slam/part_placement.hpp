@@ -27,7 +27,7 @@ class PartPlacement {
 
  private:
   struct Hypothesis {
-    std::vector<LoopVerdict> loops;  ///< that say the same, the first and the latest
+    std::vector<LoopVerdict> loops;  ///< that say the same, the latest last
   };
   void forgetJoined(const PoseGraph& graph);
 

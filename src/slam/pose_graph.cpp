@@ -116,7 +116,7 @@ class GraphSolver {
       failures_ = 0;
       return largest;
     }
-    if (++failures_ >= kMostFailures) {
+    if ((!step.empty() && largest < kPrecise) || ++failures_ >= kMostFailures) {
       failures_ = 0;
       return 0.0;
     }
@@ -136,8 +136,9 @@ class GraphSolver {
  private:
   /// Of the diagonal: nearly Gauss-Newton at first; a step that fails is tried with ten times as
   /// much, up to 10^4, where it hardly moves.
-  static constexpr double kLeastDamping = 1e-4, kMoreDamping = 10.0;
+  static constexpr double kFirstDamping = 1e-4, kLeastDamping = 1e-7, kMoreDamping = 10.0;
   static constexpr int kMostFailures = 8;  // from the first damping to 10^4
+  static constexpr double kHeld = 1e-6;    // of what the damping is a share of, at least
 
   static std::vector<std::pair<int, int>> pairsOf(const std::vector<GraphEdge>& edges) {
     std::vector<std::pair<int, int>> pairs;
@@ -188,7 +189,7 @@ class GraphSolver {
       if (is_held_[k]) {
         own.setIdentity();
       } else {
-        own.diagonal() *= 1.0 + damping_;
+        own.diagonal() += damping_ * own.diagonal().cwiseMax(kHeld);
       }
     }
     if (!H_.factorise()) return {};
@@ -203,7 +204,7 @@ class GraphSolver {
   BlockCholesky H_;
   std::vector<BlockCholesky::Slot> slots_;  // of the edges
   double cost_ = 0.0;
-  double damping_ = kLeastDamping;
+  double damping_ = kFirstDamping;
   int failures_ = 0;
 };
 

@@ -7,7 +7,7 @@ namespace cca {
 namespace {
 
 /// rad; in single precision, as the bearings are.
-constexpr float kHalfTurn = 3.1415927F;
+constexpr float kTurn = 6.2831853F, kHalfTurn = 3.1415927F, kQuarterTurn = 1.5707963F;
 /// m; keeps a point at the sensor from a division by zero, and moves no other.
 constexpr float kAtSensor = 1e-12F;
 
@@ -20,7 +20,7 @@ float packedBearing(float x, float y) {
   const float z = smaller / (larger + kAtSensor), zz = z * z;
   float angle = z * (0.9998660F +
                      zz * (-0.3302995F + zz * (0.1801410F + zz * (-0.0851330F + zz * 0.0208351F))));
-  angle += oneIf(ay > ax) * (0.5F * kHalfTurn - 2.0F * angle);
+  angle += oneIf(ay > ax) * (kQuarterTurn - 2.0F * angle);
   angle += oneIf(x < 0.0F) * (kHalfTurn - 2.0F * angle);
   return std::copysign(angle, y);
 }
@@ -47,9 +47,9 @@ SeenPoints::SeenPoints(const PackedPoints& points, const PackedMotion& T, const 
   }
   for (std::size_t k = 0; k < count; ++k) {
     float turn = packedBearing(at_x[k], at_y[k]) - first;
-    turn += 2.0F * kHalfTurn * oneIf(turn < before_first);
-    turn += 2.0F * kHalfTurn * oneIf(turn < before_first);
-    turn -= 2.0F * kHalfTurn * oneIf(turn >= 2.0F * kHalfTurn + before_first);
+    turn += kTurn * oneIf(turn < before_first);
+    turn += kTurn * oneIf(turn < before_first);
+    turn -= kTurn * oneIf(turn >= kTurn + before_first);
     const auto at = static_cast<std::int32_t>(turn * per_radian + 0.5F);
     towards[k] = at < beams ? at : beside;
   }

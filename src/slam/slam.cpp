@@ -13,6 +13,9 @@
 namespace cca {
 namespace {
 
+/// From a key frame to the next.
+constexpr MatchScale kStepMatch{0.15, 0.04};
+
 std::optional<Pose2> sensorOf(const std::optional<Pose2>& T_odom_robot,
                               const Pose2& T_robot_sensor) {
   if (!T_odom_robot || !isFinite(*T_odom_robot)) return std::nullopt;
@@ -183,7 +186,7 @@ void Slam::State::addKeyFrame(int frame, const GraphEdge& odometry, bool is_meas
   back_end_.connectOdometry(frames_.graph, odometry, scale);
   removeMovers(frames_, frame, tracker_.view());
   for (const int other : tracker_.view()) {
-    if (auto edge = matchEdge(frames_, other, frame, scaleOf(kTiedSigma))) {
+    if (auto edge = matchEdge(frames_, other, frame, kStepMatch)) {
       if (other == odometry.from && is_measured) learnScale(odometry, *edge);
       if (other >= frame - kFramesOfVisit) edge->kind = EdgeKind::kMatch;
       back_end_.connectMatch(frames_.graph, *edge);
@@ -202,8 +205,7 @@ void Slam::State::learnScale(const GraphEdge& odometry, const GraphEdge& match) 
   const Eigen::Vector2d ahead = by_odometry / way;
   // Its returns count as if they erred by the reach of the match; they err less. What it says
   // nothing of may be off by a metre.
-  const double share =
-      noiseShare(frames_.surfaces[static_cast<std::size_t>(match.to)], scaleOf(kTiedSigma));
+  const double share = noiseShare(frames_.surfaces[static_cast<std::size_t>(match.to)], kStepMatch);
   const Eigen::Matrix3d covariance =
       (match.information / (share * share) + Eigen::Matrix3d::Identity()).inverse();
   motion_.learnWay(way / (1.0 + motion_.longer()), ahead.dot(match.T_from_to.position()),
@@ -211,18 +213,20 @@ void Slam::State::learnScale(const GraphEdge& odometry, const GraphEdge& match) 
 }
 
 /// Begins a part of the graph with a frame. The scans in doubt before it were the first that were
-/// taken there.
+/// taken there, where they agree with it.
 void Slam::State::startPart(int frame) {
   tracker_.lookAt(frame);
   back_end_.beginPart();
   jump_.reset();
-  const std::size_t doubtful = monitor_.scans(), earlier = doubtful > 0 ? doubtful - 1 : 0;
+  const std::vector<ScanSurface>& doubtful = monitor_.scans();
+  const std::size_t earlier = doubtful.empty() ? 0 : doubtful.size() - 1;
+  const ScanSurface& first = frames_.surfaces[static_cast<std::size_t>(frame)];
   for (std::size_t k = 0; k < earlier; ++k) {
     DrivenScan& scan = scans_[scans_.size() - earlier + k];
     scan.T_frame_sensor =
         T_map_sensor_.inverse() * frames_.graph.pose(scan.frame) * scan.T_frame_sensor;
     scan.frame = frame;
-    scan.is_doubtful = false;
+    scan.is_doubtful = !monitor_.isUsual(mutualSights(first, doubtful[k], scan.T_frame_sensor));
   }
   monitor_.clear();
   if (frame > 0) corrections_.count();  // what was seen in doubt is nowhere in the map

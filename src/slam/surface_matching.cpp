@@ -10,8 +10,11 @@ namespace {
 
 /// A step of less than this share of the reach finds the partners of the finest one at once.
 constexpr double kNear = 0.1;
+constexpr double kSettledTurn = 1e-4;  // rad; a tenth of what a match is worth
 /// Of the kernel's sigma, at least: the walls themselves are no better.
 constexpr double kLeastNoise = 0.1;
+
+MatchScale scaleOf(double reach) { return {reach, reach / kReachPerSigma}; }
 
 }  // namespace
 
@@ -57,8 +60,9 @@ MatchResult matchSurface(const ScanSurface& query, const Pose2& start, const Pos
     result.T_map_query.y += step.y();
     result.T_map_query.theta = wrapAngle(result.T_map_query.theta + step.z());
     const bool is_finest = scale.reach <= least;
-    if (is_finest && moveOf(step) < kSettled) break;
-    const bool is_near = moveOf(step) < kNear * scale.reach;
+    if (is_finest && step.head<2>().norm() < kSettled && std::abs(step.z()) < kSettledTurn) break;
+    const bool is_near =
+        step.head<2>().norm() + kTurnArm * std::abs(step.z()) < kNear * scale.reach;
     scale = scaleOf(is_near ? least : std::max(least, kShrinkReach * scale.reach));
   }
   return result;

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <cmath>
 #include <vector>
 
 #include "slam/scan_surface.hpp"
@@ -58,12 +57,6 @@ inline constexpr int kMostMatchRounds = 12;
 inline constexpr double kTurnArm = 3.0;
 /// m, a tenth of what a match is worth: what moves by less finds the same partners.
 inline constexpr double kSettled = 5e-4;
-/// m, how far a step (m, m, rad) moves what is seen kTurnArm away, at most.
-inline double moveOf(const Eigen::Vector3d& step) {
-  return step.head<2>().norm() + kTurnArm * std::abs(step.z());
-}
-
-inline MatchScale scaleOf(double reach) { return {reach, reach / kReachPerSigma}; }
 
 /// Of the last steps of a match.
 MatchScale finestScale(const ScanSurface& query);

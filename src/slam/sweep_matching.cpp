@@ -6,8 +6,6 @@
 #include <Eigen/LU>
 #include <algorithm>
 
-#include "slam/tracking.hpp"
-
 namespace cca {
 namespace {
 
@@ -20,8 +18,10 @@ constexpr double kChangeFreedom = 1.0;
 /// Of the wheels' information: what keeps a change that the scan shows nothing of from running off.
 constexpr double kVagueChange = 0.01;
 
+/// Of given poses: as many scans as line SLAM matches with; half a metre of way.
+constexpr std::size_t kLastScans = 5;
 /// 1/m^2, 1/rad^2: from scan to scan given poses err by some two centimetres and a degree.
-constexpr double kGivenPose = 2500.0;
+constexpr double kGivenPose = 2500.0, kGivenTurn = 3300.0;
 
 SweepShares sharesOf(const ScanSurface& query, double sense) {
   const double last = std::max(1, query.beams() - 1);
@@ -169,7 +169,7 @@ SweepBelief sweepBelief(const SweepHalves& undone_by, const MotionPrior& prior, 
 std::optional<SweepHalves> matchSweep(const AnalysedScan& analysed, const SweptScan& sweep,
                                       const Pose2& T_map_sensor, const PastScans& past) {
   std::vector<const PastScans::Kept*> last;
-  for (auto kept = past.kept().rbegin(); kept != past.kept().rend() && last.size() < kMatched;
+  for (auto kept = past.kept().rbegin(); kept != past.kept().rend() && last.size() < kLastScans;
        ++kept) {
     if (kept->sensor == 0) last.push_back(&*kept);
   }
@@ -181,7 +181,7 @@ std::optional<SweepHalves> matchSweep(const AnalysedScan& analysed, const SweptS
   if (references.empty()) return std::nullopt;
   PoseBelief prior;
   prior.mean = T_map_sensor;
-  prior.information = kGivenPose * Eigen::Matrix3d::Identity();
+  prior.information.diagonal() << kGivenPose, kGivenPose, kGivenTurn;
   const auto fit = matchSweep(scanSurface(analysed), sweep, T_map_sensor, prior,
                               sweepBelief(sweep.motion, MotionPrior(), true), references);
   return fit ? std::optional(fit->motion) : std::nullopt;

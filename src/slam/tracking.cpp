@@ -11,9 +11,18 @@
 namespace cca {
 namespace {
 
-/// m; cells of a search around the pose: half the least reach of a match. All round they are twice
-/// as coarse, an eighth of the places.
-constexpr double kFineCell = 0.05;
+/// Key frames that a scan which becomes no key frame is matched with: the nearest of those in view.
+constexpr std::size_t kMatched = 5;
+constexpr std::size_t kJudges = 3;  // frames that say how well a scan agrees with them
+/// m; of a search around the pose: cells of half the least reach of a match, returns two cells
+/// apart, none beyond 12 m, where beams of a degree are farther apart than these.
+constexpr double kSearchCell = 0.05, kSpacingOverCell = 2.0, kSearchReach = 12.0;
+/// m: all round twice as coarse, an eighth of the places, which is still a third of what a match
+/// reaches.
+constexpr double kCellAllRound = 0.1;
+/// Coarsest cells of 0.4 m for a window of one metre. All round of 1.6 m, which nearly spans the
+/// window: one bound a direction.
+constexpr int kSearchLevels = 3, kLevelsAllRound = 4;
 /// m, rad; a narrower window is what a match reaches by itself.
 constexpr double kLeastSearch = 0.2, kLeastTurn = 0.2;
 /// Share of the prior's information that is left where it is not to decide: a scan that sees
@@ -88,12 +97,13 @@ Pose2 ScanTracker::correlativeSearch(const KeyFrames& frames, const ScanSurface&
   for (const auto& point : surface.points) {
     if (point.position.norm() < kSearchReach) query.push_back({point.position});
   }
-  const double cell = window.half_turn > kWidestTurn ? kSearchCell : kFineCell;
+  const bool is_all_round = window.half_turn > kWidestTurn;
+  const double cell = is_all_round ? kCellAllRound : kSearchCell;
   query = thinned(query, kSpacingOverCell * cell);
   if (query.empty()) return window.centre;
   window.prior_weight = 1.0 / (kIndependent * 3.0 * static_cast<double>(query.size()));
   LikelihoodPyramid pyramid(points, window.centre.position(), kSearchReach + window.half_width,
-                            kSearchLevels, cell);
+                            is_all_round ? kLevelsAllRound : kSearchLevels, cell);
   const auto found = searchPose(std::move(query), std::move(pyramid), window, 0.2);
   return found ? found->T_map_query : window.centre;
 }

@@ -25,15 +25,8 @@ struct LocalMatch {
 /// loop closing to tell apart.
 inline constexpr double kWidestWindowHere = 1.0, kWidestTurn = 1.0;
 
-/// Agreement of scans that stand where they belong: above it Gauss-Newton from the prediction
-/// suffices, and scans show one place.
+/// Agreement above which Gauss-Newton from the prediction suffices; no correlative search.
 inline constexpr double kGoodAgreement = 0.9;
-
-/// Key frames that a scan which becomes no key frame is matched with, the nearest of those in view
-/// or the last ones: half a metre of way where poses are given.
-inline constexpr std::size_t kMatched = 5;
-/// Frames that say how well a scan agrees with them, of one visit.
-inline constexpr std::size_t kJudges = 3;
 
 /// What the rays of two scans say of each other's returns. A return behind a wall that stood there
 /// contradicts, too: by what it saw through.

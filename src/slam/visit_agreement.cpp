@@ -9,6 +9,8 @@
 namespace cca {
 namespace {
 
+constexpr std::size_t kJudgesOfVisit = 3;  // of a frame, with its own visit and with others
+constexpr int kPairsAtOnce = 64;           // shares of the work that keep all cores busy
 /// Contradictions of other visits that are usual: so many times those within a visit. Sound maps of
 /// real logs come to 1.0 to 1.5 times (intel, fhw, freiburg-079, seattle), wrong ones to 13 and
 /// more.
@@ -38,7 +40,7 @@ double VisitAgreement::gain() const {
 
 VisitAgreement agreementOfVisits(const KeyFrames& frames, const DoAll& do_all) {
   VisitAgreement agreement;
-  for (const FramePair& pair : pairsInView(frames, kJudges)) {
+  for (const FramePair& pair : pairsInView(frames, kJudgesOfVisit)) {
     agreement.pairs.push_back({pair, {}});
   }
   const int count = static_cast<int>(agreement.pairs.size());

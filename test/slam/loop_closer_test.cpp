@@ -41,10 +41,12 @@ TEST(LoopCloser, APlaceWithARivalIsNot) {
   EXPECT_FALSE(isCredible(verdict));
 }
 
-TEST(LoopCloser, AnAgreementThatIsOneByChanceIsNot) {
+TEST(LoopCloser, WiderWindowsAskRaysToAgreeMore) {
   LoopVerdict verdict = goodLoop();
-  verdict.agreement = 0.9;
+  verdict.agreement = 0.85;
   EXPECT_FALSE(isCredible(verdict));
+  verdict.window = 0.8;
+  EXPECT_TRUE(isCredible(verdict));
 }
 
 }  // namespace
