@@ -12,12 +12,12 @@
 
 #include "arguments.hpp"
 #include "cca_mrpt/io/log_reader.hpp"
-#include "cca_mrpt/sensing/missing_returns.hpp"
 #include "io/files/atomic_file.hpp"
 #include "io/files/gzip_lines.hpp"
 #include "io/logs/text_formats.hpp"
 #include "locked.hpp"
 #include "module.hpp"
+#include "python_log.hpp"
 
 namespace cca::python {
 namespace {
@@ -222,12 +222,7 @@ void addLogs(nb::module_& module) {
                              "Learns what it means when a beam of one laser does not return.")
       .def(nb::init<>())
       .def(
-          "judge",
-          [](MissingReturns& own, LogRecord& record) {
-            if (!record.is_judged) own.judge(record.scan);
-            record.is_judged = true;
-          },
-          nb::arg("record"),
+          "judge", &judgeOnce, nb::arg("record"),
           "Judge a scan by those before it: beams that were lost become NaN, and\n"
           "`free_range_without_return` 0 where a missing return tells nothing of free space. Once: "
           "what a log\ngives is judged already, and `Mapper.step` judges what is not.");

@@ -6,13 +6,20 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "cca_mrpt/io/log_reader.hpp"
+#include "cca_mrpt/sensing/missing_returns.hpp"
 #include "io/logs/sound_log.hpp"
 
 namespace cca::python {
 
 namespace nb = nanobind;
+
+/// Judges a scan by those of its laser before it, once: what a reader gives is judged already.
+inline void judgeOnce(MissingReturns& missing_returns, LogRecord& record) {
+  if (!std::exchange(record.is_judged, true)) missing_returns.judge(record.scan);
+}
 
 /// The records of any Python iterator, for what reads logs.
 class PythonLog : public LogReader {

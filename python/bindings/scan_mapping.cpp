@@ -12,6 +12,7 @@
 #include "cca_mrpt/localisation/wheel_odometry.hpp"
 #include "cca_mrpt/session/earlier_drive.hpp"
 #include "io/files/stray_places.hpp"
+#include "python_log.hpp"
 
 namespace cca::python {
 namespace {
@@ -57,7 +58,7 @@ Mapping::Mapping(PoseSource source, const CcaParameters& parameters, bool at_the
 }
 
 Estimate Mapping::add(LogRecord record) {
-  if (!record.is_judged) missing_returns.judge(record.scan);
+  judgeOnce(missing_returns, record);
   beams += record.scan.size();
   unguided += !record.odometry;
   ReplayMoment moment;

@@ -157,15 +157,15 @@ void LineMap::State::learn(const std::vector<NewLine>& lines) {
 
 std::vector<MapLine> LineMap::State::pieces() const {
   std::vector<MapLine> all;
-  std::vector<const Wall*> of;
+  std::vector<const Wall*> wall_of;
   for (const Wall& wall : walls_.all()) {
     all.insert(all.end(), wall.pieces.begin(), wall.pieces.end());
-    of.insert(of.end(), wall.pieces.size(), &wall);
+    wall_of.insert(wall_of.end(), wall.pieces.size(), &wall);
   }
   // A few returns that were seen from afar make an end.
-  cutOvershoots(all, kNormalGate * std::sqrt(noise_.farVariance()));
+  cutOvershoots(all, kNormalGate * std::sqrt(noise_.rangeVariance(kLongestRange)));
   for (std::size_t k = 0; k < all.size(); ++k) {
-    all[k].segment.covariance = covarianceOf(*of[k], all[k].segment, noise_);
+    all[k].segment.covariance = covarianceOf(*wall_of[k], all[k].segment, noise_);
   }
   std::sort(all.begin(), all.end(), [](const MapLine& a, const MapLine& b) { return a.id < b.id; });
   return all;

@@ -53,10 +53,14 @@ void MapNoise::learnRange(double variance, double distance) {
 
 double MapNoise::lateralSigma() const { return std::sqrt(offset_ * offset_ + of_all_.variance); }
 
-double MapNoise::lateralVariance(double range) const {
-  std::size_t octave = octaveOf(range);
+double MapNoise::rangeVariance(double distance) const {
+  std::size_t octave = octaveOf(distance);
   while (octave > 0 && of_octave_[octave].samples < kFewestLines) --octave;
-  return offset_ * offset_ + std::max(of_all_.variance, of_octave_[octave].variance);
+  return std::max(of_all_.variance, of_octave_[octave].variance);
+}
+
+double MapNoise::lateralVariance(double range) const {
+  return offset_ * offset_ + rangeVariance(range);
 }
 
 }  // namespace cca

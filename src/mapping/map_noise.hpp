@@ -4,8 +4,6 @@
 #include <array>
 #include <cstddef>
 
-#include "cca_mrpt/sensing/scan.hpp"
-
 namespace cca {
 
 /// What misplaces a new line against the map, learned from the lines themselves.
@@ -30,14 +28,15 @@ class MapNoise {
   double ownOffsetVariance() const { return own_offset_ * own_offset_; }
   double ownAngleVariance() const { return own_angle_ * own_angle_; }
   double rangeVariance() const { return of_all_.variance; }
+  /// Variance [m^2] of a return across its line, of lines in the octave of that distance [m], > 0,
+  /// or in the next nearer one of which enough is known: not below that of all.
+  double rangeVariance(double distance) const;
   /// Standard deviation [m] of one return across the wall it belongs to.
   double lateralSigma() const;
   /// Variance [m^2] of the same for a return that was seen `range` [m] away, > 0, by the lines that
   /// were seen in its octave of distance, or in the next nearer one of which enough is known: not
   /// below that of all returns. Lasers that triangulate err by a share of the range.
   double lateralVariance(double range) const;
-  /// The same of the farthest lines of which enough is known, without what poses add.
-  double farVariance() const { return lateralVariance(kLongestRange) - offsetVariance(); }
 
  private:
   struct Median {

@@ -61,8 +61,7 @@ std::string linesSvg(const std::vector<MapLine>& lines, const std::vector<PolyLi
 
 /// A floor plan as DXF of AutoCAD 2000, which says that its unit is the metre: layers POLYLINES,
 /// DOTTED (dotted walls, which are in no chain), LINES (all walls one by one; switched off), ARCS
-/// and TRAJECTORY. Arcs are ARC or CIRCLE;
-/// their chords stay.
+/// and TRAJECTORY. Arcs are ARC or CIRCLE; their chords stay.
 std::string linesDxf(const std::vector<MapLine>& lines, const std::vector<PolyLine>& poly_lines,
                      const std::vector<Pose2>& trajectory, const std::vector<MapArc>& arcs = {});
 

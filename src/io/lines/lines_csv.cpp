@@ -81,8 +81,8 @@ double number(const std::string& cell, double largest, const std::string& where)
 
 std::string linesCsv(const std::vector<MapLine>& lines) {
   std::string text =
-      "x1,y1,x2,y2,id,support,length,sigma_offset,sigma_angle_deg,kind,share,sigma_start,sigma_"
-      "end\n";
+      "x1,y1,x2,y2,id,support,length,sigma_offset,sigma_angle_deg,kind,share,"
+      "sigma_start,sigma_end\n";
   char row[320];
   for (const MapLine& line : lines) {
     const LineSegment& s = line.segment;
