@@ -37,7 +37,9 @@ class PythonLog : public LogReader {
       const LogRecord* taken = nullptr;
       if (!nb::try_cast<const LogRecord*>(record, taken) || !taken)
         throw nb::value_error("records: an iterable of LogRecord is needed");
-      return *taken;
+      LogRecord judged = *taken;
+      judgeOnce(missing_returns_, judged);
+      return judged;
     }
     ended_ = true;
     if (PyErr_Occurred()) throw nb::python_error();
@@ -48,6 +50,7 @@ class PythonLog : public LogReader {
 
  private:
   nb::handle iterator_;
+  MissingReturns missing_returns_;  ///< of a laser whose records somebody made
   bool ended_ = false;
 };
 
