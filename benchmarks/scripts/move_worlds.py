@@ -31,6 +31,7 @@ def move(world: pathlib.Path, x: float, y: float) -> dict:
 
 
 def main(folder: str, x: str, y: str, *worlds: str) -> None:
+    pathlib.Path(folder).mkdir(parents=True, exist_ok=True)
     for world in map(pathlib.Path, worlds):
         path = pathlib.Path(folder) / f"{world.stem}_moved.yaml"
         path.write_text(yaml.safe_dump(move(world, float(x), float(y))))

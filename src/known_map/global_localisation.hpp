@@ -27,6 +27,10 @@ struct Hypothesis {
 struct Expectation {
   Pose2 T_map_wheels;
   double reach = 0.0, turn = 0.0;  ///< m, rad, that the wheels may have erred by meanwhile
+
+  /// m, rad: of what errs by more, the place is sought anywhere. Nor is a place that somebody tells
+  /// sought farther around.
+  static constexpr double kWidestReach = 3.0, kWidestTurn = 0.8;
 };
 
 /// Where a robot is that may be anywhere in a plan: multi-hypothesis localisation [Jensfelt &
