@@ -99,8 +99,8 @@ TEST(ViewFrom, PromisesTheFaceOfAWallThatWasNotSeenUntilItIs) {
 
 TEST(ScoreOf, OrdersPlacesAsEachStrategySaysItDoes) {
   const Cell c{0, 0};
-  const ViewPoint much_far{c, c, c, 20.0, 40.0, 4.0}, little_near{c, c, c, 2.0, 1.0, 0.9},
-      wedge{c, c, c, 4.0, 20.0, 0.5};
+  const ViewPoint much_far{c, c, 20.0, 40.0, 4.0}, little_near{c, c, 2.0, 1.0, 0.9},
+      wedge{c, c, 4.0, 20.0, 0.5};
   const auto prefers = [](Strategy strategy, const ViewPoint& a, const ViewPoint& b) {
     return scoreOf(strategy, a) > scoreOf(strategy, b);
   };

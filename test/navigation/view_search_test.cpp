@@ -128,76 +128,17 @@ struct Corridor {
     showCorridor(place.world, slots);
     place.scene.findPaths({10.0, 1.0});
   }
-  std::vector<ViewPoint> viewpoints(const ViewSearch::Filter& filter) {
-    nextOf(view_search, place, Strategy::kGreedy, filter);
-    view_search.next(place.scene, Strategy::kViewTour, filter);
-    return view_search.viewpoints(place.scene, filter);
-  }
 };
-
-TEST(ViewSearch, StopsAreFewAndNoneSeesWhatAnotherIsThereToSee) {
-  Corridor corridor;
-  ASSERT_GT(corridor.slots.size(), 12u);
-  const auto stops = corridor.viewpoints(Look::takesAll);
-  EXPECT_GT(stops.size(), 3u);
-  EXPECT_LE(stops.size(), 12u);
-  const KnownScene& place = corridor.place;
-  for (std::size_t a = 0; a < stops.size(); ++a) {
-    EXPECT_GT(stops[a].expected, 0.0);
-    EXPECT_DOUBLE_EQ(stops[a].distance, place.scene.distances().distanceTo(stops[a].cell));
-    for (std::size_t b = a + 1; b < stops.size(); ++b) {
-      EXPECT_FALSE(
-          isInView(place.world.grid(), stops[a].cell, stops[b].edge, place.world.laserRange()));
-      EXPECT_FALSE(
-          isInView(place.world.grid(), stops[a].cell, stops[b].target, place.world.laserRange()));
-    }
-  }
-}
-
-// Each looks elsewhere, farther behind the end of what is known than any place is sure to see.
-TEST(ViewSearch, PlacesThatLookThroughOneOpeningAreHardlyMoreThanOneStop) {
-  const std::string wall(50, '#');
-  std::vector<std::string> rows(5, '#' + std::string(48, '.') + '#');
-  rows.insert(rows.begin(), wall);
-  rows.push_back(wall);
-  const KnownWorld corridor{rows, 8};
-  const Eigen::Vector2d robot{2.0, 1.4};
-  KnownScene place;
-  place.world.observe(corridor.scanFrom({robot.x(), robot.y(), 0.0}), robot);
-  place.scene.findPaths(robot);
-  ViewSearch view_search{0.1, 5, kPriceless};
-  nextOf(view_search, place, Strategy::kGreedy, Look::takesAll);
-  view_search.next(place.scene, Strategy::kViewTour, Look::takesAll);
-  ASSERT_GT(view_search.left().size(), 12u);
-  const std::size_t stops = view_search.viewpoints(place.scene, Look::takesAll).size();
-  EXPECT_GT(stops, 0u);
-  EXPECT_LT(stops, 4u);
-}
-
-TEST(ViewSearch, StopsAreOpenAndStillPromiseWhatTheySay) {
-  Corridor corridor;
-  const auto is_right = [](const ViewPoint& view) { return view.cell.x > 200; };
-  const auto before = corridor.viewpoints(is_right);
-  ASSERT_FALSE(before.empty());
-  for (const ViewPoint& stop : before) EXPECT_TRUE(is_right(stop));
-  // What has been seen since promises nothing.
-  std::vector<Cell> seen;
-  for (int x = 200; x < 400; ++x) {
-    for (int y = 36; y < 40; ++y) seen.push_back({x, y});
-  }
-  corridor.place.world.seed(seen, CellState::kOccupied);
-  corridor.place.scene.findPaths({10.0, 1.0});
-  corridor.view_search.next(corridor.place.scene, Strategy::kViewTour, Look::takesAll);
-  for (const ViewPoint& stop : corridor.view_search.viewpoints(corridor.place.scene, is_right))
-    EXPECT_LT(stop.target.x, 200 + 8);
-}
 
 TEST(ViewSearch, WhatIsSeenInPassingLiesOnTheWayAndIsNotSeenFromItsEnd) {
   Corridor corridor;
   const KnownScene& place = corridor.place;
+  nextOf(corridor.view_search, corridor.place, Strategy::kGreedy, Look::takesAll);
+  corridor.view_search.next(place.scene, Strategy::kViewTour, Look::takesAll);
   const double robot_x = 10.0;
   int found = 0;
-  for (const ViewPoint& goal : corridor.viewpoints(Look::takesAll)) {
+  for (const ViewPoint& goal :
+       corridor.view_search.nextBest(Strategy::kViewTour, Look::takesAll, {}, 12)) {
     const auto passed = corridor.view_search.onTheWay(place.scene, Look::takesAll, goal);
     if (!passed) continue;
     ++found;

@@ -14,7 +14,6 @@ namespace cca {
 enum class DecisionRule {
   kScore,      ///< the best score of all places
   kInPassing,  ///< on the way to the place of the best score
-  kTour,       ///< the first stop of the tour of least cost
   kFrontier,   ///< the best score of the places at frontiers: strategies of others
   kNone,       ///< no goal is left: the exploration ends
 };
@@ -25,17 +24,15 @@ struct Candidate {
   Eigen::Vector2d look_at_map;  ///< m, map frame: what it is there to show
   double expected;              ///< m^2, that will be seen from there
   double way;                   ///< m, of the shortest known way
-  /// As the rule has it: scoreOf(), the more the better; of a tour, what the best one that begins
-  /// there costs (m, see tourCosts()), the less the better.
-  double score;
+  double score;                 ///< scoreOf(), the more the better
 };
 
 /// A decision of the global planner with what it was made of: for people and files.
 struct ExplainedDecision {
   Eigen::Vector2d robot_map;  ///< m, map frame
   DecisionRule rule;
-  /// Of a tour all its stops; else the best of all places and the best that show something else,
-  /// two metres from each other at least; twelve at most.
+  /// The best of all places and the best that show something else, two metres from each other at
+  /// least; twelve at most.
   std::vector<Candidate> candidates;
   std::optional<std::size_t> chosen;  ///< of the candidates; none where no goal is left
   std::string reason;

@@ -8,8 +8,7 @@ namespace cca {
 
 /// How the next goal is chosen, among view points with their way and gain.
 enum class Strategy {
-  /// What is expected to be seen, exp(-0.2 way), of all places; where that is little, a tour: ours.
-  kViewTour,
+  kViewTour,         ///< what is expected to be seen, exp(-0.2 way), of all places: ours
   kGreedy,           ///< the frontier of the largest gain: the paper's Step 0
   kNearestFrontier,  ///< the shortest way [Yamauchi 1997]
   kGainDistance,     ///< gain exp(-0.2 way) [Gonzalez-Banos & Latombe 2002]

@@ -15,8 +15,6 @@ const char* nameOf(DecisionRule rule) {
       return "score";
     case DecisionRule::kInPassing:
       return "in_passing";
-    case DecisionRule::kTour:
-      return "tour";
     case DecisionRule::kFrontier:
       return "frontier";
     case DecisionRule::kNone:

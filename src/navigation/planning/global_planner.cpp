@@ -10,9 +10,9 @@ namespace {
 
 /// m driven: a place 0.4 m away is another one (the spacing of view points).
 constexpr double kReconsiderAfter = 0.5;
-constexpr std::size_t kWorthReconsidering = 20;  // cells newly seen: a third of kPromising
-constexpr double kPromising = 0.15;              // m^2 that are expected for their way
+constexpr std::size_t kWorthReconsidering = 20;  // cells newly seen: 5 dm^2
 constexpr double kPassed = 0.1;                  // m, two cells: a corner is no truer than these
+constexpr std::size_t kMostShown = 12;           // places of a decision, for people
 constexpr double kLongestInVain = 100.0;         // m, and once around what is known
 
 /// For people. Its place is that in the map frame.
@@ -184,7 +184,7 @@ void GlobalPlanner::finish(PlanningScene& scene, const Eigen::Vector2d& robot_ma
   const auto given_up = whyGivenUp(scene);
   plan_.gave_up = given_up.has_value();
   plan_.reason = given_up.value_or(view_search_.whatIsLeft());
-  explain(scene.grid(), robot_map, {{}, "", DecisionRule::kNone, {}, {}});
+  explain(scene.grid(), robot_map, {{}, "", DecisionRule::kNone, {}});
 }
 
 // The way there and back between the farthest places of a building is not in vain yet.
@@ -245,8 +245,8 @@ bool GlobalPlanner::driveToFrontier(PlanningScene& scene, const Eigen::Vector2d&
   if (open.empty()) return false;
   const ViewPoint best = open.front();
   driveTo(scene, best, robot_map, promiseOf(scene.grid(), best) + ", at a frontier");
-  open.resize(std::min(open.size(), ViewSearch::kMostStops), best);
-  explain(scene.grid(), robot_map, {best, "", DecisionRule::kFrontier, std::move(open), {}});
+  open.resize(std::min(open.size(), kMostShown), best);
+  explain(scene.grid(), robot_map, {best, "", DecisionRule::kFrontier, std::move(open)});
   return true;
 }
 
@@ -257,43 +257,28 @@ void GlobalPlanner::explain(const ExplorationGrid& grid, const Eigen::Vector2d& 
   for (std::size_t k = 0; k < choice.weighed.size(); ++k) {
     const ViewPoint& view = choice.weighed[k];
     if (!decision.chosen && view.cell == choice.view.cell) decision.chosen = k;
-    decision.candidates.push_back(
-        {grid.centreOf(view.cell), grid.centreOf(view.target), view.expected, view.distance,
-         choice.costs.empty() ? scoreOf(parameters_.strategy, view) : choice.costs[k]});
+    decision.candidates.push_back({grid.centreOf(view.cell), grid.centreOf(view.target),
+                                   view.expected, view.distance,
+                                   scoreOf(parameters_.strategy, view)});
   }
   observer_(decision);
 }
 
-// Where no place promises much, all that is left is seen in a tour.
 GlobalPlanner::Choice GlobalPlanner::nextStop(const PlanningScene& scene, const ViewPoint& best) {
   const ViewSearch::Filter open = openOnes(scene);
-  const std::size_t shown = observer_ ? ViewSearch::kMostStops - 1 : 1;
+  const std::size_t shown = observer_ ? kMostShown - 1 : 1;
   auto weighed = view_search_.nextBest(parameters_.strategy, open, {best}, shown);
   const std::string next = weighed.empty()
                                ? "nothing else is worth its way"
                                : "next best " + promiseOf(scene.grid(), weighed.front());
   weighed.insert(weighed.begin(), best);
-  Choice by_score{best, next, DecisionRule::kScore, std::move(weighed), {}};
-  if (parameters_.strategy != Strategy::kViewTour) return by_score;
-  if (scoreOf(parameters_.strategy, best) >= kPromising) {
-    const auto passed = view_search_.onTheWay(scene, open, best);
-    if (!passed) return by_score;
-    by_score.weighed.insert(by_score.weighed.begin(), *passed);
-    by_score.weighed.resize(std::min(by_score.weighed.size(), ViewSearch::kMostStops), best);
-    return {*passed,
-            "in passing, on the way to " + promiseOf(scene.grid(), best),
-            DecisionRule::kInPassing,
-            std::move(by_score.weighed),
-            {}};
-  }
-  const auto present =
-      isGoalUnseen(scene.world()) ? std::optional<Cell>(goal_->target) : std::nullopt;
-  auto stops = view_search_.viewpoints(scene, open);
-  auto start = firstOfTour(scene, stops, present);
-  if (!start) return by_score;
-  const ViewPoint first = stops[start->first];
-  const std::string found = "first of a tour of " + std::to_string(stops.size()) + " stops";
-  return {first, found, DecisionRule::kTour, std::move(stops), std::move(start->costs)};
+  const bool may_pass = parameters_.strategy == Strategy::kViewTour;
+  const auto passed = may_pass ? view_search_.onTheWay(scene, open, best) : std::nullopt;
+  if (!passed) return {best, next, DecisionRule::kScore, std::move(weighed)};
+  weighed.insert(weighed.begin(), *passed);
+  weighed.resize(std::min(weighed.size(), kMostShown), best);
+  return {*passed, "in passing, on the way to " + promiseOf(scene.grid(), best),
+          DecisionRule::kInPassing, std::move(weighed)};
 }
 
 // The best of all places.

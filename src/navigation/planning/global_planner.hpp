@@ -16,7 +16,6 @@
 #include "navigation/planning/unreached_parts.hpp"
 #include "navigation/planning/view_points.hpp"
 #include "navigation/planning/view_search.hpp"
-#include "navigation/planning/view_tour.hpp"
 
 namespace cca {
 
@@ -56,10 +55,9 @@ struct Plan {
 /// The paper's global planner (Step 0): sets one goal after the other until no reachable frontier
 /// of useful size is left; see docs/exploration.md. It changes nothing of the world.
 ///
-/// A goal is the best of all places to look from (ViewSearch) or what is seen on the way there, or
-/// where none promises much the first stop of a tour of few of them; by the strategies of others, a
-/// place at a frontier as long as there is one. It is given up as soon as what it is to show has
-/// been seen, or the path is blocked.
+/// A goal is the best of all places to look from (ViewSearch) or what is seen on the way there; by
+/// the strategies of others, a place at a frontier as long as there is one. It is given up as soon
+/// as what it is to show has been seen, or the path is blocked.
 class GlobalPlanner {
  public:
   /// @param radius  m, of the robot: what it may pass, were there need.
@@ -122,7 +120,6 @@ class GlobalPlanner {
     std::string found;
     DecisionRule rule;
     std::vector<ViewPoint> weighed;  ///< it among them
-    std::vector<double> costs;       ///< of these, where the rule is a tour
   };
   Choice nextStop(const PlanningScene& scene, const ViewPoint& best);
   void explain(const ExplorationGrid& grid, const Eigen::Vector2d& robot_map,

@@ -63,12 +63,12 @@ std::size_t sideOf(Cell c, Cell neighbour) {
 class ViewTally {
  public:
   ViewTally(const ExplorationGrid& grid, Cell from, const CellSet& frontier_cells)
-      : grid_(grid), frontier_cells_(frontier_cells), from_(from), view_{from, from, from} {}
+      : grid_(grid), frontier_cells_(frontier_cells), from_(from), view_{from, from} {}
 
   /// @param reach  cells.
   void follow(const Eigen::Vector2d& direction, double reach) {
     direction_ = direction;
-    before_ = last_known_ = first_unknown_ = from_;
+    before_ = last_known_ = from_;
     counts_ = true;
     unknown_since_ = met_face_ = -1.0;
     const double end =
@@ -81,7 +81,7 @@ class ViewTally {
   ViewPoint result() const {
     ViewPoint view = view_;
     if (longest_ == 0.0 && !before_faces_.empty())
-      view.target = view.edge = before_faces_[before_faces_.size() / 2];
+      view.target = before_faces_[before_faces_.size() / 2];
     view.gain *= grid_.resolution() * grid_.resolution();
     view.expected *= grid_.resolution() * grid_.resolution();
     return view;
@@ -98,7 +98,6 @@ class ViewTally {
       if (!isOpaque(state)) last_known_ = c;
     } else if (unknown_since_ < 0.0) {
       unknown_since_ = entered;
-      first_unknown_ = c;
       counts_ = frontier_cells_.contains(last_known_);
     }
   }
@@ -114,7 +113,6 @@ class ViewTally {
         ((begin + free_way) * (1.0 - fading) - passed * fading) * free_way * 2.0 * M_PI / kCount;
     if (passed <= longest_) return;
     longest_ = passed;
-    view_.edge = first_unknown_;
     view_.target = cellAt(middleOf(from_) + 0.5 * (begin + end) * direction_);
   }
 
@@ -133,8 +131,8 @@ class ViewTally {
   std::vector<Cell> before_faces_;
   // Of the present ray, lengths in cells.
   Eigen::Vector2d direction_ = Eigen::Vector2d::Zero();
-  Cell before_, last_known_, first_unknown_;  ///< last_known_: and no obstacle
-  bool counts_ = true;                        ///< whether the stretch begins at a frontier
+  Cell before_, last_known_;  ///< last_known_: and no obstacle
+  bool counts_ = true;        ///< whether the stretch begins at a frontier
   double unknown_since_ = -1.0;
   double met_face_ = -1.0;  ///< where it meets the face of an obstacle that was not seen
 };

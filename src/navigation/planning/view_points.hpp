@@ -15,7 +15,6 @@ namespace cca {
 struct ViewPoint {
   Cell cell;              ///< traversable and reached
   Cell target;            ///< the unknown cell that it is there to see
-  Cell edge;              ///< where the unknown begins on the way to it
   double distance = 0.0;  ///< m, of the way there
   double gain = 0.0;      ///< m^2 of unknown area in view if all of it were free
   double expected = 0.0;  ///< m^2 of it that will be seen, as viewFrom() expects
@@ -39,7 +38,7 @@ inline constexpr double kShortestWay = 0.2;
 /// after a metre on average.
 /// @param frontier_cells  what lies behind these cells counts.
 /// @return the place with its gain and what is expected of it, no distance; the target is the
-///         middle of the longest unknown stretch, the edge its first cell; both are the place
+///         middle of the longest unknown stretch; the place
 ///         itself where nothing unknown is in view. Cost: O(frontier_cells), and O(range /
 ///         resolution) for each ray that meets one.
 ViewPoint viewFrom(const ExplorationGrid& grid, Cell from, double range,

@@ -111,7 +111,7 @@ void ViewSearch::findCandidates(const PlanningScene& scene) {
       const auto cell = reachedCell(scene, {x, y});
       if (!cell) continue;
       has_candidate_[{x, y}] = 1;
-      candidates_.push_back({*cell, *cell, *cell});
+      candidates_.push_back({*cell, *cell});
     }
   }
   for (ViewPoint& view : candidates_) {
@@ -170,27 +170,6 @@ std::optional<ViewPoint> ViewSearch::choose(const PlanningScene& scene, Strategy
   return {};
 }
 
-std::vector<ViewPoint> ViewSearch::viewpoints(const PlanningScene& scene, const Filter& filter) {
-  std::vector<ViewPoint*> candidates;
-  for (ViewPoint& view : viewpoints_) {
-    if (isWorthItsWay(view, filter)) candidates.push_back(&view);
-  }
-  std::stable_sort(candidates.begin(), candidates.end(),
-                   [](const auto* a, const auto* b) { return perMetre(*a) > perMetre(*b); });
-  std::vector<ViewPoint> stops;
-  for (ViewPoint* view : candidates) {
-    if (stops.size() == kMostStops || looks_left_ <= 0) break;
-    const bool is_seen = std::any_of(stops.begin(), stops.end(), [&](const ViewPoint& stop) {
-      return isInView(scene.grid(), stop.cell, view->edge, scene.world().laserRange());
-    });
-    if (is_seen) continue;
-    *view = evaluateViewpoint(scene, view->cell);
-    const bool is_open = view->gain >= smallest_gain_ && isWorthItsWay(*view, filter);
-    if (is_open) stops.push_back(*view);
-  }
-  return stops;
-}
-
 std::optional<ViewPoint> ViewSearch::onTheWay(const PlanningScene& scene, const Filter& filter,
                                               const ViewPoint& goal) {
   const auto detourBy = [&](const ViewPoint& view) {
@@ -224,7 +203,7 @@ ViewPoint ViewSearch::evaluateViewpoint(const PlanningScene& scene, Cell cell) {
       std::any_of(frontier_cells_.cells().begin(), frontier_cells_.cells().end(),
                   [&](Cell opening) { return distanceBetween(opening, cell) <= range; });
   looks_left_ -= is_in_reach ? kLook : 1;
-  ViewPoint view{cell, cell, cell};
+  ViewPoint view{cell, cell};
   if (is_in_reach) view = viewFrom(scene.grid(), cell, scene.world().laserRange(), frontier_cells_);
   view.distance = scene.distances().distanceTo(cell);
   return view;

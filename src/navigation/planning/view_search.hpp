@@ -22,7 +22,6 @@ namespace cca {
 /// evaluated first, a bounded number in each call.
 class ViewSearch {
  public:
-  static constexpr std::size_t kMostStops = 12;  ///< of a tour: some 1 ms
   /// What a viewpoint must fulfil beyond its gain.
   using Filter = std::function<bool(const ViewPoint&)>;
 
@@ -39,12 +38,6 @@ class ViewSearch {
   /// Cost: O(known blocks), and a bounded number of evaluations.
   std::optional<ViewPoint> next(const PlanningScene& scene, Strategy strategy,
                                 const Filter& filter);
-
-  /// Few viewpoints that see together all that is worth its way. Those that promise most for their
-  /// way come first; each is evaluated anew. None is there for what another one looks into as well,
-  /// by where the unknown begins.
-  /// Cost: O(viewpoints) lines of sight, and a bounded number of evaluations.
-  std::vector<ViewPoint> viewpoints(const PlanningScene& scene, const Filter& filter);
 
   /// The viewpoint on the way to a goal, for it would cost more later: that of the least detour for
   /// what is expected, by a metre at most, nearer than the goal and worth its way, whose target is
