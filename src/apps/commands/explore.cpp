@@ -26,6 +26,7 @@
 #include "io/files/atomic_file.hpp"
 #include "io/files/late_library.hpp"
 #include "io/files/memory_file.hpp"
+#include "io/files/text.hpp"
 #include "io/maps/map_folder.hpp"
 #include "io/poses/local_frame.hpp"
 
@@ -88,9 +89,8 @@ std::string chooseFolder(const ExploreOptions& options, const std::string& world
   if (folder.empty()) {
     makeFolder("out");
     for (int number = 1; folder.empty(); ++number) {
-      char name[16];
-      std::snprintf(name, sizeof name, "-%03d", number);
-      if (fs::create_directory("out/" + world + name)) folder = "out/" + world + name;
+      const std::string name = "out/" + world + formatted("-%03d", number);
+      if (fs::create_directory(name)) folder = name;
     }
   }
   return folder;

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <cstdio>
 #include <thread>
 #include <utility>
 
@@ -12,6 +11,7 @@
 #include "apps/options/moved.hpp"
 #include "apps/options/replay_moment.hpp"
 #include "cca_mrpt/session/earlier_drive.hpp"
+#include "io/files/text.hpp"
 #include "io/poses/pose_source.hpp"
 #include "navigation/planning/global_planner.hpp"
 #include "navigation/world/world_model.hpp"
@@ -58,9 +58,7 @@ double metresLeft(const Simulation& simulation, const Explorer& explorer) {
 }  // namespace
 
 std::string seenText(const std::optional<double>& seen) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.1f %% seen, ", 100.0 * seen.value_or(0.0));
-  return seen ? text : "";
+  return seen ? formatted("%.1f %% seen, ", 100.0 * *seen) : "";
 }
 
 ExplorationRun::ExplorationRun(Simulation& simulation, const Eigen::Vector2d& origin,
@@ -231,17 +229,16 @@ void ExplorationRun::show(const Action& action, Progress* progress) {
 }
 
 std::string ExplorationRun::progressText(const Action& action, double metres_left) {
-  char text[160], goal[40] = "none";
+  std::string goal = "none";
   if (action.goal) {
     const Eigen::Vector2d p_map = record_.origin() + *action.goal;
-    std::snprintf(goal, sizeof goal, "%.1f, %.1f", p_map.x(), p_map.y());
+    goal = formatted("%.1f, %.1f", p_map.x(), p_map.y());
   }
   const double seconds = std::max(1e-6 * microsecondsSince(begin_), 1e-3);
-  std::snprintf(text, sizeof text,
-                "%s%.0f m driven, %.0f m to go, %.0f s simulated, goal %s, %.0f scans/s",
-                seenText(record_.coverage().sofar()).c_str(), simulation_.distance(), metres_left,
-                simulation_.time(), goal, static_cast<double>(record_.scans()) / seconds);
-  return text;
+  return formatted("%s%.0f m driven, %.0f m to go, %.0f s simulated, goal %s, %.0f scans/s",
+                   seenText(record_.coverage().sofar()).c_str(), simulation_.distance(),
+                   metres_left, simulation_.time(), goal.c_str(),
+                   static_cast<double>(record_.scans()) / seconds);
 }
 
 void ExplorationRun::finish() {
@@ -251,19 +248,15 @@ void ExplorationRun::finish() {
 
 std::string ExplorationRun::shortcomings() const {
   std::string text;
-  char part[80];
   const auto tell = [&text](const std::string& what) {
     text += (text.empty() || what.empty() ? "" : ", ") + what;
   };
   if (simulation_.collisions() > 0) {
-    std::snprintf(part, sizeof part, "%d contacts with what stands", simulation_.collisions());
-    tell(part);
+    tell(std::to_string(simulation_.collisions()) + " contacts with what stands");
   }
   if (end_.plan.gave_up) tell(end_.reason);
   if (end_.is_incomplete) {
-    std::snprintf(part, sizeof part, "%.1f m^2 in view that the robot may fit through to",
-                  end_.plan.passableArea());
-    tell(part);
+    tell(formatted("%.1f m^2 in view that the robot may fit through to", end_.plan.passableArea()));
   }
   tell(contradiction(session_.mapping().agreement()));
   return text;

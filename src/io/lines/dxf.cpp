@@ -2,8 +2,9 @@
 #include "dxf.hpp"
 
 #include <cmath>
-#include <cstdio>
 #include <utility>
+
+#include "io/files/text.hpp"
 
 namespace cca {
 namespace {
@@ -26,9 +27,7 @@ Dxf::Groups& Dxf::Groups::group(int code, const std::string& value) {
 }
 
 Dxf::Groups& Dxf::Groups::number(int code, double value) {
-  char digits[64];
-  std::snprintf(digits, sizeof digits, "%.4f", value);
-  return group(code, std::string(digits));
+  return group(code, formatted("%.4f", value));
 }
 
 Dxf::Groups& Dxf::Groups::point(int code, const Eigen::Vector2d& p) {
@@ -47,11 +46,7 @@ Dxf::Groups& Dxf::Groups::entry(const char* type, unsigned own, unsigned table, 
   return group(2, name);
 }
 
-std::string Dxf::handle(unsigned number) {
-  char digits[16];
-  std::snprintf(digits, sizeof digits, "%X", number);
-  return digits;
-}
+std::string Dxf::handle(unsigned number) { return formatted("%X", number); }
 
 Dxf::Groups& Dxf::entity(const char* type, const std::string& layer, const char* kind) {
   entities_.group(0, type).group(5, handle(next_++)).group(330, handle(kModelSpace));

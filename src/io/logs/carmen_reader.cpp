@@ -11,6 +11,7 @@
 #include "carmen_line.hpp"
 #include "cca_mrpt/sensing/missing_returns.hpp"
 #include "io/files/gzip_lines.hpp"
+#include "io/files/text.hpp"
 
 namespace cca {
 namespace {
@@ -189,12 +190,14 @@ class CarmenReader : public LogReader {
     std::string text;
     if (survey_.damaged_file) text = "the compressed file is damaged or ends early";
     if (survey_.damaged_lines > 0) {
-      text += (text.empty() ? "" : "; ") + std::to_string(survey_.damaged_lines) +
-              " damaged laser line(s) left out";
+      appendWarning(std::to_string(survey_.damaged_lines) + " damaged laser line(s) left out",
+                    text);
     }
     for (const auto& [name, lines] : survey_.left_out) {
-      text += (text.empty() ? "" : "; ") + std::to_string(lines) + " " + name +
-              " line(s) left out: where on the robot that laser is, the log does not tell";
+      appendWarning(
+          std::to_string(lines) + " " + name +
+              " line(s) left out: where on the robot that laser is, the log does not tell",
+          text);
     }
     return text;
   }

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <cstring>
 #include <utility>
 #include <vector>
@@ -12,6 +11,7 @@
 #include "canvas.hpp"
 #include "io/files/atomic_file.hpp"
 #include "io/files/stray_places.hpp"
+#include "io/files/text.hpp"
 #include "io/lines/line_formats.hpp"
 
 namespace cca {
@@ -140,9 +140,7 @@ void drawScaleBar(Canvas& canvas, bool beside_caption, double unit) {
     canvas.bar(x + 0.25 * part * length, y, 0.25 * length, 5.0 * unit,
                part % 2 ? kSoftInk : kDarkInk);
   }
-  char label[32];
-  std::snprintf(label, sizeof label, "%g m", metres);
-  canvas.text(x, y - 6.0 * unit, 15.0 * unit, false, kDarkInk, label);
+  canvas.text(x, y - 6.0 * unit, 15.0 * unit, false, kDarkInk, formatted("%g m", metres));
 }
 
 /// Names of files may be anything; Cairo draws no text that is not UTF-8.
@@ -154,9 +152,8 @@ std::string asUtf8(const std::string& text) {
 void drawCaption(Canvas& canvas, const MapProducts& products, double unit) {
   double length = 0.0;
   for (const MapLine& line : products.lines) length += line.segment.length();
-  char numbers[160];
-  std::snprintf(numbers, sizeof numbers, "%zu lines, %zu poly-lines, %.0f m of wall",
-                products.lines.size(), products.poly_lines.size(), length);
+  const std::string numbers = formatted("%zu lines, %zu poly-lines, %.0f m of wall",
+                                        products.lines.size(), products.poly_lines.size(), length);
   canvas.bar(0, 0, canvas.width(), kHeader * unit, kPaper);
   canvas.text(16.0 * unit, 28.0 * unit, 21.0 * unit, true, kDarkInk, asUtf8(products.title));
   canvas.text(16.0 * unit, 51.0 * unit, 15.0 * unit, false, kSoftInk, numbers);

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <cstdio>
-
+#include "io/files/text.hpp"
 #include "io/lines/dxf.hpp"
 #include "io/plans/plan_formats.hpp"
 #include "plan_sheet.hpp"
@@ -45,9 +44,7 @@ std::string inDxf(const std::string& utf8) {
       unsigned code = lead & (0xFFU >> (bytes + 1));
       for (std::size_t i = 1; i < bytes; ++i)
         code = code << 6 | (static_cast<unsigned char>(utf8[k + i]) & 0x3FU);
-      char escape[16];
-      std::snprintf(escape, sizeof escape, "\\U+%04X", code);
-      text += escape;
+      text += formatted("\\U+%04X", code);
     }
     k += bytes;
   }
@@ -57,11 +54,9 @@ std::string inDxf(const std::string& utf8) {
 void addRoom(Dxf& dxf, const PlanRoom& room) {
   dxf.polyLine(room.outline, "A-AREA", true);
   for (const Polygon& hole : room.holes) dxf.polyLine(hole, "A-AREA", true);
-  char area[32];
-  std::snprintf(area, sizeof area, "%.2f m2", room.area);
   const Eigen::Vector2d down(0.0, -1.4 * kTextHeight);
   dxf.text(room.label, kTextHeight, inDxf(nameOf(room)), "A-AREA-IDEN");
-  dxf.text(room.label + down, kTextHeight, area, "A-AREA-IDEN");
+  dxf.text(room.label + down, kTextHeight, formatted("%.2f m2", room.area), "A-AREA-IDEN");
 }
 
 }  // namespace

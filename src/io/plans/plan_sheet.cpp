@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 
 #include "geometry/cross.hpp"
+#include "io/files/text.hpp"
 #include "io/plans/plan_formats.hpp"
 
 namespace cca {
@@ -33,12 +33,6 @@ constexpr std::array<Colour, 8> kRoomFills{{{0.87, 0.92, 0.97},
                                             {0.84, 0.94, 0.94},
                                             {0.98, 0.90, 0.80},
                                             {0.93, 0.94, 0.80}}};
-
-std::string formatted(const char* format, double value) {
-  char text[64];
-  std::snprintf(text, sizeof text, format, value);
-  return text;
-}
 
 Eigen::AlignedBox2d boundsOfPlan(const FloorPlan& plan) {
   Eigen::AlignedBox2d box;
@@ -124,7 +118,7 @@ class Layout {
     drawDimensions(box);
     drawHeader(title);
     drawLegend();
-    if (place) drawNorth(place->turn_deg * M_PI / 180.0);
+    if (place) drawNorth(place->turn_deg * kRadiansPerDegree);
   }
 
   const PlanSheet& sheet() const { return sheet_; }
@@ -267,9 +261,8 @@ class Layout {
     for (const PlanOpening& opening : plan_.openings) doors += opening.kind == OpeningKind::kDoor;
     SheetShape& name = text({kSheetMargin, kSheetMargin + 2.0}, 4.6, kPlanInk, title);
     name.is_bold = name.is_left_aligned = true;
-    char numbers[160];
-    std::snprintf(numbers, sizeof numbers,
-                  "%zu rooms, %.1f m² of floor, %d doors, %zu other openings; 1 : %d; metres",
+    const std::string numbers =
+        formatted("%zu rooms, %.1f m² of floor, %d doors, %zu other openings; 1 : %d; metres",
                   plan_.rooms.size(), area, doors,
                   plan_.openings.size() - static_cast<std::size_t>(doors), sheet_.scale);
     text({kSheetMargin, kSheetMargin + 6.5}, kCaption, kPlanSoftInk, numbers).is_left_aligned =
