@@ -19,11 +19,6 @@ namespace {
 constexpr double kShortestRange = 0.05;   // m; below it a SICK reports errors
 constexpr double kLongestMounting = 2.0;  // m; a laser further from the robot is a corrected pose
 
-bool samePose(const Pose2& a, const Pose2& b, double tolerance) {
-  return (a.position() - b.position()).norm() <= tolerance &&
-         std::abs(wrapAngle(a.theta - b.theta)) <= tolerance;
-}
-
 /// Lines of the same lasers: a log may carry a scan as more than one of them.
 enum class CarmenFamily {
   kSick,    ///< FLASER and RLASER
@@ -72,7 +67,7 @@ class Surveyor {
   }
 
   void add(const Pose2& odometry) {
-    const bool copy = last_laser_ && samePose(*last_laser_, odometry, 1e-9);
+    const bool copy = last_laser_ && areNear(*last_laser_, odometry, 1e-9);
     odometry_lines_ += !copy;
     last_laser_.reset();
   }
@@ -94,7 +89,7 @@ class Surveyor {
     const Pose2 mounting = scan.robot.inverse() * scan.laser;
     if (!mounting_) mounting_ = mounting;
     mounting_holds_ = mounting_holds_ && mounting.position().norm() < kLongestMounting &&
-                      samePose(*mounting_, mounting, 1e-2);
+                      areNear(*mounting_, mounting, 1e-2);
   }
 
   Saturation saturation_;
@@ -177,7 +172,7 @@ class CarmenReader : public LogReader {
     while (const auto line = lines_.next()) {
       if (const auto odometry = parseCarmenOdometry(*line)) {
         const Pose2& logged = odometry->T_odom_robot;
-        chain_.add(logged, last_laser_ && samePose(*last_laser_, logged, 1e-9));
+        chain_.add(logged, last_laser_ && areNear(*last_laser_, logged, 1e-9));
         last_laser_.reset();
       } else if (const auto scan = parseCarmenScan(*line)) {
         if (familyOf(scan->message) == survey_.family) return record(*scan);

@@ -2,6 +2,7 @@
 #include "sound_log.hpp"
 
 #include <map>
+#include <stdexcept>
 #include <string>
 #include <utility>
 
@@ -32,6 +33,8 @@ std::optional<SensorReading> readingOf(const LogRecord& record, const Pose2& T_r
 class SoundLog : public LogReader {
  public:
   explicit SoundLog(std::unique_ptr<LogReader> log) : log_(std::move(log)), ahead_(nextSound()) {}
+
+  bool hasEnded() const { return !ahead_; }
 
   std::optional<LogRecord> next() override {
     if (!ahead_) return std::nullopt;
@@ -106,8 +109,12 @@ class SoundLog : public LogReader {
 
 }  // namespace
 
-std::unique_ptr<LogReader> soundScansOf(std::unique_ptr<LogReader> log) {
-  return std::make_unique<SoundLog>(withoutHeldOdometry(std::move(log)));
+std::unique_ptr<LogReader> soundScansOf(std::unique_ptr<LogReader> log, const std::string& path) {
+  auto sound = std::make_unique<SoundLog>(withoutHeldOdometry(std::move(log)));
+  if (path.empty() || !sound->hasEnded()) return sound;
+  const std::string why = sound->warnings();
+  throw std::runtime_error(path + ": holds no scan of a 2-D laser" +
+                           (why.empty() ? "" : " (" + why + ")"));
 }
 
 }  // namespace cca

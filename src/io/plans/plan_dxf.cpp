@@ -24,12 +24,9 @@ Dxf planDrawing() {
 void addWall(Dxf& dxf, const PlanWall& wall) {
   if (wall.thickness <= 0.0) {
     dxf.line(wall.start, wall.end, wall.is_presumed ? "A-WALL-PRSM" : "A-WALL");
-    return;
+  } else {
+    dxf.polyLine(outlineOf(wall), "A-WALL", true);
   }
-  const Eigen::Vector2d along = (wall.end - wall.start).normalized();
-  const Eigen::Vector2d half = 0.5 * wall.thickness * Eigen::Vector2d(-along.y(), along.x());
-  dxf.polyLine({wall.start + half, wall.end + half, wall.end - half, wall.start - half}, "A-WALL",
-               true);
 }
 
 /// AutoCAD 2000 is ASCII: other characters as AutoCAD writes them.

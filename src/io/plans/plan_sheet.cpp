@@ -186,7 +186,7 @@ class Layout {
     }
   }
 
-  /// A wall of two faces is filled, half its thickness longer at both ends so that corners close.
+  /// A wall of two faces is filled.
   void drawWalls() {
     for (const PlanWall& wall : plan_.walls) {
       if (wall.is_presumed) {
@@ -197,12 +197,8 @@ class Layout {
         line(paper(wall.start), paper(wall.end), kPlanInk, kFaceStroke);
         continue;
       }
-      const Eigen::Vector2d along = (wall.end - wall.start).normalized();
-      const Eigen::Vector2d left(-along.y(), along.x());
-      const Eigen::Vector2d half = 0.5 * wall.thickness * left;
       SheetShape shape;
-      shape.rings = {
-          paper(Polygon{wall.start + half, wall.end + half, wall.end - half, wall.start - half})};
+      shape.rings = {paper(outlineOf(wall))};
       shape.fill = kPlanInk;
       shape.title = formatted("wall, %.3f m thick", wall.thickness);
       add(std::move(shape));
@@ -336,6 +332,12 @@ class Layout {
 };
 
 }  // namespace
+
+Polygon outlineOf(const PlanWall& wall) {
+  const Eigen::Vector2d along = (wall.end - wall.start).normalized();
+  const Eigen::Vector2d half = 0.5 * wall.thickness * Eigen::Vector2d(-along.y(), along.x());
+  return {wall.start + half, wall.end + half, wall.end - half, wall.start - half};
+}
 
 std::string nameOf(const PlanRoom& room) {
   return room.name.empty() ? "Room " + std::to_string(room.id) : room.name;
