@@ -53,7 +53,6 @@ ExplorationRecord::ExplorationRecord(const Simulation& simulation, const Eigen::
       replay_(simulation.world().name, simulation.parameters().robot.radius) {}
 
 void ExplorationRecord::add(const Cycle& cycle) {
-  ++scans_;
   truth_.push_back({cycle.time, cycle.T_map_robot});
   if (keepIfMoved(last_look_, cycle.T_map_robot))
     look(cycle.T_map_robot, cycle.time, cycle.distance);

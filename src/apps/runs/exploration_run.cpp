@@ -9,10 +9,10 @@
 
 #include "apps/logs/contradiction.hpp"
 #include "apps/options/moved.hpp"
-#include "apps/options/replay_moment.hpp"
 #include "cca_mrpt/session/earlier_drive.hpp"
 #include "io/files/text.hpp"
 #include "io/poses/pose_source.hpp"
+#include "live/exploration_moment.hpp"
 #include "navigation/planning/global_planner.hpp"
 #include "navigation/world/world_model.hpp"
 #include "on_all_cores.hpp"
@@ -44,6 +44,16 @@ ExplorationSession::Settings settingsOf(const Parameters& parameters,
                                         const LaserParameters& laser) {
   return {parameters.mapping, parameters.robot, parameters.exploration,
           laser.sweep == 0.0 ? std::optional<double>(0.0) : std::nullopt};
+}
+
+/// What a replay shows of the exploration now. Cost: that of copying the frontier.
+ReplayMoment momentOf(const Simulation& simulation, const Explorer& explorer,
+                      const Observation& believed, const Action& action) {
+  ReplayMoment moment = cca::momentOf(explorer, believed.T_map_robot, action);
+  moment.time = simulation.time();
+  moment.distance = simulation.distance();
+  moment.truth = simulation.T_map_robot();
+  return moment;
 }
 
 /// How far the robot still has to go, as far as it knows: to each frontier.

@@ -8,12 +8,11 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
-#include <charconv>
 #include <csignal>
 #include <cstdint>
-#include <cstdio>
 #include <cstring>
 #include <filesystem>
+#include <fstream>
 #include <new>
 #include <stdexcept>
 #include <type_traits>
@@ -49,12 +48,8 @@ std::size_t mostMemory(std::size_t file_bytes) {
 
 /// Bytes of address space in use; 0 where the system does not tell.
 std::size_t processSize() {
-  std::array<char, 128> text{};
-  std::FILE* const file = std::fopen("/proc/self/statm", "r");
-  const std::size_t length = file ? std::fread(text.data(), 1, text.size(), file) : 0;
-  if (file) std::fclose(file);
   std::size_t pages = 0;
-  std::from_chars(text.data(), text.data() + length, pages);
+  std::ifstream("/proc/self/statm") >> pages;
   return pages * static_cast<std::size_t>(sysconf(_SC_PAGESIZE));
 }
 

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "carmen_reader.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <deque>
@@ -12,6 +10,7 @@
 #include "cca_mrpt/sensing/missing_returns.hpp"
 #include "io/files/gzip_lines.hpp"
 #include "io/files/text.hpp"
+#include "text_formats.hpp"
 
 namespace cca {
 namespace {

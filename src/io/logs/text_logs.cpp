@@ -2,7 +2,6 @@
 #include <algorithm>
 
 #include "carmen_line.hpp"
-#include "carmen_reader.hpp"
 #include "io/files/text.hpp"
 #include "text_formats.hpp"
 

@@ -40,11 +40,6 @@ constexpr std::array<Colour, 6> kPalette{{{0.00, 0.33, 0.64},
 
 constexpr int kLargestImage = 32767;  // pixels a side, of an image of cairo's
 
-std::uint32_t rgb(const Colour& c) {
-  const auto byte = [](double v) { return static_cast<std::uint32_t>(std::lround(255.0 * v)); };
-  return byte(c.red) << 16 | byte(c.green) << 8 | byte(c.blue);
-}
-
 std::uint32_t cellColour(Occupancy state) {
   if (state == Occupancy::kUnknown) return rgb(kUnknown);
   return rgb(state == Occupancy::kFree ? kFree : kHit);

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <cmath>
-
 #include "io/files/text.hpp"
 #include "io/plans/plan_formats.hpp"
 #include "plan_sheet.hpp"
@@ -9,9 +7,7 @@ namespace cca {
 namespace {
 
 std::string inSvg(const Colour& colour) {
-  if (colour.alpha <= 0.0) return "none";
-  const auto byte = [](double v) { return static_cast<unsigned>(std::lround(255.0 * v)) & 255U; };
-  return formatted("#%02x%02x%02x", byte(colour.red), byte(colour.green), byte(colour.blue));
+  return colour.alpha > 0.0 ? formatted("#%06x", rgb(colour)) : "none";
 }
 
 std::string decimal(double value) { return formatted("%.3f", value); }
