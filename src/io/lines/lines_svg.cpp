@@ -41,15 +41,8 @@ std::string svgHead(const Box& box) {
          "<g fill=\"none\" stroke-linecap=\"round\" stroke-linejoin=\"round\">\n";
 }
 
-/// 1, 2 or 5 times a power of ten [m], about a quarter of the width at the most.
-double barLength(double width) {
-  const double most = std::max(1.0, 0.25 * width);
-  const double power = std::pow(10.0, std::floor(std::log10(most)));
-  return power * (most >= 5.0 * power ? 5.0 : most >= 2.0 * power ? 2.0 : 1.0);
-}
-
 std::string scaleBar(const Box& box) {
-  const double length = barLength(box.sizes().x() - 2.0 * kMargin);
+  const double length = scaleBarLength(std::max(1.0, 0.25 * (box.sizes().x() - 2.0 * kMargin)));
   const double x = box.min().x() + kMargin, y = -box.min().y() - 0.3;
   return formatted("<g id=\"scale\" stroke=\"%s\" stroke-width=\"0.03\">\n", kInk) +
          formatted("<path d=\"M %.4f %.4f v 0.16 h %g v -0.16\"/>\n", x, y - 0.16, length) +
@@ -83,6 +76,11 @@ std::string svgArc(const Arc& arc) {
 }
 
 }  // namespace
+
+double scaleBarLength(double most) {
+  const double power = std::pow(10.0, std::floor(std::log10(most)));
+  return power * (most >= 5.0 * power ? 5.0 : most >= 2.0 * power ? 2.0 : 1.0);
+}
 
 std::string linesSvg(const std::vector<MapLine>& lines, const std::vector<PolyLine>& poly_lines,
                      const std::vector<Pose2>& trajectory, const std::vector<MapArc>& arcs,

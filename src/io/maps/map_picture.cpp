@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstring>
 #include <utility>
 #include <vector>
@@ -117,17 +116,10 @@ void drawEnds(Canvas& canvas, const std::vector<Pose2>& trajectory, double unit)
   canvas.disc(last.position(), 6.0 * unit, kEnd, 1.5 * unit, kPaper);
 }
 
-/// The longest of 1, 2, 5, 10, ... m that is no longer than a quarter of the sheet.
-double scaleBarMetres(const Canvas& canvas) {
-  const double longest = 0.25 * canvas.width() / canvas.pixelsPerMetre();
-  const double decade = std::pow(10.0, std::floor(std::log10(longest)));
-  if (5.0 * decade <= longest) return 5.0 * decade;
-  return 2.0 * decade <= longest ? 2.0 * decade : decade;
-}
-
 /// Beside the caption; on a sheet without one, in the lower left corner.
 void drawScaleBar(Canvas& canvas, bool beside_caption, double unit) {
-  const double metres = scaleBarMetres(canvas), length = metres * canvas.pixelsPerMetre();
+  const double metres = scaleBarLength(0.25 * canvas.width() / canvas.pixelsPerMetre());
+  const double length = metres * canvas.pixelsPerMetre();
   const double x = beside_caption ? canvas.width() - length - 16.0 * unit : 16.0 * unit;
   const double y = (beside_caption ? kHeader * unit : canvas.height()) - 18.0 * unit;
   canvas.bar(x - 8.0 * unit, y - 24.0 * unit, length + 16.0 * unit, 36.0 * unit, {1, 1, 1, 0.8});
