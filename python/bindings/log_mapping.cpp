@@ -15,6 +15,7 @@
 #include "apps/runs/interruption.hpp"
 #include "arguments.hpp"
 #include "cca_mrpt/session/earlier_drive.hpp"
+#include "io/files/text.hpp"
 #include "io/logs/sound_log.hpp"
 #include "io/poses/local_frame.hpp"
 #include "parameters.hpp"
@@ -85,7 +86,7 @@ class LogMapping {
       mapping_->listening([this] { mapping_->finish(); });
     }
     MappedScans result = resultOf(*mapping_);
-    apps::appendWarning(result.warnings, warnings);
+    appendWarning(result.warnings, warnings);
     result.warnings = warnings;
     return result;
   }
@@ -112,7 +113,7 @@ class LogMapping {
     } catch (const std::runtime_error& error) {
       throw drives_.named(error);
     }
-    apps::appendWarning(log->warnings(), warnings);
+    appendWarning(log->warnings(), warnings);
     return true;
   }
 

@@ -10,12 +10,10 @@
 #include <stdexcept>
 #include <utility>
 
-#include "io/files/memory_file.hpp"
 #include "io/lines/line_formats.hpp"
 #include "io/maps/map_frame.hpp"
 #include "io/maps/occupancy_files.hpp"
 #include "io/poses/local_frame.hpp"
-#include "io/poses/pose_files.hpp"
 #include "io/replay/replay.hpp"
 #include "line_arrays.hpp"
 #include "module.hpp"
@@ -50,25 +48,9 @@ nb::object trajectoryArray(const std::vector<Pose2>& trajectory) {
 /// Of a map in the map frame.
 nb::dict filesOf(const MapProducts& map) {
   nb::dict files;
-  const auto put = [&files](const char* name, const std::string& content) {
-    files[name] = nb::bytes(content.data(), content.size());
-  };
-  put("lines.csv", linesCsv(map.lines));
-  put("arcs.csv", arcsCsv(map.arcs));
-  put("lines.geojson",
-      linesGeoJson(map.lines, map.poly_lines, map.trajectory, map.arcs, map.place));
-  put("lines.svg", linesSvg(map.lines, map.poly_lines, map.trajectory, map.arcs, map.place));
-  put("lines.dxf", linesDxf(map.lines, map.poly_lines, map.trajectory, map.arcs));
-  if (map.grid) {
-    put("map.pgm", occupancyPgm(*map.grid));
-    put("map.yaml", occupancyYaml(*map.grid, "map.pgm"));
+  for (const auto& [name, content] : mapTexts(map)) {
+    files[name.c_str()] = nb::bytes(content.data(), content.size());
   }
-  if (!map.trajectory.empty()) {
-    put("poses.csv", posesCsv(stampedPoses(map)));
-    put("poses.tum", posesTum(stampedPoses(map)));
-  }
-  if (map.graph.size() > 0) put("graph.g2o", graphG2o(map.graph));
-  if (!map.memory.empty()) put(kMemoryFile, map.memory);
   return files;
 }
 

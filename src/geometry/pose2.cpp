@@ -22,6 +22,11 @@ bool isFinite(const Pose2& pose) {
   return pose.position().allFinite() && std::isfinite(pose.theta);
 }
 
+bool areNear(const Pose2& a, const Pose2& b, double tolerance) {
+  return (a.position() - b.position()).norm() <= tolerance &&
+         std::abs(wrapAngle(a.theta - b.theta)) <= tolerance;
+}
+
 Pose2 operator*(const Pose2& T_a_b, const Pose2& T_b_c) {
   const Eigen::Vector2d p = T_a_b * T_b_c.position();
   return {p.x(), p.y(), wrapAngle(T_a_b.theta + T_b_c.theta)};

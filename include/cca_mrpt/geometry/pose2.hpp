@@ -22,6 +22,9 @@ struct Pose2 {
 /// Whether none of its numbers is NaN or infinite.
 bool isFinite(const Pose2& pose);
 
+/// Whether two poses differ by no more than a tolerance [m, and rad].
+bool areNear(const Pose2& a, const Pose2& b, double tolerance);
+
 /// Composition, T_a_c = T_a_b * T_b_c; theta wrapped to (-pi, pi].
 Pose2 operator*(const Pose2& T_a_b, const Pose2& T_b_c);
 

@@ -10,7 +10,7 @@
 #include "cca_mrpt/io/log_reader.hpp"
 #include "commands.hpp"
 #include "io/files/atomic_file.hpp"
-#include "io/files/content.hpp"
+#include "io/files/text.hpp"
 #include "io/lines/segments_csv.hpp"
 
 namespace cca::apps {

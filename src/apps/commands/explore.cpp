@@ -26,6 +26,7 @@
 #include "io/files/atomic_file.hpp"
 #include "io/files/late_library.hpp"
 #include "io/files/memory_file.hpp"
+#include "io/files/text.hpp"
 #include "io/maps/map_folder.hpp"
 #include "io/poses/local_frame.hpp"
 
@@ -84,16 +85,12 @@ Scene makeScene(const ExploreOptions& options, const Parameters& parameters) {
 
 /// The folder that was asked for, else a fresh one: out/WORLD-001, -002, ...
 std::string chooseFolder(const ExploreOptions& options, const std::string& world) {
-  std::string folder = options.out;
-  if (folder.empty()) {
-    makeFolder("out");
-    for (int number = 1; folder.empty(); ++number) {
-      char name[16];
-      std::snprintf(name, sizeof name, "-%03d", number);
-      if (fs::create_directory("out/" + world + name)) folder = "out/" + world + name;
-    }
+  if (!options.out.empty()) return options.out;
+  makeFolder("out");
+  for (int number = 1;; ++number) {
+    const std::string folder = "out/" + world + formatted("-%03d", number);
+    if (fs::create_directory(folder)) return folder;
   }
-  return folder;
 }
 
 /// What can be seen of a large world takes longer to work out than the robot drives: nobody who

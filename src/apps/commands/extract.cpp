@@ -1,10 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <array>
 #include <cmath>
-#include <cstdio>
-#include <filesystem>
 #include <memory>
-#include <stdexcept>
 #include <string>
 
 #include "apps/logs/log_warnings.hpp"
@@ -14,6 +10,7 @@
 #include "cca_mrpt/mapping/line_extraction.hpp"
 #include "commands.hpp"
 #include "io/files/atomic_file.hpp"
+#include "io/files/text.hpp"
 
 namespace cca::apps {
 
@@ -24,22 +21,16 @@ constexpr char kArcHeader[] =
 constexpr char kHeader[] = "scan_id,x1,y1,x2,y2,returns,sigma_lateral,sigma_angle\n";
 
 std::string row(int scan_id, const LineSegment& line) {
-  std::array<char, 256> text{};
-  const int length =
-      std::snprintf(text.data(), text.size(), "%d,%.6f,%.6f,%.6f,%.6f,%.0f,%.6f,%.6f\n", scan_id,
-                    line.start.x(), line.start.y(), line.end.x(), line.end.y(), line.moments.weight,
-                    std::sqrt(line.covariance(0, 0)), std::sqrt(line.covariance(1, 1)));
-  return {text.data(), static_cast<std::size_t>(length)};
+  return formatted("%d,%.6f,%.6f,%.6f,%.6f,%.0f,%.6f,%.6f\n", scan_id, line.start.x(),
+                   line.start.y(), line.end.x(), line.end.y(), line.moments.weight,
+                   std::sqrt(line.covariance(0, 0)), std::sqrt(line.covariance(1, 1)));
 }
 
 std::string row(int scan_id, const Arc& arc) {
-  std::array<char, 256> text{};
   const auto sigma = [&](int k) { return std::sqrt(arc.covariance(k, k)); };
-  const int length = std::snprintf(
-      text.data(), text.size(), "%d,%.6f,%.6f,%.6f,%.4f,%.4f,%.0f,%.6f,%.6f,%.6f\n", scan_id,
-      arc.centre.x(), arc.centre.y(), arc.radius, arc.start_angle * 180.0 / M_PI,
-      arc.sweep * 180.0 / M_PI, arc.support, sigma(0), sigma(1), sigma(2));
-  return {text.data(), static_cast<std::size_t>(length)};
+  return formatted("%d,%.6f,%.6f,%.6f,%.4f,%.4f,%.0f,%.6f,%.6f,%.6f\n", scan_id, arc.centre.x(),
+                   arc.centre.y(), arc.radius, arc.start_angle * kDegreesPerRadian,
+                   arc.sweep * kDegreesPerRadian, arc.support, sigma(0), sigma(1), sigma(2));
 }
 
 }  // namespace

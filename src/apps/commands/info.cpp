@@ -7,6 +7,7 @@
 
 #include "apps/options/log_hint_options.hpp"
 #include "commands.hpp"
+#include "io/files/text.hpp"
 
 namespace cca::apps {
 namespace {
@@ -17,42 +18,35 @@ void row(const char* name, const std::string& value) {
   std::printf("%-12s %s\n", name, value.c_str());
 }
 
-template <class... Values>
-std::string format(const char* pattern, Values... values) {
-  char text[256];
-  std::snprintf(text, sizeof text, pattern, values...);
-  return text;
-}
-
 double number(const Json& value) { return value.get<double>(); }
 
 void printReadings(const Json& info) {
   const Json& beams = info["beams"];
   row("scans", info["scans"].dump());
   row("beams", beams[0] == beams[1] ? beams[1].dump() : beams[0].dump() + " to " + beams[1].dump());
-  row("view", format("%g deg from %g deg, %g deg a beam", number(info["field_of_view_deg"]),
-                     number(info["first_beam_deg"]), number(info["beam_step_deg"])));
+  row("view", formatted("%g deg from %g deg, %g deg a beam", number(info["field_of_view_deg"]),
+                        number(info["first_beam_deg"]), number(info["beam_step_deg"])));
   for (const Json& laser : info["lasers"]) {
-    row("laser at", format("%g m, %g m, %g deg on the robot", number(laser["x_m"]),
-                           number(laser["y_m"]), number(laser["yaw_deg"])));
+    row("laser at", formatted("%g m, %g m, %g deg on the robot", number(laser["x_m"]),
+                              number(laser["y_m"]), number(laser["yaw_deg"])));
   }
-  row("readings",
-      format("%.1f %% returns, %.1f %% no return, %.1f %% invalid", 100.0 * number(info["returns"]),
-             100.0 * number(info["no_returns"]), 100.0 * number(info["invalid"])));
+  row("readings", formatted("%.1f %% returns, %.1f %% no return, %.1f %% invalid",
+                            100.0 * number(info["returns"]), 100.0 * number(info["no_returns"]),
+                            100.0 * number(info["invalid"])));
   if (const Json& range = info["range_m"]; !range.empty()) {
-    row("range", format("%.2f m to %.2f m, median %.2f m; noise about %.0f mm", number(range[0]),
-                        number(range[2]), number(range[1]), 1e3 * number(info["noise_m"])));
+    row("range", formatted("%.2f m to %.2f m, median %.2f m; noise about %.0f mm", number(range[0]),
+                           number(range[2]), number(range[1]), 1e3 * number(info["noise_m"])));
   }
 }
 
 void printRun(const Json& info) {
   const Json& faults = info["time_faults"];
-  row("duration", format("%.1f s", number(info["duration_s"])));
+  row("duration", formatted("%.1f s", number(info["duration_s"])));
   row("time stamps", faults["missing"].dump() + " missing, " + faults["backwards"].dump() +
                          " backwards, " + faults["repeated"].dump() + " repeated, " +
                          faults["gaps"].dump() + " gaps");
-  row("path",
-      format("%.1f m, %.0f deg of turning", number(info["path_m"]), number(info["turning_deg"])));
+  row("path", formatted("%.1f m, %.0f deg of turning", number(info["path_m"]),
+                        number(info["turning_deg"])));
   const Json& poses = info["poses"];
   row("poses", poses["corrected"].dump() + " corrected, " + poses["odometry"].dump() +
                    " odometry, " + poses["truth"].dump() + " true");

@@ -2,12 +2,11 @@
 #include <cstdio>
 #include <memory>
 #include <optional>
-#include <stdexcept>
 #include <string>
 
 #include "apps/options/origin_option.hpp"
 #include "commands.hpp"
-#include "io/files/content.hpp"
+#include "io/files/text.hpp"
 #include "io/plans/plan_files.hpp"
 #include "io/plans/plan_formats.hpp"
 

@@ -15,7 +15,7 @@
 #include "cca_mrpt/mapping/line_map.hpp"
 #include "commands.hpp"
 #include "io/files/atomic_file.hpp"
-#include "io/files/content.hpp"
+#include "io/files/text.hpp"
 #include "io/lines/line_formats.hpp"
 #include "io/maps/map_picture.hpp"
 #include "io/maps/map_scene.hpp"

@@ -5,8 +5,8 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cstdio>
 
+#include "io/files/text.hpp"
 #include "io/logs/measurements.hpp"
 #include "told_start.hpp"
 
@@ -44,10 +44,8 @@ void LocalizedLog::note(const Estimate& estimate, const LogRecord& record) {
   agreement_.add(estimate.agreement);
   residual_sq_.add(localiser_.residual() * localiser_.residual());
   const Eigen::Matrix3d& P = estimate.covariance;
-  char row[160];
-  std::snprintf(row, sizeof row, "%.6f,%.4e,%.4e,%.4e,%.4e,%.4e,%.4e\n", poses_.back().time,
-                P(0, 0), P(0, 1), P(0, 2), P(1, 1), P(1, 2), P(2, 2));
-  covariances_ += row;
+  covariances_ += formatted("%.6f,%.4e,%.4e,%.4e,%.4e,%.4e,%.4e\n", poses_.back().time, P(0, 0),
+                            P(0, 1), P(0, 2), P(1, 1), P(1, 2), P(2, 2));
   if (const auto reference = referencePose(record)) errors_.add(estimate, *reference);
 }
 

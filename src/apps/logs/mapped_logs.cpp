@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cstdio>
 #include <filesystem>
 #include <stdexcept>
 #include <thread>
@@ -13,6 +12,7 @@
 #include "apps/runs/progress.hpp"
 #include "cca_mrpt/session/earlier_drive.hpp"
 #include "io/files/stray_places.hpp"
+#include "io/files/text.hpp"
 #include "io/poses/trajectory_error.hpp"
 #include "session_warnings.hpp"
 #include "slam/loop_review.hpp"
@@ -170,8 +170,8 @@ MapProducts MappedLogs::products() const {
       summary["found_in_memory"] = slam.isInMemory();
     }
   }
-  const std::string lacks = shortcoming();
-  const std::string warnings = warnings_ + (warnings_.empty() || lacks.empty() ? "" : "; ") + lacks;
+  std::string warnings = warnings_;
+  appendWarning(shortcoming(), warnings);
   if (!warnings.empty()) summary["warnings"] = warnings;
   std::vector<std::string> used{"mapping"};
   if (logs_.pose == PoseSource::kIcp) used.push_back("icp");

@@ -2,11 +2,11 @@
 #include "session_warnings.hpp"
 
 #include <algorithm>
-#include <cstdio>
 #include <vector>
 
 #include "contradiction.hpp"
 #include "io/files/stray_places.hpp"
+#include "io/files/text.hpp"
 #include "slam/loop_review.hpp"
 
 namespace cca::apps {
@@ -36,19 +36,11 @@ std::string strayWarning(const std::vector<Pose2>& trajectory, const Eigen::Vect
   const auto first =
       static_cast<std::size_t>(std::find(stray.begin(), stray.end(), true) - stray.begin());
   const Eigen::Vector2d place = origin + trajectory[first].position();
-  char text[160];
-  std::snprintf(text, sizeof text,
-                "%td scan(s) far from all others, the first is number %zu at %.9g, %.9g m", count,
-                first, place.x(), place.y());
-  return text;
+  return formatted("%td scan(s) far from all others, the first is number %zu at %.9g, %.9g m",
+                   count, first, place.x(), place.y());
 }
 
 }  // namespace
-
-void appendWarning(const std::string& warning, std::string& warnings) {
-  if (!warnings.empty() && !warning.empty()) warnings += "; ";
-  warnings += warning;
-}
 
 std::string sessionWarnings(const MappingSession& session, const Slam* slam, PoseSource pose,
                             std::size_t unguided, const std::string& resumed,

@@ -10,9 +10,6 @@
 
 namespace cca::apps {
 
-/// Appends a warning to others, separated by "; ". An empty one changes nothing.
-void appendWarning(const std::string& warning, std::string& warnings);
-
 /// What a mapping session had to do without, for people; empty where it lacked nothing: odometry,
 /// a place in the map that it was to go on with, places of scans, poses near the others.
 /// @param slam      the localiser's, null where there is none.

@@ -6,20 +6,27 @@
 #include <stdexcept>
 
 namespace cca::apps {
+namespace {
+
+/// The parameter SECTION.KEY of p, which must outlive it.
+ParameterField fieldOf(Parameters& p, const std::string& key) {
+  for (const auto& field : listParameters(p)) {
+    if (field.key() == key) return field;
+  }
+  throw std::logic_error("no parameter " + key);
+}
+
+}  // namespace
 
 CLI::Validator valueOf(const std::string& key) {
   const auto complaint = [key](const std::string& text) -> std::string {
     Parameters parameters;
-    for (const auto& field : listParameters(parameters)) {
-      if (field.key() != key) continue;
-      try {
-        field.set(text);
-      } catch (const std::runtime_error& error) {
-        return error.what();
-      }
-      return "";
+    try {
+      fieldOf(parameters, key).set(text);
+    } catch (const std::runtime_error& error) {
+      return error.what();
     }
-    throw std::logic_error("no parameter " + key);
+    return "";
   };
   return CLI::Validator(complaint, "");
 }
@@ -51,12 +58,7 @@ CLI::Option* ParameterOptions::addOption(const std::string& option, const Parame
 }
 
 void ParameterOptions::addAlias(const std::string& option, const std::string& key) {
-  for (const auto& field : listParameters(defaults_)) {
-    if (field.key() != key) continue;
-    addOption(option, field)->excludes(command_.get_option_no_throw("--" + key));
-    return;
-  }
-  throw std::logic_error("no parameter " + key);
+  addOption(option, fieldOf(defaults_, key))->excludes(command_.get_option_no_throw("--" + key));
 }
 
 void ParameterOptions::addPreset(const std::string& option, const std::string& help,
@@ -79,16 +81,12 @@ Parameters ParameterOptions::resolve() const {
   } catch (const std::runtime_error& error) {
     throw CLI::ValidationError("--config", error.what());
   }
-  const auto fields = listParameters(p);
   for (const auto& [key, option] : options_) {
     if (!option->count()) continue;
-    for (const auto& field : fields) {
-      if (field.key() != key) continue;
-      try {
-        field.set(option->results().front());
-      } catch (const std::runtime_error& error) {
-        throw CLI::ValidationError(option->get_name(), error.what());
-      }
+    try {
+      fieldOf(p, key).set(option->results().front());
+    } catch (const std::runtime_error& error) {
+      throw CLI::ValidationError(option->get_name(), error.what());
     }
   }
   return p;

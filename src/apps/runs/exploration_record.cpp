@@ -3,12 +3,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <utility>
 
 #include "apps/options/moved.hpp"
 #include "io/files/atomic_file.hpp"
 #include "io/files/memory_file.hpp"
+#include "io/files/text.hpp"
 #include "io/maps/map_folder.hpp"
 #include "io/poses/local_frame.hpp"
 #include "io/poses/trajectory_error.hpp"
@@ -53,7 +53,6 @@ ExplorationRecord::ExplorationRecord(const Simulation& simulation, const Eigen::
       replay_(simulation.world().name, simulation.parameters().robot.radius) {}
 
 void ExplorationRecord::add(const Cycle& cycle) {
-  ++scans_;
   truth_.push_back({cycle.time, cycle.T_map_robot});
   if (keepIfMoved(last_look_, cycle.T_map_robot))
     look(cycle.T_map_robot, cycle.time, cycle.distance);
@@ -80,10 +79,8 @@ void ExplorationRecord::writeTrajectory(const Simulation& simulation) const {
   std::string text = "t,x,y,theta\n";
   for (const auto& [time, T_local_robot] : simulation.trajectory()) {
     const Pose2 T_map_robot = seenFrom(-origin_, T_local_robot);
-    char line[120];
-    std::snprintf(line, sizeof line, "%.4f,%.6f,%.6f,%.6f\n", time, T_map_robot.x, T_map_robot.y,
-                  T_map_robot.theta);
-    text += line;
+    text +=
+        formatted("%.4f,%.6f,%.6f,%.6f\n", time, T_map_robot.x, T_map_robot.y, T_map_robot.theta);
   }
   writeFile(folder_ + "/" + kTrajectory, text);
 }
@@ -93,10 +90,7 @@ void ExplorationRecord::writeTruth() const {
   std::string text;
   for (std::size_t k = 0; k < truth_.size(); ++k) {
     const Pose2 T_map_robot = seenFrom(-origin_, truth_[k].T_map_robot);
-    char line[120];
-    std::snprintf(line, sizeof line, "%zu %.6f %.6f %.8f\n", k, T_map_robot.x, T_map_robot.y,
-                  T_map_robot.theta);
-    text += line;
+    text += formatted("%zu %.6f %.6f %.8f\n", k, T_map_robot.x, T_map_robot.y, T_map_robot.theta);
   }
   writeFile(folder_ + "/" + kTruth, text);
 }
@@ -105,11 +99,8 @@ void ExplorationRecord::writeCoverage() {
   const std::vector<double> curve = coverage_.curve();
   std::string text = "t,distance,coverage\n";
   for (std::size_t i = 0; i < looks_.size(); ++i) {
-    char line[120];
-    std::snprintf(line, sizeof line, "%.3f,%.4f,", looks_[i].time, looks_[i].distance);
-    text += line;
-    std::snprintf(line, sizeof line, "%.6f", curve.empty() ? 0.0 : curve[i]);
-    text += (curve.empty() ? "" : line) + std::string("\n");
+    text += formatted("%.3f,%.4f,", looks_[i].time, looks_[i].distance) +
+            (curve.empty() ? "" : formatted("%.6f", curve[i])) + "\n";
   }
   writeFile(folder_ + "/" + kCoverage, text);
 }

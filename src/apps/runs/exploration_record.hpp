@@ -61,8 +61,7 @@ class ExplorationRecord : public MapRecorder {
   void write(const Simulation& simulation, const MappingSession& mapping, const SlamLocaliser* slam,
              const End& end);
 
-  long scans() const { return scans_; }
-  int goals() const { return goals_; }
+  std::size_t scans() const { return truth_.size(); }
   const Eigen::Vector2d& origin() const { return origin_; }
   Coverage& coverage() { return coverage_; }
   Replay& replay() { return replay_; }
@@ -98,7 +97,6 @@ class ExplorationRecord : public MapRecorder {
   std::optional<Pose2> last_look_;
   std::optional<Eigen::Vector2d> goal_;
   int goals_ = 0;
-  long scans_ = 0;
 };
 
 }  // namespace cca::apps

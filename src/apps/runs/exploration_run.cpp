@@ -4,15 +4,15 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <cstdio>
 #include <thread>
 #include <utility>
 
 #include "apps/logs/contradiction.hpp"
 #include "apps/options/moved.hpp"
-#include "apps/options/replay_moment.hpp"
 #include "cca_mrpt/session/earlier_drive.hpp"
+#include "io/files/text.hpp"
 #include "io/poses/pose_source.hpp"
+#include "live/exploration_moment.hpp"
 #include "navigation/planning/global_planner.hpp"
 #include "navigation/world/world_model.hpp"
 #include "on_all_cores.hpp"
@@ -46,6 +46,16 @@ ExplorationSession::Settings settingsOf(const Parameters& parameters,
           laser.sweep == 0.0 ? std::optional<double>(0.0) : std::nullopt};
 }
 
+/// What a replay shows of the exploration now. Cost: that of copying the frontier.
+ReplayMoment momentOf(const Simulation& simulation, const Explorer& explorer,
+                      const Observation& believed, const Action& action) {
+  ReplayMoment moment = cca::momentOf(explorer, believed.T_map_robot, action);
+  moment.time = simulation.time();
+  moment.distance = simulation.distance();
+  moment.truth = simulation.T_map_robot();
+  return moment;
+}
+
 /// How far the robot still has to go, as far as it knows: to each frontier.
 double metresLeft(const Simulation& simulation, const Explorer& explorer) {
   std::vector<Eigen::Vector2d> frontier;
@@ -58,9 +68,7 @@ double metresLeft(const Simulation& simulation, const Explorer& explorer) {
 }  // namespace
 
 std::string seenText(const std::optional<double>& seen) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.1f %% seen, ", 100.0 * seen.value_or(0.0));
-  return seen ? text : "";
+  return seen ? formatted("%.1f %% seen, ", 100.0 * *seen) : "";
 }
 
 ExplorationRun::ExplorationRun(Simulation& simulation, const Eigen::Vector2d& origin,
@@ -231,17 +239,16 @@ void ExplorationRun::show(const Action& action, Progress* progress) {
 }
 
 std::string ExplorationRun::progressText(const Action& action, double metres_left) {
-  char text[160], goal[40] = "none";
+  std::string goal = "none";
   if (action.goal) {
     const Eigen::Vector2d p_map = record_.origin() + *action.goal;
-    std::snprintf(goal, sizeof goal, "%.1f, %.1f", p_map.x(), p_map.y());
+    goal = formatted("%.1f, %.1f", p_map.x(), p_map.y());
   }
   const double seconds = std::max(1e-6 * microsecondsSince(begin_), 1e-3);
-  std::snprintf(text, sizeof text,
-                "%s%.0f m driven, %.0f m to go, %.0f s simulated, goal %s, %.0f scans/s",
-                seenText(record_.coverage().sofar()).c_str(), simulation_.distance(), metres_left,
-                simulation_.time(), goal, static_cast<double>(record_.scans()) / seconds);
-  return text;
+  return formatted("%s%.0f m driven, %.0f m to go, %.0f s simulated, goal %s, %.0f scans/s",
+                   seenText(record_.coverage().sofar()).c_str(), simulation_.distance(),
+                   metres_left, simulation_.time(), goal.c_str(),
+                   static_cast<double>(record_.scans()) / seconds);
 }
 
 void ExplorationRun::finish() {
@@ -251,19 +258,15 @@ void ExplorationRun::finish() {
 
 std::string ExplorationRun::shortcomings() const {
   std::string text;
-  char part[80];
   const auto tell = [&text](const std::string& what) {
     text += (text.empty() || what.empty() ? "" : ", ") + what;
   };
   if (simulation_.collisions() > 0) {
-    std::snprintf(part, sizeof part, "%d contacts with what stands", simulation_.collisions());
-    tell(part);
+    tell(std::to_string(simulation_.collisions()) + " contacts with what stands");
   }
   if (end_.plan.gave_up) tell(end_.reason);
   if (end_.is_incomplete) {
-    std::snprintf(part, sizeof part, "%.1f m^2 in view that the robot may fit through to",
-                  end_.plan.passableArea());
-    tell(part);
+    tell(formatted("%.1f m^2 in view that the robot may fit through to", end_.plan.passableArea()));
   }
   tell(contradiction(session_.mapping().agreement()));
   return text;

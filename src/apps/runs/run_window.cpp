@@ -59,48 +59,45 @@ mrpt::opengl::CPointCloud::Ptr returnsOf(const Scan& scan) {
 
 class MrptWindow : public RunObserver {
  public:
-  MrptWindow(const World& world, double robot_radius);
-  bool isDue() const override;
-  void show(const RunView& view) override;
+  MrptWindow(const World& world, double robot_radius) : robot_radius_(robot_radius) {
+    if (!std::getenv("DISPLAY")) {
+      throw std::runtime_error("--gui: there is no display (DISPLAY is not set)");
+    }
+    window_ = mrpt::gui::CDisplayWindow3D::Create("cca-mrpt explore: " + world.name, 1200, 800);
+    const Eigen::Vector2d size =
+        world.resolution() * Eigen::Vector2d(world.width(), world.height());
+    const Eigen::Vector2d middle = world.origin() + 0.5 * size;
+    window_->setCameraPointingToPoint(static_cast<float>(middle.x()),
+                                      static_cast<float>(middle.y()), 0.0f);
+    window_->setCameraElevationDeg(70.0f);
+    window_->setCameraAzimuthDeg(-90.0f);
+    window_->setCameraZoom(static_cast<float>(1.3 * size.maxCoeff()));
+  }
+
+  bool isDue() const override {
+    return window_->isOpen() && std::chrono::steady_clock::now() - last_ >= kEvery;
+  }
+
+  void show(const RunView& view) override {
+    last_ = std::chrono::steady_clock::now();
+    auto scene = makeScene(view.products());
+    scene->insert(disc(view.moment.T_map_robot.position(), robot_radius_, 0.5,
+                       mrpt::img::TColorf(0.1f, 0.3f, 0.8f)));
+    scene->insert(returnsOf(view.scan));
+    for (const Body& body : view.bodies) scene->insert(shapeOf(body));
+    if (view.moment.goal) {
+      scene->insert(disc(*view.moment.goal, 0.15, 1.5, mrpt::img::TColorf(0.1f, 0.7f, 0.2f)));
+    }
+    window_->get3DSceneAndLock() = scene;
+    window_->unlockAccess3DScene();
+    window_->forceRepaint();
+  }
 
  private:
   double robot_radius_;  // m
   mrpt::gui::CDisplayWindow3D::Ptr window_;
   std::chrono::steady_clock::time_point last_;
 };
-
-MrptWindow::MrptWindow(const World& world, double robot_radius) : robot_radius_(robot_radius) {
-  if (!std::getenv("DISPLAY")) {
-    throw std::runtime_error("--gui: there is no display (DISPLAY is not set)");
-  }
-  window_ = mrpt::gui::CDisplayWindow3D::Create("cca-mrpt explore: " + world.name, 1200, 800);
-  const Eigen::Vector2d size = world.resolution() * Eigen::Vector2d(world.width(), world.height());
-  const Eigen::Vector2d middle = world.origin() + 0.5 * size;
-  window_->setCameraPointingToPoint(static_cast<float>(middle.x()), static_cast<float>(middle.y()),
-                                    0.0f);
-  window_->setCameraElevationDeg(70.0f);
-  window_->setCameraAzimuthDeg(-90.0f);
-  window_->setCameraZoom(static_cast<float>(1.3 * size.maxCoeff()));
-}
-
-bool MrptWindow::isDue() const {
-  return window_->isOpen() && std::chrono::steady_clock::now() - last_ >= kEvery;
-}
-
-void MrptWindow::show(const RunView& view) {
-  last_ = std::chrono::steady_clock::now();
-  auto scene = makeScene(view.products());
-  scene->insert(disc(view.moment.T_map_robot.position(), robot_radius_, 0.5,
-                     mrpt::img::TColorf(0.1f, 0.3f, 0.8f)));
-  scene->insert(returnsOf(view.scan));
-  for (const Body& body : view.bodies) scene->insert(shapeOf(body));
-  if (view.moment.goal) {
-    scene->insert(disc(*view.moment.goal, 0.15, 1.5, mrpt::img::TColorf(0.1f, 0.7f, 0.2f)));
-  }
-  window_->get3DSceneAndLock() = scene;
-  window_->unlockAccess3DScene();
-  window_->forceRepaint();
-}
 
 }  // namespace
 }  // namespace cca::apps

@@ -8,17 +8,18 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
-#include <charconv>
 #include <csignal>
 #include <cstdint>
-#include <cstdio>
 #include <cstring>
 #include <filesystem>
+#include <fstream>
 #include <new>
 #include <stdexcept>
 #include <type_traits>
 #include <utility>
 #include <vector>
+
+#include "io/files/text.hpp"
 
 namespace cca {
 namespace {
@@ -47,12 +48,8 @@ std::size_t mostMemory(std::size_t file_bytes) {
 
 /// Bytes of address space in use; 0 where the system does not tell.
 std::size_t processSize() {
-  std::array<char, 128> text{};
-  std::FILE* const file = std::fopen("/proc/self/statm", "r");
-  const std::size_t length = file ? std::fread(text.data(), 1, text.size(), file) : 0;
-  if (file) std::fclose(file);
   std::size_t pages = 0;
-  std::from_chars(text.data(), text.data() + length, pages);
+  std::ifstream("/proc/self/statm") >> pages;
   return pages * static_cast<std::size_t>(sysconf(_SC_PAGESIZE));
 }
 
@@ -89,40 +86,35 @@ void send(int pipe, Message message, const std::string& text, const std::vector<
   if (!arrived) _exit(0);  // nobody reads any more
 }
 
+/// Calls copy(of the message, of the record) for all that a message tells of a record.
+template <class M, class Record, class Copy>
+void eachField(M& m, Record& record, Copy copy) {
+  copy(m.has_time, record.has_time);
+  copy(m.time, record.time);
+  copy(m.angle_min, record.scan.angle_min);
+  copy(m.angle_increment, record.scan.angle_increment);
+  copy(m.sweep_duration, record.scan.sweep_duration);
+  copy(m.free_range_without_return, record.scan.free_range_without_return);
+  copy(m.T_map_sensor, record.scan.T_map_sensor);
+  copy(m.T_robot_sensor, record.T_robot_sensor);
+  copy(m.corrected, record.corrected);
+  copy(m.odometry, record.odometry);
+  copy(m.truth, record.truth);
+  copy(m.motion, record.motion);
+}
+
 Message toMessage(const LogRecord& record, double progress) {
   Message m{};
   m.kind = Message::kRecord;
   m.progress = progress;
-  m.has_time = record.has_time;
-  m.time = record.time;
-  m.angle_min = record.scan.angle_min;
-  m.angle_increment = record.scan.angle_increment;
-  m.sweep_duration = record.scan.sweep_duration;
-  m.free_range_without_return = record.scan.free_range_without_return;
-  m.T_map_sensor = record.scan.T_map_sensor;
-  m.T_robot_sensor = record.T_robot_sensor;
-  m.corrected = record.corrected;
-  m.odometry = record.odometry;
-  m.truth = record.truth;
-  m.motion = record.motion;
+  eachField(m, record, [](auto& of_message, const auto& value) { of_message = value; });
   return m;
 }
 
 LogRecord toRecord(const Message& m, std::vector<double> ranges) {
   LogRecord record;
   record.scan.ranges = std::move(ranges);
-  record.scan.angle_min = m.angle_min;
-  record.scan.angle_increment = m.angle_increment;
-  record.scan.sweep_duration = m.sweep_duration;
-  record.scan.free_range_without_return = m.free_range_without_return;
-  record.scan.T_map_sensor = m.T_map_sensor;
-  record.T_robot_sensor = m.T_robot_sensor;
-  record.has_time = m.has_time;
-  record.time = m.time;
-  record.corrected = m.corrected;
-  record.odometry = m.odometry;
-  record.truth = m.truth;
-  record.motion = m.motion;
+  eachField(m, record, [](const auto& value, auto& of_record) { of_record = value; });
   return record;
 }
 
@@ -186,10 +178,10 @@ class ChildLog : public LogReader {
     std::string text;
     if (!receive(m, text, ranges)) {
       ended_ = true;
-      warnings_ += (warnings_.empty() ? "" : "; ") +
-                   std::string(
-                       "unreadable from there on: damaged, or an object claims more than "
-                       "a file of this size can hold");
+      appendWarning(
+          "unreadable from there on: damaged, or an object claims more than a file of this size "
+          "can hold",
+          warnings_);
       return std::nullopt;
     }
     progress_ = m.progress;

@@ -19,7 +19,7 @@ class GzipLines {
   explicit GzipLines(const std::string& path);
 
   /// The next line without its end; valid until the next call. Nothing at the end of what can be
-  /// read. Lines beyond kLongestLine are cut there: no format of ours has such lines.
+  /// read. Lines beyond 16 MiB are cut there: no format of ours has such lines.
   std::optional<std::string_view> next();
 
   /// True where the compressed data broke off or was damaged before its end.
@@ -27,8 +27,6 @@ class GzipLines {
 
   /// How much of the file has been read, in [0, 1].
   double progress() const;
-
-  static constexpr std::size_t kLongestLine = 1 << 24;
 
  private:
   bool fill();

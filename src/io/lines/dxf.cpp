@@ -2,8 +2,9 @@
 #include "dxf.hpp"
 
 #include <cmath>
-#include <cstdio>
 #include <utility>
+
+#include "io/files/text.hpp"
 
 namespace cca {
 namespace {
@@ -18,43 +19,125 @@ struct DxfSpace {
 constexpr DxfSpace kDxfSpaces[] = {{"*Model_Space", 0x1F, 0x23, 0x24},
                                    {"*Paper_Space", 0x1B, 0x25, 0x26}};
 
+std::string handle(unsigned number) { return formatted("%X", number); }
+
+void beginTable(DxfGroups& groups, const char* name, unsigned table, std::size_t entries) {
+  groups.group(0, "TABLE").group(2, name).group(5, handle(table)).group(330, "0");
+  groups.group(100, "AcDbSymbolTable").group(70, static_cast<int>(entries));
+}
+
+void endTable(DxfGroups& groups) { groups.group(0, "ENDTAB"); }
+
+/// @param type  as in TABLE. @param kind  its class of AutoCAD's.
+DxfGroups& entry(DxfGroups& groups, const char* type, unsigned own, unsigned table,
+                 const char* kind, const std::string& name) {
+  groups.group(0, type).group(5, handle(own)).group(330, handle(table));
+  groups.group(100, "AcDbSymbolTableRecord").group(100, kind);
+  return groups.group(2, name);
+}
+
+void addHeader(DxfGroups& groups, unsigned next_handle) {
+  groups.group(0, "SECTION").group(2, "HEADER").group(9, "$ACADVER").group(1, "AC1015");
+  groups.group(9, "$HANDSEED").group(5, handle(next_handle));
+  groups.group(9, "$INSUNITS").group(70, kMetres).group(9, "$MEASUREMENT").group(70, kMetric);
+  groups.group(0, "ENDSEC");
+}
+
+void addLayers(DxfGroups& groups, const std::vector<DxfLayer>& layers) {
+  constexpr unsigned kTable = 0x2, kFirst = 0x60;
+  constexpr int kWhite = 7;
+  beginTable(groups, "LAYER", kTable, layers.size() + 1);
+  unsigned own = kFirst;
+  const auto add = [&](const std::string& name, int colour) {
+    entry(groups, "LAYER", own++, kTable, "AcDbLayerTableRecord", name);
+    groups.group(70, 0).group(62, colour).group(6, "Continuous");
+  };
+  add("0", kWhite);
+  for (const DxfLayer& layer : layers) add(layer.name, layer.colour);
+  endTable(groups);
+}
+
+void addLineTypes(DxfGroups& groups) {
+  constexpr unsigned kTable = 0x5;
+  unsigned own = 0x15;
+  beginTable(groups, "LTYPE", kTable, 3);
+  for (const char* name : {"ByBlock", "ByLayer", "Continuous"}) {
+    entry(groups, "LTYPE", own++, kTable, "AcDbLinetypeTableRecord", name);
+    groups.group(70, 0).group(3, "").group(72, 65).group(73, 0).number(40, 0.0);
+  }
+  endTable(groups);
+}
+
+/// Tables that each file must have, and that say nothing here.
+void addOtherTables(DxfGroups& groups) {
+  beginTable(groups, "VPORT", 0x8, 0);
+  endTable(groups);
+  beginTable(groups, "STYLE", 0x3, 1);
+  entry(groups, "STYLE", 0x20, 0x3, "AcDbTextStyleTableRecord", "Standard");
+  groups.group(70, 0).number(40, 0.0).number(41, 1.0).number(50, 0.0).group(71, 0);
+  groups.number(42, 0.2).group(3, "txt").group(4, "");
+  endTable(groups);
+  for (const auto& [name, table] : {std::pair{"VIEW", 0x6U}, std::pair{"UCS", 0x7U}}) {
+    beginTable(groups, name, table, 0);
+    endTable(groups);
+  }
+  beginTable(groups, "APPID", 0x9, 1);
+  entry(groups, "APPID", 0x21, 0x9, "AcDbRegAppTableRecord", "ACAD").group(70, 0);
+  endTable(groups);
+  beginTable(groups, "DIMSTYLE", 0xA, 1);
+  groups.group(100, "AcDbDimStyleTable");
+  groups.group(0, "DIMSTYLE").group(105, "22").group(330, "A").group(100, "AcDbSymbolTableRecord");
+  groups.group(100, "AcDbDimStyleTableRecord").group(2, "Standard").group(70, 0);
+  endTable(groups);
+}
+
+void addBlockRecords(DxfGroups& groups) {
+  beginTable(groups, "BLOCK_RECORD", 0x1, 2);
+  for (const DxfSpace& space : kDxfSpaces) {
+    entry(groups, "BLOCK_RECORD", space.record, 0x1, "AcDbBlockTableRecord", space.name);
+  }
+  endTable(groups);
+}
+
+void addBlocks(DxfGroups& groups) {
+  groups.group(0, "SECTION").group(2, "BLOCKS");
+  for (const DxfSpace& space : kDxfSpaces) {
+    const std::string owner = handle(space.record);
+    groups.group(0, "BLOCK").group(5, handle(space.begin)).group(330, owner);
+    groups.group(100, "AcDbEntity").group(8, "0").group(100, "AcDbBlockBegin");
+    groups.group(2, space.name).group(70, 0).point(10, Eigen::Vector2d::Zero());
+    groups.group(3, space.name).group(1, "");
+    groups.group(0, "ENDBLK").group(5, handle(space.end)).group(330, owner);
+    groups.group(100, "AcDbEntity").group(8, "0").group(100, "AcDbBlockEnd");
+  }
+  groups.group(0, "ENDSEC");
+}
+
+void addObjects(DxfGroups& groups) {
+  groups.group(0, "SECTION").group(2, "OBJECTS");
+  groups.group(0, "DICTIONARY").group(5, "C").group(330, "0").group(100, "AcDbDictionary");
+  groups.group(281, 1).group(3, "ACAD_GROUP").group(350, "D");
+  groups.group(0, "DICTIONARY").group(5, "D").group(330, "C").group(100, "AcDbDictionary");
+  groups.group(281, 1).group(0, "ENDSEC");
+}
+
 }  // namespace
 
-Dxf::Groups& Dxf::Groups::group(int code, const std::string& value) {
+DxfGroups& DxfGroups::group(int code, const std::string& value) {
   text_ += std::to_string(code) + "\n" + value + "\n";
   return *this;
 }
 
-Dxf::Groups& Dxf::Groups::number(int code, double value) {
-  char digits[64];
-  std::snprintf(digits, sizeof digits, "%.4f", value);
-  return group(code, std::string(digits));
+DxfGroups& DxfGroups::number(int code, double value) {
+  return group(code, formatted("%.4f", value));
 }
 
-Dxf::Groups& Dxf::Groups::point(int code, const Eigen::Vector2d& p) {
+DxfGroups& DxfGroups::point(int code, const Eigen::Vector2d& p) {
   return number(code, p.x()).number(code + 10, p.y()).number(code + 20, 0.0);
 }
 
-void Dxf::Groups::beginTable(const char* name, unsigned table, std::size_t entries) {
-  group(0, "TABLE").group(2, name).group(5, handle(table)).group(330, "0");
-  group(100, "AcDbSymbolTable").group(70, static_cast<int>(entries));
-}
-
-Dxf::Groups& Dxf::Groups::entry(const char* type, unsigned own, unsigned table, const char* kind,
-                                const std::string& name) {
-  group(0, type).group(5, handle(own)).group(330, handle(table));
-  group(100, "AcDbSymbolTableRecord").group(100, kind);
-  return group(2, name);
-}
-
-std::string Dxf::handle(unsigned number) {
-  char digits[16];
-  std::snprintf(digits, sizeof digits, "%X", number);
-  return digits;
-}
-
-Dxf::Groups& Dxf::entity(const char* type, const std::string& layer, const char* kind) {
-  entities_.group(0, type).group(5, handle(next_++)).group(330, handle(kModelSpace));
+DxfGroups& Dxf::entity(const char* type, const std::string& layer, const char* kind) {
+  entities_.group(0, type).group(5, handle(next_++)).group(330, handle(kDxfSpaces[0].record));
   return entities_.group(100, "AcDbEntity").group(8, layer).group(100, kind);
 }
 
@@ -88,107 +171,21 @@ void Dxf::text(const Eigen::Vector2d& p, double height, const std::string& text,
 }
 
 std::string Dxf::file() const {
-  Groups groups;
-  addHeader(groups);
+  DxfGroups groups;
+  addHeader(groups, next_);
   groups.group(0, "SECTION").group(2, "TABLES");
   addLineTypes(groups);
-  addLayers(groups);
+  addLayers(groups, layers_);
   addOtherTables(groups);
   addBlockRecords(groups);
   groups.group(0, "ENDSEC");
   addBlocks(groups);
   groups.group(0, "SECTION").group(2, "ENTITIES");
-  Groups end;
+  DxfGroups end;
   end.group(0, "ENDSEC");
   addObjects(end);
   end.group(0, "EOF");
   return groups.text() + entities_.text() + end.text();
-}
-
-void Dxf::addHeader(Groups& groups) const {
-  groups.group(0, "SECTION").group(2, "HEADER").group(9, "$ACADVER").group(1, "AC1015");
-  groups.group(9, "$HANDSEED").group(5, handle(next_));
-  groups.group(9, "$INSUNITS").group(70, kMetres).group(9, "$MEASUREMENT").group(70, kMetric);
-  groups.group(0, "ENDSEC");
-}
-
-void Dxf::addLayers(Groups& groups) const {
-  constexpr unsigned kTable = 0x2, kFirst = 0x60;
-  constexpr int kWhite = 7;
-  groups.beginTable("LAYER", kTable, layers_.size() + 1);
-  unsigned own = kFirst;
-  const auto add = [&](const std::string& name, int colour) {
-    groups.entry("LAYER", own++, kTable, "AcDbLayerTableRecord", name);
-    groups.group(70, 0).group(62, colour).group(6, "Continuous");
-  };
-  add("0", kWhite);
-  for (const DxfLayer& layer : layers_) add(layer.name, layer.colour);
-  groups.endTable();
-}
-
-void Dxf::addLineTypes(Groups& groups) {
-  constexpr unsigned kTable = 0x5;
-  unsigned own = 0x15;
-  groups.beginTable("LTYPE", kTable, 3);
-  for (const char* name : {"ByBlock", "ByLayer", "Continuous"}) {
-    groups.entry("LTYPE", own++, kTable, "AcDbLinetypeTableRecord", name);
-    groups.group(70, 0).group(3, "").group(72, 65).group(73, 0).number(40, 0.0);
-  }
-  groups.endTable();
-}
-
-/// Tables that each file must have, and that say nothing here.
-void Dxf::addOtherTables(Groups& groups) {
-  groups.beginTable("VPORT", 0x8, 0);
-  groups.endTable();
-  groups.beginTable("STYLE", 0x3, 1);
-  groups.entry("STYLE", 0x20, 0x3, "AcDbTextStyleTableRecord", "Standard");
-  groups.group(70, 0).number(40, 0.0).number(41, 1.0).number(50, 0.0).group(71, 0);
-  groups.number(42, 0.2).group(3, "txt").group(4, "");
-  groups.endTable();
-  for (const auto& [name, table] : {std::pair{"VIEW", 0x6U}, std::pair{"UCS", 0x7U}}) {
-    groups.beginTable(name, table, 0);
-    groups.endTable();
-  }
-  groups.beginTable("APPID", 0x9, 1);
-  groups.entry("APPID", 0x21, 0x9, "AcDbRegAppTableRecord", "ACAD").group(70, 0);
-  groups.endTable();
-  groups.beginTable("DIMSTYLE", 0xA, 1);
-  groups.group(100, "AcDbDimStyleTable");
-  groups.group(0, "DIMSTYLE").group(105, "22").group(330, "A").group(100, "AcDbSymbolTableRecord");
-  groups.group(100, "AcDbDimStyleTableRecord").group(2, "Standard").group(70, 0);
-  groups.endTable();
-}
-
-void Dxf::addBlockRecords(Groups& groups) {
-  static_assert(kDxfSpaces[0].record == kModelSpace && kDxfSpaces[1].record == kPaperSpace);
-  groups.beginTable("BLOCK_RECORD", 0x1, 2);
-  for (const DxfSpace& space : kDxfSpaces) {
-    groups.entry("BLOCK_RECORD", space.record, 0x1, "AcDbBlockTableRecord", space.name);
-  }
-  groups.endTable();
-}
-
-void Dxf::addBlocks(Groups& groups) {
-  groups.group(0, "SECTION").group(2, "BLOCKS");
-  for (const DxfSpace& space : kDxfSpaces) {
-    const std::string owner = handle(space.record);
-    groups.group(0, "BLOCK").group(5, handle(space.begin)).group(330, owner);
-    groups.group(100, "AcDbEntity").group(8, "0").group(100, "AcDbBlockBegin");
-    groups.group(2, space.name).group(70, 0).point(10, Eigen::Vector2d::Zero());
-    groups.group(3, space.name).group(1, "");
-    groups.group(0, "ENDBLK").group(5, handle(space.end)).group(330, owner);
-    groups.group(100, "AcDbEntity").group(8, "0").group(100, "AcDbBlockEnd");
-  }
-  groups.group(0, "ENDSEC");
-}
-
-void Dxf::addObjects(Groups& groups) {
-  groups.group(0, "SECTION").group(2, "OBJECTS");
-  groups.group(0, "DICTIONARY").group(5, "C").group(330, "0").group(100, "AcDbDictionary");
-  groups.group(281, 1).group(3, "ACAD_GROUP").group(350, "D");
-  groups.group(0, "DICTIONARY").group(5, "D").group(330, "C").group(100, "AcDbDictionary");
-  groups.group(281, 1).group(0, "ENDSEC");
 }
 
 }  // namespace cca

@@ -14,6 +14,19 @@ struct DxfLayer {
   int colour;  ///< AutoCAD's number, 1 to 255; negative: the layer is switched off
 };
 
+/// Pairs of lines: a group code, and its value.
+class DxfGroups {
+ public:
+  DxfGroups& group(int code, const std::string& value);
+  DxfGroups& group(int code, int value) { return group(code, std::to_string(value)); }
+  DxfGroups& number(int code, double value);
+  DxfGroups& point(int code, const Eigen::Vector2d& p);
+  const std::string& text() const { return text_; }
+
+ private:
+  std::string text_;
+};
+
 /// A drawing as DXF of AutoCAD 2000 (AC1015), the oldest one with units: one unit is a metre. Each
 /// object has a handle and names its owner.
 class Dxf {
@@ -32,39 +45,12 @@ class Dxf {
   std::string file() const;
 
  private:
-  /// Pairs of lines: a group code, and its value.
-  class Groups {
-   public:
-    Groups& group(int code, const std::string& value);
-    Groups& group(int code, int value) { return group(code, std::to_string(value)); }
-    Groups& number(int code, double value);
-    Groups& point(int code, const Eigen::Vector2d& p);
-    void beginTable(const char* name, unsigned table, std::size_t entries);
-    /// @param type  as in TABLE. @param kind  its class of AutoCAD's.
-    Groups& entry(const char* type, unsigned own, unsigned table, const char* kind,
-                  const std::string& name);
-    void endTable() { group(0, "ENDTAB"); }
-    const std::string& text() const { return text_; }
+  DxfGroups& entity(const char* type, const std::string& layer, const char* kind);
 
-   private:
-    std::string text_;
-  };
-
-  Groups& entity(const char* type, const std::string& layer, const char* kind);
-  static std::string handle(unsigned number);
-  static void addLineTypes(Groups& groups);
-  static void addOtherTables(Groups& groups);
-  static void addBlockRecords(Groups& groups);
-  static void addBlocks(Groups& groups);
-  static void addObjects(Groups& groups);
-  void addHeader(Groups& groups) const;
-  void addLayers(Groups& groups) const;
-
-  static constexpr unsigned kModelSpace = 0x1F, kPaperSpace = 0x1B;
   static constexpr unsigned kFirstEntity = 0x100;  ///< handles below are for the rest of the file
 
   std::vector<DxfLayer> layers_;
-  Groups entities_;
+  DxfGroups entities_;
   unsigned next_ = kFirstEntity;
 };
 

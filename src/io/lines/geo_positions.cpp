@@ -20,13 +20,19 @@ Json GeoPositions::operator()(const Eigen::Vector2d& p) const {
   return {std::round(degrees.x() * kDigits) / kDigits, std::round(degrees.y() * kDigits) / kDigits};
 }
 
-std::string GeoPositions::head() const {
+std::string GeoPositions::collection(const std::vector<Json>& features) const {
   const Json where =
       place_ ? Json{{"origin", {place_->latitude_deg, place_->longitude_deg, place_->turn_deg}}}
              : Json{{"note", "metres of the map frame, not longitude and latitude"}};
   const std::string told = where.dump();
-  return "{\"type\": \"FeatureCollection\", " + told.substr(1, told.size() - 2) +
-         ", \"features\": [";
+  std::string text =
+      "{\"type\": \"FeatureCollection\", " + told.substr(1, told.size() - 2) + ", \"features\": [";
+  const char* separator = "\n";
+  for (const Json& feature : features) {
+    text += separator + feature.dump(-1, ' ', false, Json::error_handler_t::replace);
+    separator = ",\n";
+  }
+  return text + "\n]}\n";
 }
 
 }  // namespace cca

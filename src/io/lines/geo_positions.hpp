@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "cca_mrpt/io/geo_reference.hpp"
 
@@ -16,8 +17,9 @@ class GeoPositions {
  public:
   explicit GeoPositions(const std::optional<GeoReference>& place) : place_(place) {}
   nlohmann::ordered_json operator()(const Eigen::Vector2d& p) const;
-  /// The beginning of a FeatureCollection, up to its first feature: how positions are meant.
-  std::string head() const;
+  /// A FeatureCollection of these, which tells how positions are meant; a row for each feature:
+  /// such files are looked at, and compared, line by line.
+  std::string collection(const std::vector<nlohmann::ordered_json>& features) const;
 
  private:
   const std::optional<GeoReference>& place_;

@@ -71,6 +71,9 @@ std::string linesDxf(const std::vector<MapLine>& lines, const std::vector<PolyLi
 /// by blanks.
 std::string arcsCsv(const std::vector<MapArc>& arcs);
 
+/// m, for a scale bar: the longest of 1, 2 and 5 times powers of ten that is no longer than `most`.
+double scaleBarLength(double most);
+
 /// The lines that are part of no poly-line.
 std::vector<MapLine> loneLines(const std::vector<MapLine>& lines,
                                const std::vector<PolyLine>& poly_lines);

@@ -4,14 +4,12 @@
 #include <charconv>
 #include <cinttypes>
 #include <cmath>
-#include <cstdio>
 #include <sstream>
 #include <stdexcept>
 #include <unordered_set>
 #include <utility>
 
-#include "io/files/byte_order_mark.hpp"
-#include "io/files/spreadsheet_row.hpp"
+#include "io/files/text.hpp"
 #include "io/lines/line_formats.hpp"
 
 namespace cca {
@@ -83,30 +81,26 @@ std::string linesCsv(const std::vector<MapLine>& lines) {
   std::string text =
       "x1,y1,x2,y2,id,support,length,sigma_offset,sigma_angle_deg,kind,share,"
       "sigma_start,sigma_end\n";
-  char row[320];
   for (const MapLine& line : lines) {
     const LineSegment& s = line.segment;
     const double half = 0.5 * s.length();
-    std::snprintf(
-        row, sizeof row, "%.4f,%.4f,%.4f,%.4f,%" PRIu64 ",%.1f,%.4f,%.6f,%.6f,%s,%.4f,%.6f,%.6f\n",
-        s.start.x(), s.start.y(), s.end.x(), s.end.y(), line.id, line.support, s.length(),
-        sigma(s.covariance(0, 0)), kDegreesPerRadian * sigma(s.covariance(1, 1)), nameOf(line.kind),
-        line.share, sigmaAt(-half, s.covariance), sigmaAt(half, s.covariance));
-    text += row;
+    text += formatted("%.4f,%.4f,%.4f,%.4f,%" PRIu64 ",%.1f,%.4f,%.6f,%.6f,%s,%.4f,%.6f,%.6f\n",
+                      s.start.x(), s.start.y(), s.end.x(), s.end.y(), line.id, line.support,
+                      s.length(), sigma(s.covariance(0, 0)),
+                      kDegreesPerRadian * sigma(s.covariance(1, 1)), nameOf(line.kind), line.share,
+                      sigmaAt(-half, s.covariance), sigmaAt(half, s.covariance));
   }
   return text;
 }
 
 std::string arcsCsv(const std::vector<MapArc>& arcs) {
   std::string text = "x,y,radius,start_deg,sweep_deg,sigma_x,sigma_y,sigma_radius,line_ids\n";
-  char row[256];
   for (const MapArc& found : arcs) {
     const Arc& arc = found.arc;
-    std::snprintf(row, sizeof row, "%.4f,%.4f,%.4f,%.3f,%.3f,%.6f,%.6f,%.6f,", arc.centre.x(),
-                  arc.centre.y(), arc.radius, kDegreesPerRadian * arc.start_angle,
-                  kDegreesPerRadian * arc.sweep, sigma(arc.covariance(0, 0)),
-                  sigma(arc.covariance(1, 1)), sigma(arc.covariance(2, 2)));
-    text += row;
+    text += formatted("%.4f,%.4f,%.4f,%.3f,%.3f,%.6f,%.6f,%.6f,", arc.centre.x(), arc.centre.y(),
+                      arc.radius, kDegreesPerRadian * arc.start_angle,
+                      kDegreesPerRadian * arc.sweep, sigma(arc.covariance(0, 0)),
+                      sigma(arc.covariance(1, 1)), sigma(arc.covariance(2, 2)));
     const char* separator = "";
     for (const std::uint64_t id : found.line_ids) {
       text += separator + std::to_string(id);

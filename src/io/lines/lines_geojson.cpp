@@ -53,8 +53,8 @@ Json arcFeature(const MapArc& found, const GeoPositions& position) {
   return feature({{"kind", "arc"},
                   {"centre", inTenthousandths(arc.centre)},
                   {"radius", inTenthousandths(arc.radius)},
-                  {"start_deg", inTenthousandths(arc.start_angle * 180.0 / M_PI)},
-                  {"sweep_deg", inTenthousandths(arc.sweep * 180.0 / M_PI)},
+                  {"start_deg", inTenthousandths(arc.start_angle * kDegreesPerRadian)},
+                  {"sweep_deg", inTenthousandths(arc.sweep * kDegreesPerRadian)},
                   {"line_ids", found.line_ids}},
                  std::move(coordinates));
 }
@@ -93,18 +93,12 @@ std::string linesGeoJson(const std::vector<MapLine>& lines, const std::vector<Po
                          const std::vector<Pose2>& trajectory, const std::vector<MapArc>& arcs,
                          const std::optional<GeoReference>& place) {
   const GeoPositions position(place);
-  // One feature a row: such files are looked at, and compared, line by line.
-  std::string text = position.head();
-  const char* separator = "\n";
-  const auto append = [&](const Json& next) {
-    text += separator + next.dump();
-    separator = ",\n";
-  };
-  for (const MapLine& line : lines) append(lineFeature(line, position));
-  for (const PolyLine& chain : poly_lines) append(polyLineFeature(chain, position));
-  for (const MapArc& arc : arcs) append(arcFeature(arc, position));
-  if (trajectory.size() > 1) append(trajectoryFeature(trajectory, position));
-  return text + "\n]}\n";
+  std::vector<Json> features;
+  for (const MapLine& line : lines) features.push_back(lineFeature(line, position));
+  for (const PolyLine& chain : poly_lines) features.push_back(polyLineFeature(chain, position));
+  for (const MapArc& arc : arcs) features.push_back(arcFeature(arc, position));
+  if (trajectory.size() > 1) features.push_back(trajectoryFeature(trajectory, position));
+  return position.collection(features);
 }
 
 ChainsAndTrajectory readLinesGeoJson(const std::string& text, const std::string& name) try {

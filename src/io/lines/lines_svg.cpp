@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cinttypes>
 #include <cmath>
-#include <cstdio>
 
+#include "io/files/text.hpp"
 #include "io/lines/line_formats.hpp"
 
 namespace cca {
@@ -26,20 +26,13 @@ Box boundingBox(const std::vector<MapLine>& lines, const std::vector<Pose2>& tra
   return Box(box.min() - margin - Eigen::Vector2d(0.0, kLegend), box.max() + margin);
 }
 
-template <class... Values>
-std::string format(const char* pattern, Values... values) {
-  char text[512];
-  std::snprintf(text, sizeof text, pattern, values...);
-  return text;
-}
-
 /// SVG's y axis points down the page.
-std::string point(const Eigen::Vector2d& p) { return format("%.4f,%.4f ", p.x(), -p.y()); }
+std::string point(const Eigen::Vector2d& p) { return formatted("%.4f,%.4f ", p.x(), -p.y()); }
 
 std::string svgHead(const Box& box) {
   const Eigen::Vector2d size = box.sizes();
   return "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n" +
-         format(
+         formatted(
              "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"%.2fmm\" height=\"%.2fmm\" "
              "viewBox=\"%.4f %.4f %.4f %.4f\">\n",
              kMillimetresPerMetre * size.x(), kMillimetresPerMetre * size.y(), box.min().x(),
@@ -48,32 +41,25 @@ std::string svgHead(const Box& box) {
          "<g fill=\"none\" stroke-linecap=\"round\" stroke-linejoin=\"round\">\n";
 }
 
-/// 1, 2 or 5 times a power of ten [m], about a quarter of the width at the most.
-double barLength(double width) {
-  const double most = std::max(1.0, 0.25 * width);
-  const double power = std::pow(10.0, std::floor(std::log10(most)));
-  return power * (most >= 5.0 * power ? 5.0 : most >= 2.0 * power ? 2.0 : 1.0);
-}
-
 std::string scaleBar(const Box& box) {
-  const double length = barLength(box.sizes().x() - 2.0 * kMargin);
+  const double length = scaleBarLength(std::max(1.0, 0.25 * (box.sizes().x() - 2.0 * kMargin)));
   const double x = box.min().x() + kMargin, y = -box.min().y() - 0.3;
-  return format("<g id=\"scale\" stroke=\"%s\" stroke-width=\"0.03\">\n", kInk) +
-         format("<path d=\"M %.4f %.4f v 0.16 h %g v -0.16\"/>\n", x, y - 0.16, length) +
-         format("<text x=\"%.4f\" y=\"%.4f\" font-size=\"0.3\" ", x + 0.08, y - 0.1) +
-         format("font-family=\"sans-serif\" fill=\"%s\" stroke=\"none\">%g m</text>\n</g>\n", kInk,
-                length);
+  return formatted("<g id=\"scale\" stroke=\"%s\" stroke-width=\"0.03\">\n", kInk) +
+         formatted("<path d=\"M %.4f %.4f v 0.16 h %g v -0.16\"/>\n", x, y - 0.16, length) +
+         formatted("<text x=\"%.4f\" y=\"%.4f\" font-size=\"0.3\" ", x + 0.08, y - 0.1) +
+         formatted("font-family=\"sans-serif\" fill=\"%s\" stroke=\"none\">%g m</text>\n</g>\n",
+                   kInk, length);
 }
 
 /// An arrow to true north in the lower right corner.
 std::string northArrow(const Box& box, const GeoReference& place) {
   const double x = box.max().x() - kMargin, y = -box.min().y() - 0.5;
   // y points down the page: a turn of the map to the left is one of north to the right.
-  return format("<g id=\"north\" transform=\"translate(%.4f %.4f) rotate(%.4f)\" ", x, y,
-                place.turn_deg) +
-         format("stroke=\"%s\" stroke-width=\"0.03\">\n", kInk) +
+  return formatted("<g id=\"north\" transform=\"translate(%.4f %.4f) rotate(%.4f)\" ", x, y,
+                   place.turn_deg) +
+         formatted("stroke=\"%s\" stroke-width=\"0.03\">\n", kInk) +
          "<path d=\"M 0 0.35 V -0.3 M -0.1 -0.12 L 0 -0.35 L 0.1 -0.12\"/>\n" +
-         format(
+         formatted(
              "<text x=\"-0.32\" y=\"0.1\" font-size=\"0.3\" font-family=\"sans-serif\" "
              "fill=\"%s\" stroke=\"none\">N</text>\n</g>\n",
              kInk);
@@ -81,15 +67,20 @@ std::string northArrow(const Box& box, const GeoReference& place) {
 
 std::string svgArc(const Arc& arc) {
   if (arc.sweep >= 2.0 * M_PI) {
-    return format("<circle cx=\"%.4f\" cy=\"%.4f\" r=\"%.4f\"/>\n", arc.centre.x(), -arc.centre.y(),
-                  arc.radius);
+    return formatted("<circle cx=\"%.4f\" cy=\"%.4f\" r=\"%.4f\"/>\n", arc.centre.x(),
+                     -arc.centre.y(), arc.radius);
   }
   const Eigen::Vector2d a = arc.at(0.0), b = arc.at(1.0);
-  return format("<path d=\"M %.4f %.4f A %.4f %.4f 0 %d 0 %.4f %.4f\"/>\n", a.x(), -a.y(),
-                arc.radius, arc.radius, arc.sweep > M_PI ? 1 : 0, b.x(), -b.y());
+  return formatted("<path d=\"M %.4f %.4f A %.4f %.4f 0 %d 0 %.4f %.4f\"/>\n", a.x(), -a.y(),
+                   arc.radius, arc.radius, arc.sweep > M_PI ? 1 : 0, b.x(), -b.y());
 }
 
 }  // namespace
+
+double scaleBarLength(double most) {
+  const double power = std::pow(10.0, std::floor(std::log10(most)));
+  return power * (most >= 5.0 * power ? 5.0 : most >= 2.0 * power ? 2.0 : 1.0);
+}
 
 std::string linesSvg(const std::vector<MapLine>& lines, const std::vector<PolyLine>& poly_lines,
                      const std::vector<Pose2>& trajectory, const std::vector<MapArc>& arcs,
@@ -113,9 +104,10 @@ std::string linesSvg(const std::vector<MapLine>& lines, const std::vector<PolyLi
   for (const MapLine& line : loneLines(lines, poly_lines)) {
     const auto &a = line.segment.start, &b = line.segment.end;
     text +=
-        format("<line data-id=\"%" PRIu64 "\" data-support=\"%.1f\" ", line.id, line.support) +
+        formatted("<line data-id=\"%" PRIu64 "\" data-support=\"%.1f\" ", line.id, line.support) +
         (line.kind == LineKind::kDotted ? "stroke-dasharray=\"0.15 0.1\" " : "") +
-        format("x1=\"%.4f\" y1=\"%.4f\" x2=\"%.4f\" y2=\"%.4f\"/>\n", a.x(), -a.y(), b.x(), -b.y());
+        formatted("x1=\"%.4f\" y1=\"%.4f\" x2=\"%.4f\" y2=\"%.4f\"/>\n", a.x(), -a.y(), b.x(),
+                  -b.y());
   }
   text += "</g>\n<g id=\"arcs\" stroke=\"#3f9a5f\" stroke-width=\"0.02\">\n";
   for (const MapArc& arc : arcs) text += svgArc(arc.arc);

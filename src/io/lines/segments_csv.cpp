@@ -12,9 +12,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "io/files/byte_order_mark.hpp"
-#include "io/files/content.hpp"
-#include "io/files/spreadsheet_row.hpp"
+#include "io/files/text.hpp"
 
 namespace cca {
 namespace {

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "carmen_line.hpp"
 
-#include <charconv>
 #include <cmath>
+
+#include "io/files/text.hpp"
 
 namespace cca {
 namespace {
@@ -24,13 +25,9 @@ class Words {
   }
 
   double number() {
-    const std::string_view text = word();
-    double value = 0.0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    // Written by C programs: values too small or too large for a double stand for 0.
-    if (error == std::errc::result_out_of_range) return 0.0;
-    ok_ = ok_ && error == std::errc() && end == text.data() + text.size();
-    return value;
+    const std::optional<double> value = numberOf(word());
+    ok_ = ok_ && value;
+    return value.value_or(0.0);
   }
 
   /// A number of values that follow, within [lowest, kMostBeams]; 0 where it is not.

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "carmen_reader.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <deque>
@@ -11,17 +9,14 @@
 #include "carmen_line.hpp"
 #include "cca_mrpt/sensing/missing_returns.hpp"
 #include "io/files/gzip_lines.hpp"
+#include "io/files/text.hpp"
+#include "text_formats.hpp"
 
 namespace cca {
 namespace {
 
 constexpr double kShortestRange = 0.05;   // m; below it a SICK reports errors
 constexpr double kLongestMounting = 2.0;  // m; a laser further from the robot is a corrected pose
-
-bool samePose(const Pose2& a, const Pose2& b, double tolerance) {
-  return (a.position() - b.position()).norm() <= tolerance &&
-         std::abs(wrapAngle(a.theta - b.theta)) <= tolerance;
-}
 
 /// Lines of the same lasers: a log may carry a scan as more than one of them.
 enum class CarmenFamily {
@@ -71,7 +66,7 @@ class Surveyor {
   }
 
   void add(const Pose2& odometry) {
-    const bool copy = last_laser_ && samePose(*last_laser_, odometry, 1e-9);
+    const bool copy = last_laser_ && areNear(*last_laser_, odometry, 1e-9);
     odometry_lines_ += !copy;
     last_laser_.reset();
   }
@@ -93,7 +88,7 @@ class Surveyor {
     const Pose2 mounting = scan.robot.inverse() * scan.laser;
     if (!mounting_) mounting_ = mounting;
     mounting_holds_ = mounting_holds_ && mounting.position().norm() < kLongestMounting &&
-                      samePose(*mounting_, mounting, 1e-2);
+                      areNear(*mounting_, mounting, 1e-2);
   }
 
   Saturation saturation_;
@@ -176,7 +171,7 @@ class CarmenReader : public LogReader {
     while (const auto line = lines_.next()) {
       if (const auto odometry = parseCarmenOdometry(*line)) {
         const Pose2& logged = odometry->T_odom_robot;
-        chain_.add(logged, last_laser_ && samePose(*last_laser_, logged, 1e-9));
+        chain_.add(logged, last_laser_ && areNear(*last_laser_, logged, 1e-9));
         last_laser_.reset();
       } else if (const auto scan = parseCarmenScan(*line)) {
         if (familyOf(scan->message) == survey_.family) return record(*scan);
@@ -189,12 +184,14 @@ class CarmenReader : public LogReader {
     std::string text;
     if (survey_.damaged_file) text = "the compressed file is damaged or ends early";
     if (survey_.damaged_lines > 0) {
-      text += (text.empty() ? "" : "; ") + std::to_string(survey_.damaged_lines) +
-              " damaged laser line(s) left out";
+      appendWarning(std::to_string(survey_.damaged_lines) + " damaged laser line(s) left out",
+                    text);
     }
     for (const auto& [name, lines] : survey_.left_out) {
-      text += (text.empty() ? "" : "; ") + std::to_string(lines) + " " + name +
-              " line(s) left out: where on the robot that laser is, the log does not tell";
+      appendWarning(
+          std::to_string(lines) + " " + name +
+              " line(s) left out: where on the robot that laser is, the log does not tell",
+          text);
     }
     return text;
   }

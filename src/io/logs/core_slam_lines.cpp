@@ -4,6 +4,7 @@
 #include <limits>
 #include <vector>
 
+#include "io/files/text.hpp"
 #include "text_formats.hpp"
 
 namespace cca {

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
+#include "io/files/text.hpp"
 #include "text_formats.hpp"
 
 namespace cca {
@@ -80,11 +81,6 @@ Scan scanIn(const CsmObject& object) {
   return scan;
 }
 
-bool isSamePose(const Pose2& a, const Pose2& b) {
-  return (a.position() - b.position()).norm() < kSamePose &&
-         std::abs(wrapAngle(a.theta - b.theta)) < kSamePose;
-}
-
 class CsmLines : public LineFormat {
  public:
   std::optional<LogRecord> parse(std::string_view line) override {
@@ -97,8 +93,10 @@ class CsmLines : public LineFormat {
     record.truth = poseField(object, "true_pose");
     record.corrected = poseField(object, "estimate");
     // Where nobody has corrected anything, they write the odometry again.
-    if (record.corrected && record.odometry && isSamePose(*record.corrected, *record.odometry))
+    if (record.corrected && record.odometry &&
+        areNear(*record.corrected, *record.odometry, kSamePose)) {
       record.corrected.reset();
+    }
     record.scan.T_map_sensor =
         record.corrected ? *record.corrected : record.odometry.value_or(Pose2());
     const std::vector<double> stamp = arrayField(object, "timestamp", 2);

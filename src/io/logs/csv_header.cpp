@@ -4,9 +4,10 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
-#include <cstdio>
 #include <map>
 #include <utility>
+
+#include "io/files/text.hpp"
 
 namespace cca {
 namespace {
@@ -97,12 +98,10 @@ class CsvColumns {
         if (!numbered_.emplace(*number, k).second)
           throw MalformedLine("header: range " + std::to_string(*number) + " is there twice");
       } else {
-        CsvQuantity quantity;
-        quantity.column = k;
         const auto unit = takeUnit(name);
-        quantity.unit = unit.value_or(1.0);
         if (unit) has_unit_.push_back(name);
-        named_.emplace(name, quantity);  // of two that are named alike, the first
+        // Of two that are named alike, the first.
+        named_.emplace(name, CsvQuantity{k, 0.0, unit.value_or(1.0)});
       }
     }
   }
@@ -120,9 +119,7 @@ class CsvColumns {
   }
   void share(std::string name, double value) {
     const double unit = takeUnit(name).value_or(1.0);
-    CsvQuantity quantity;
-    quantity.value = unit * value;
-    named_.emplace(name, quantity);
+    named_.emplace(name, CsvQuantity{std::nullopt, unit * value});
   }
 
   /// x, y and theta, or yaw; nothing where the header has none of them.
@@ -144,12 +141,6 @@ class CsvColumns {
   std::vector<std::string> has_unit_;
 };
 
-CsvQuantity shared(double value) {
-  CsvQuantity quantity;
-  quantity.value = value;
-  return quantity;
-}
-
 /// Ranges whose columns are named by their angles.
 void takeAngles(const CsvColumns& columns, CsvHeader& header) {
   const auto& angles = columns.angles();
@@ -165,17 +156,15 @@ void takeAngles(const CsvColumns& columns, CsvHeader& header) {
   for (std::size_t k = 0; k < angles.size(); ++k) {
     const double off = std::abs(bearing(k) - first - static_cast<double>(k) * step);
     if (!(off <= kAngleOff * std::abs(step))) {
-      char text[160];
-      std::snprintf(text, sizeof text,
-                    "header: the angles that name the ranges must be spaced evenly; %g is not (a "
+      throw MalformedLine(
+          formatted("header: the angles that name the ranges must be spaced evenly; %g is not (a "
                     "header that says the angles is needed)",
-                    angles[k].first.angle);
-      throw MalformedLine(text);
+                    angles[k].first.angle));
     }
     header.ranges.push_back(angles[k].second);
   }
-  header.angle_min = shared(first);
-  header.angle_increment = shared(step);
+  header.angle_min = CsvQuantity{std::nullopt, first};
+  header.angle_increment = CsvQuantity{std::nullopt, step};
 }
 
 /// Ranges that are numbered, from 0 or 1 on.

@@ -3,6 +3,7 @@
 #include <limits>
 
 #include "csv_header.hpp"
+#include "io/files/text.hpp"
 #include "text_formats.hpp"
 
 namespace cca {

@@ -25,10 +25,6 @@ constexpr double kLongestHeld = 1.5;
 /// Scans read ahead for poses: ten seconds at forty a second, within which a robot begins to move.
 constexpr std::size_t kMostAhead = 400;
 
-bool samePose(const Pose2& a, const Pose2& b) {
-  return a.x == b.x && a.y == b.y && a.theta == b.theta;
-}
-
 /// Whether a robot can have driven so. Odometry that begins anew leaps.
 bool isDriven(const Pose2& from, const Pose2& to, double seconds) {
   const Eigen::Vector3d step = difference(to, from);
@@ -81,7 +77,7 @@ class FreshLog : public LogReader {
     if (is_placed) {
       const LaserPlace laser = laserPlace(record.T_robot_sensor);
       newest_ = record.time;
-      if (shown_.empty() || !samePose(shown_.back().T_odom_robot, *record.odometry)) {
+      if (shown_.empty() || !areNear(shown_.back().T_odom_robot, *record.odometry, 0.0)) {
         if (!shown_.empty()) learn(record.time - shown_.back().time, shown_.back().scans);
         shown_.push_back({*record.odometry, record.time, laser});
       } else if (laser == shown_.back().laser) {

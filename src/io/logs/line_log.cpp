@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "line_log.hpp"
 
-#include <charconv>
 #include <cmath>
-#include <cstdio>
 #include <utility>
 
 #include "cca_mrpt/sensing/missing_returns.hpp"
-#include "io/files/byte_order_mark.hpp"
 #include "io/files/gzip_lines.hpp"
+#include "io/files/text.hpp"
 
 namespace cca {
 namespace {
@@ -47,8 +45,8 @@ class LineLog : public LogReader {
     std::string text;
     if (lines_.damaged()) text = "the compressed file is damaged or ends early";
     if (malformed_ > 0) {
-      text += (text.empty() ? "" : "; ") + std::to_string(malformed_) +
-              " line(s) left out, the first is line " + first_;
+      appendWarning(std::to_string(malformed_) + " line(s) left out, the first is line " + first_,
+                    text);
     }
     return text;
   }
@@ -85,34 +83,15 @@ std::unique_ptr<LogReader> openLineLog(const std::string& path,
   return std::make_unique<LineLog>(path, std::move(format));
 }
 
-std::optional<double> numberOf(std::string_view text) {
-  if (!text.empty() && text.front() == '+') text.remove_prefix(1);
-  double value = 0.0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  // Written by C programs: values too small or too large for a double stand for 0.
-  if (error == std::errc::result_out_of_range) return 0.0;
-  if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
-  return value;
-}
-
-std::string_view withoutBlanks(std::string_view text) {
-  constexpr std::string_view kBlanks = " \t\r";
-  const std::size_t begin = text.find_first_not_of(kBlanks);
-  if (begin == std::string_view::npos) return {};
-  return text.substr(begin, text.find_last_not_of(kBlanks) + 1 - begin);
-}
-
 void requireOneTurn(const Scan& scan) {
   const double covered = scan.angle_increment * static_cast<double>(scan.size() - 1);
   if (std::abs(covered) <= kWidestTurn && std::abs(scan.angle_min) <= kWidestTurn &&
       covered != 0.0) {
     return;
   }
-  char text[160];
-  std::snprintf(text, sizeof text,
-                "angles: %zu beams must lie apart within one turn, not from %g to %g rad",
-                scan.size(), scan.angle_min, scan.angle_min + covered);
-  throw MalformedLine(text);
+  throw MalformedLine(
+      formatted("angles: %zu beams must lie apart within one turn, not from %g to %g rad",
+                scan.size(), scan.angle_min, scan.angle_min + covered));
 }
 
 }  // namespace cca

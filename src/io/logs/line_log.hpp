@@ -32,11 +32,6 @@ class LineFormat {
 ///         first scan is malformed: names file, line and the rule.
 std::unique_ptr<LogReader> openLineLog(const std::string& path, std::unique_ptr<LineFormat> format);
 
-/// A number as programs write it, also nan, inf and a leading plus; nothing where it is none.
-std::optional<double> numberOf(std::string_view text);
-/// Text without blanks about it.
-std::string_view withoutBlanks(std::string_view text);
-
 /// Requires that beams lie within one turn. @throws MalformedLine naming the angles.
 void requireOneTurn(const Scan& scan);
 

@@ -134,8 +134,7 @@ class Geometry {
     if (most_ == record.scan.size()) shown_ = record.scan;
     const Pose2& mounting = record.T_robot_sensor;
     const bool known = std::any_of(mountings_.begin(), mountings_.end(), [&](const Pose2& other) {
-      return (other.position() - mounting.position()).norm() < kSameMounting &&
-             std::abs(wrapAngle(other.theta - mounting.theta)) < kSameMounting;
+      return areNear(other, mounting, kSameMounting);
     });
     if (!known) mountings_.push_back(mounting);
   }

@@ -77,25 +77,6 @@ std::unique_ptr<LogReader> openAsWhatItIs(const std::string& path, const LogHint
   throw std::runtime_error(path + ": not a log of a known kind (" + known + ")");
 }
 
-/// A log whose first scan has been read already: it is known to have one.
-class BegunLog : public LogReader {
- public:
-  BegunLog(std::unique_ptr<LogReader> log, LogRecord first)
-      : log_(std::move(log)), first_(std::move(first)) {}
-
-  std::optional<LogRecord> next() override {
-    if (!first_) return log_->next();
-    return std::exchange(first_, std::nullopt);
-  }
-
-  std::string warnings() const override { return log_->warnings(); }
-  double progress() const override { return log_->progress(); }
-
- private:
-  std::unique_ptr<LogReader> log_;
-  std::optional<LogRecord> first_;
-};
-
 }  // namespace
 
 void addLogKind(LogKind kind) { addedKinds().push_back(std::move(kind)); }
@@ -103,14 +84,7 @@ void addLogKind(LogKind kind) { addedKinds().push_back(std::move(kind)); }
 std::unique_ptr<LogReader> openLog(const std::string& path, const LogHints& hints) {
   auto log = openAsWhatItIs(path, hints);
   if (const auto truth = findTruthFile(path)) log = withTruth(std::move(log), *truth);
-  log = soundScansOf(std::move(log));
-  auto first = log->next();
-  if (!first) {
-    const std::string why = log->warnings();
-    throw std::runtime_error(path + ": holds no scan of a 2-D laser" +
-                             (why.empty() ? "" : " (" + why + ")"));
-  }
-  return std::make_unique<BegunLog>(std::move(log), std::move(*first));
+  return soundScansOf(std::move(log), path);
 }
 
 std::unique_ptr<LogReader> openUndistortedLog(const std::string& path, const LogHints& hints) {

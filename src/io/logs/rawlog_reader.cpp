@@ -15,6 +15,7 @@
 #include <stdexcept>
 
 #include "cca_mrpt/sensing/missing_returns.hpp"
+#include "io/files/text.hpp"
 #include "io/mrpt/mrpt_objects.hpp"
 #include "io/mrpt/mrpt_scan.hpp"
 
@@ -57,6 +58,36 @@ std::optional<double> actionTime(const CActionCollection& actions) {
   return actions.size() > 0 ? seconds((*actions.begin())->timestamp) : std::nullopt;
 }
 
+/// Takes the scans of a file of MRPT's.
+class MrptScans {
+ public:
+  /// A scan at its laser's place on the robot, its missing returns judged; nothing for one of a
+  /// tilted laser. @param action_time  s, of a scan without time stamp.
+  std::optional<LogRecord> recordOf(const CObservation2DRangeScan& observation,
+                                    const std::optional<double>& action_time = {}) {
+    auto mounted = fromMrpt(observation);
+    if (!mounted) {
+      ++left_out_;
+      return std::nullopt;
+    }
+    missing_returns_[observation.sensorLabel].judge(mounted->scan);
+    LogRecord record;
+    record.scan = std::move(mounted->scan);
+    record.T_robot_sensor = record.scan.T_map_sensor = mounted->T_robot_sensor;
+    auto time = seconds(observation.timestamp);
+    if (!time) time = action_time;
+    record.has_time = time.has_value();
+    record.time = time.value_or(0.0);
+    return record;
+  }
+
+  std::size_t leftOut() const { return left_out_; }
+
+ private:
+  std::map<std::string, MissingReturns> missing_returns_;  ///< of each laser, by its label
+  std::size_t left_out_ = 0;
+};
+
 class RawlogReader : public LogReader {
  public:
   explicit RawlogReader(const std::string& path) : objects_(path) {}
@@ -78,9 +109,10 @@ class RawlogReader : public LogReader {
 
   std::string warnings() const override {
     std::string text = objects_.fault();
-    if (tilted_ > 0) {
-      text += (text.empty() ? "" : "; ") + std::to_string(tilted_) +
-              " scan(s) of a tilted or impossible laser left out";
+    if (scans_.leftOut() > 0) {
+      appendWarning(
+          std::to_string(scans_.leftOut()) + " scan(s) of a tilted or impossible laser left out",
+          text);
     }
     return text;
   }
@@ -97,7 +129,8 @@ class RawlogReader : public LogReader {
       for (const auto& observation : *frame) takeOfFrame(observation.get());
       action_time_.reset();
     } else if (const auto* scan = dynamic_cast<const CObservation2DRangeScan*>(&object)) {
-      if (auto record = makeRecord(*scan)) waiting_.push_back(std::move(*record));
+      if (auto record = scans_.recordOf(*scan, action_time_))
+        waiting_.push_back(std::move(*record));
       if (waiting_.size() > kLongestWait) release(HUGE_VAL);
     } else if (const auto* odometry = dynamic_cast<const CObservationOdometry*>(&object)) {
       takeOdometry(*odometry);
@@ -107,27 +140,10 @@ class RawlogReader : public LogReader {
   void takeOfFrame(const mrpt::obs::CObservation* observation) {
     const auto* scan = dynamic_cast<const CObservation2DRangeScan*>(observation);
     if (!scan) return;
-    auto record = makeRecord(*scan);
+    auto record = scans_.recordOf(*scan, action_time_);
     if (!record) return;
     setOdometry(*record, T_odom_robot_);
     ready_.push_back(std::move(*record));
-  }
-
-  std::optional<LogRecord> makeRecord(const CObservation2DRangeScan& observation) {
-    auto mounted = fromMrpt(observation);
-    if (!mounted) {
-      ++tilted_;
-      return std::nullopt;
-    }
-    missing_returns_[observation.sensorLabel].judge(mounted->scan);
-    LogRecord record;
-    record.scan = std::move(mounted->scan);
-    record.T_robot_sensor = record.scan.T_map_sensor = mounted->T_robot_sensor;
-    auto time = seconds(observation.timestamp);
-    if (!time) time = action_time_;
-    record.has_time = time.has_value();
-    record.time = time.value_or(0.0);
-    return record;
   }
 
   static void setOdometry(LogRecord& record, const Pose2& T_odom_robot) {
@@ -169,8 +185,7 @@ class RawlogReader : public LogReader {
   std::optional<double> action_time_;
   std::optional<Stamped> earlier_, later_;  ///< of plain observations
   std::deque<LogRecord> waiting_, ready_;
-  std::map<std::string, MissingReturns> missing_returns_;  ///< of each laser, by its label
-  std::size_t tilted_ = 0;
+  MrptScans scans_;
 };
 
 class SimpleMapReader : public LogReader {
@@ -193,7 +208,8 @@ class SimpleMapReader : public LogReader {
   }
 
   std::string warnings() const override {
-    return left_out_ > 0 ? std::to_string(left_out_) + " scan(s) of a tilted laser left out" : "";
+    const std::size_t left_out = scans_.leftOut();
+    return left_out > 0 ? std::to_string(left_out) + " scan(s) of a tilted laser left out" : "";
   }
 
   double progress() const override {
@@ -209,25 +225,17 @@ class SimpleMapReader : public LogReader {
     for (const auto& observation : *pair.sf) {
       const auto* scan = dynamic_cast<const CObservation2DRangeScan*>(observation.get());
       if (!scan) continue;
-      auto mounted = fromMrpt(*scan);
-      left_out_ += !mounted;
-      if (!mounted) continue;
-      missing_returns_[scan->sensorLabel].judge(mounted->scan);
-      LogRecord record;
-      record.scan = std::move(mounted->scan);
-      record.T_robot_sensor = mounted->T_robot_sensor;
-      record.corrected = T_map_robot;
-      record.scan.T_map_sensor = T_map_robot * record.T_robot_sensor;
-      const auto time = seconds(scan->timestamp);
-      record.has_time = time.has_value();
-      record.time = time.value_or(0.0);
-      ready_.push_back(std::move(record));
+      auto record = scans_.recordOf(*scan);
+      if (!record) continue;
+      record->corrected = T_map_robot;
+      record->scan.T_map_sensor = T_map_robot * record->T_robot_sensor;
+      ready_.push_back(std::move(*record));
     }
   }
 
   mrpt::maps::CSimpleMap::Ptr map_;
-  std::map<std::string, MissingReturns> missing_returns_;  ///< of each laser, by its label
-  std::size_t at_ = 0, left_out_ = 0;
+  MrptScans scans_;
+  std::size_t at_ = 0;
   std::deque<LogRecord> ready_;
 };
 

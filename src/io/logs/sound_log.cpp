@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "sound_log.hpp"
 
-#include <cstdio>
 #include <map>
+#include <stdexcept>
 #include <string>
 #include <utility>
 
 #include "held_odometry.hpp"
+#include "io/files/text.hpp"
 #include "laser_place.hpp"
 #include "sensing/scan_faults.hpp"
 
@@ -29,14 +30,11 @@ std::optional<SensorReading> readingOf(const LogRecord& record, const Pose2& T_r
   return SensorReading{*pose * T_robot_sensor, record.time};
 }
 
-/// "12 scan(s) left out: ..."; empty where there are none.
-std::string toldOf(std::size_t count, const std::string& what) {
-  return count > 0 ? std::to_string(count) + " scan(s) left out: " + what : "";
-}
-
 class SoundLog : public LogReader {
  public:
   explicit SoundLog(std::unique_ptr<LogReader> log) : log_(std::move(log)), ahead_(nextSound()) {}
+
+  bool hasEnded() const { return !ahead_; }
 
   std::optional<LogRecord> next() override {
     if (!ahead_) return std::nullopt;
@@ -51,24 +49,22 @@ class SoundLog : public LogReader {
 
   std::string warnings() const override {
     std::string text = log_->warnings();
-    char long_ranges[120];
-    std::snprintf(long_ranges, sizeof long_ranges,
-                  "ranges look like millimetres (median %g), and must be metres", median_);
-    char far_poses[140];
-    std::snprintf(far_poses, sizeof far_poses,
-                  "poses look like millimetres (the robot would drive at %.0f m/s), and must be "
-                  "metres",
-                  speed_);
-    for (const std::string& told :
-         {toldOf(repeated_,
-                 "equal to the one before, though the wheels went on (the driver hangs); the "
-                 "first is number " +
-                     std::to_string(first_repeated_)),
-          toldOf(long_, long_ranges),
-          toldOf(far_, "their poses are beyond 100 000 km; the first is number " +
-                           std::to_string(first_far_)),
-          std::string(2 * fast_ > steps_ ? far_poses : "")}) {
-      text += (text.empty() || told.empty() ? "" : "; ") + told;
+    const auto tell = [&text](std::size_t count, const std::string& what) {
+      if (count > 0) appendWarning(std::to_string(count) + " scan(s) left out: " + what, text);
+    };
+    tell(repeated_,
+         "equal to the one before, though the wheels went on (the driver hangs); the first is "
+         "number " +
+             std::to_string(first_repeated_));
+    tell(long_, formatted("ranges look like millimetres (median %g), and must be metres", median_));
+    tell(far_,
+         "their poses are beyond 100 000 km; the first is number " + std::to_string(first_far_));
+    if (2 * fast_ > steps_) {
+      appendWarning(
+          formatted("poses look like millimetres (the robot would drive at %.0f m/s), and "
+                    "must be metres",
+                    speed_),
+          text);
     }
     return text;
   }
@@ -113,8 +109,12 @@ class SoundLog : public LogReader {
 
 }  // namespace
 
-std::unique_ptr<LogReader> soundScansOf(std::unique_ptr<LogReader> log) {
-  return std::make_unique<SoundLog>(withoutHeldOdometry(std::move(log)));
+std::unique_ptr<LogReader> soundScansOf(std::unique_ptr<LogReader> log, const std::string& path) {
+  auto sound = std::make_unique<SoundLog>(withoutHeldOdometry(std::move(log)));
+  if (path.empty() || !sound->hasEnded()) return sound;
+  const std::string why = sound->warnings();
+  throw std::runtime_error(path + ": holds no scan of a 2-D laser" +
+                           (why.empty() ? "" : " (" + why + ")"));
 }
 
 }  // namespace cca

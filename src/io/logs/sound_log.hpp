@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <string>
 
 #include "cca_mrpt/io/log_reader.hpp"
 
@@ -11,6 +12,9 @@ namespace cca {
 /// that no robot drives through, as millimetres that are taken for metres are. Of the motion
 /// during a sweep, it adds what the log's poses tell, those of the next scan included; odometry
 /// that scans have held is as of each scan first, see withoutHeldOdometry().
-std::unique_ptr<LogReader> soundScansOf(std::unique_ptr<LogReader> log);
+/// @param path  of a log that must hold a scan.
+/// @throws std::runtime_error naming it where it holds none.
+std::unique_ptr<LogReader> soundScansOf(std::unique_ptr<LogReader> log,
+                                        const std::string& path = {});
 
 }  // namespace cca

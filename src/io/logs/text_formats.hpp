@@ -4,7 +4,6 @@
 #include <cstddef>
 #include <memory>
 #include <string>
-#include <string_view>
 
 #include "line_log.hpp"
 
@@ -13,7 +12,7 @@ namespace cca {
 /// Bytes of a file that tell its kind: the header of a CSV with four thousand columns.
 inline constexpr std::size_t kLogHead = 1 << 16;
 
-/// Opens a log of one of the kinds of this header, or a CARMEN log, by its content.
+/// Opens a log of one of the kinds of this header, by its content.
 /// @param head  the first bytes of the file, unzipped.
 /// @return  null where it is none of them. @throws std::runtime_error naming file, line and rule.
 std::unique_ptr<LogReader> openTextLog(const std::string& path, const std::string& head);
@@ -21,6 +20,20 @@ std::unique_ptr<LogReader> openTextLog(const std::string& path, const std::strin
 /// The kinds, for messages.
 inline constexpr const char* kTextLogKinds =
     "CARMEN .log and .clf, CSV of ranges, CoreSLAM .dat, csm .json";
+
+/// Reads a CARMEN log, plain or gzipped: FLASER and RLASER, or ROBOTLASER1/2 where those are the
+/// more frequent (a log may carry the same laser twice). RAWLASER1 where there are none of these:
+/// its scans are at the odometry of the ODOM lines about them, interpolated by time. RAWLASER2,
+/// which looks back, where there is no RAWLASER1 either: how far apart the two lasers are no line
+/// tells, and a map would have each wall twice. Nor does one tell where LASER3, LASER4 and
+/// RAWLASER3 to 5 look: these are counted in a warning.
+///
+/// No return: see Saturation; for ROBOTLASER also 0.999 of the line's own maximum range. Such beams
+/// say nothing about free space (glass and black cloth give them too). PARAM lines are not trusted.
+/// Logs that GMapping rewrote carry corrected poses in place of the odometry; where ODOM lines lead
+/// from scan to scan, the raw odometry is put together again from them.
+/// @throws std::runtime_error where the file cannot be read or holds no laser scan.
+std::unique_ptr<LogReader> openCarmenLog(const std::string& path);
 
 /// CSV with a row a scan, and a header that names the columns; ',', ';' or tab separates them.
 /// Case, quotes, a leading '%' and the prefixes of `rostopic echo -p` (field.header.) do not count.

@@ -2,8 +2,7 @@
 #include <algorithm>
 
 #include "carmen_line.hpp"
-#include "carmen_reader.hpp"
-#include "io/files/byte_order_mark.hpp"
+#include "io/files/text.hpp"
 #include "text_formats.hpp"
 
 namespace cca {

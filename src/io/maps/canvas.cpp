@@ -3,10 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
-
-#include "io/files/surface_png.hpp"
-#include "io/logs/unhinted_text.hpp"
 
 namespace cca {
 namespace {
@@ -27,8 +23,7 @@ Canvas::Canvas(const Eigen::AlignedBox2d& view, int longest_side, int header)
       header_(header),
       surface_(cairo_image_surface_create(CAIRO_FORMAT_RGB24, width_, height_),
                cairo_surface_destroy),
-      cairo_(cairo_create(surface_.get()), cairo_destroy) {
-  drawUnhinted(cairo_.get());
+      cairo_(penOn(surface_.get())) {
   cairo_set_line_cap(cairo_.get(), CAIRO_LINE_CAP_ROUND);
   cairo_set_line_join(cairo_.get(), CAIRO_LINE_JOIN_ROUND);
 }
@@ -38,12 +33,8 @@ Eigen::Vector2d Canvas::pixel(const Eigen::Vector2d& p_map) const {
           header_ + (view_.max().y() - p_map.y()) * pixels_per_metre_};
 }
 
-void Canvas::colour(const Colour& colour) {
-  cairo_set_source_rgba(cairo_.get(), colour.red, colour.green, colour.blue, colour.alpha);
-}
-
 void Canvas::fill(const Colour& with) {
-  colour(with);
+  choose(cairo_.get(), with);
   cairo_paint(cairo_.get());
 }
 
@@ -53,7 +44,7 @@ void Canvas::polyline(const std::vector<Eigen::Vector2d>& points_map, double wid
     const Eigen::Vector2d p = pixel(p_map);
     cairo_line_to(cairo_.get(), p.x(), p.y());
   }
-  colour(with);
+  choose(cairo_.get(), with);
   cairo_set_line_width(cairo_.get(), width);
   cairo_stroke(cairo_.get());
 }
@@ -67,7 +58,7 @@ void Canvas::area(const std::vector<std::vector<Eigen::Vector2d>>& rings_map, co
     }
     cairo_close_path(cairo_.get());
   }
-  colour(with);
+  choose(cairo_.get(), with);
   cairo_set_fill_rule(cairo_.get(), CAIRO_FILL_RULE_EVEN_ODD);
   cairo_fill(cairo_.get());
 }
@@ -77,17 +68,16 @@ void Canvas::disc(const Eigen::Vector2d& centre_map, double radius, const Colour
   const Eigen::Vector2d centre = pixel(centre_map);
   cairo_new_sub_path(cairo_.get());
   cairo_arc(cairo_.get(), centre.x(), centre.y(), radius, 0.0, 2.0 * M_PI);
-  colour(with);
+  choose(cairo_.get(), with);
   cairo_fill_preserve(cairo_.get());
-  colour(rim_colour);
+  choose(cairo_.get(), rim_colour);
   cairo_set_line_width(cairo_.get(), rim);
-  if (rim > 0.0) cairo_stroke_preserve(cairo_.get());
-  cairo_new_path(cairo_.get());
+  cairo_stroke(cairo_.get());
 }
 
 void Canvas::image(std::vector<std::uint32_t>& argb, int columns, int rows,
                    const Eigen::Vector2d& lower_left_map, double metres_per_pixel) {
-  const std::unique_ptr<cairo_surface_t, void (*)(cairo_surface_t*)> picture(
+  const CairoSurface picture(
       cairo_image_surface_create_for_data(reinterpret_cast<unsigned char*>(argb.data()),
                                           CAIRO_FORMAT_RGB24, columns, rows, 4 * columns),
       cairo_surface_destroy);
@@ -107,10 +97,8 @@ void Canvas::image(std::vector<std::uint32_t>& argb, int columns, int rows,
 
 void Canvas::text(double x, double y, double size, bool bold, const Colour& with,
                   const std::string& utf8) {
-  cairo_select_font_face(cairo_.get(), "sans-serif", CAIRO_FONT_SLANT_NORMAL,
-                         bold ? CAIRO_FONT_WEIGHT_BOLD : CAIRO_FONT_WEIGHT_NORMAL);
-  cairo_set_font_size(cairo_.get(), size);
-  colour(with);
+  chooseFont(cairo_.get(), size, bold);
+  choose(cairo_.get(), with);
   cairo_move_to(cairo_.get(), x, y);
   cairo_show_text(cairo_.get(), utf8.c_str());
   cairo_new_path(cairo_.get());
@@ -118,15 +106,12 @@ void Canvas::text(double x, double y, double size, bool bold, const Colour& with
 
 void Canvas::bar(double x, double y, double width, double height, const Colour& with) {
   cairo_rectangle(cairo_.get(), x, y, width, height);
-  colour(with);
+  choose(cairo_.get(), with);
   cairo_fill(cairo_.get());
 }
 
 std::string Canvas::png() const {
-  const cairo_status_t status = cairo_status(cairo_.get());
-  if (status != CAIRO_STATUS_SUCCESS) {
-    throw std::runtime_error(std::string("cannot be drawn: ") + cairo_status_to_string(status));
-  }
+  requireDrawn(cairo_.get());
   return pngOf(surface_.get());
 }
 

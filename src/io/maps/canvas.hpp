@@ -1,14 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <cairo/cairo.h>
-
 #include <Eigen/Geometry>
-#include <memory>
 #include <string>
 #include <vector>
 
-#include "io/maps/colour.hpp"
+#include "io/maps/cairo_pen.hpp"
 
 namespace cca {
 
@@ -27,8 +24,8 @@ class Canvas {
   void polyline(const std::vector<Eigen::Vector2d>& points_map, double width, const Colour& colour);
   /// Fills what lies inside of an odd number of rings.
   void area(const std::vector<std::vector<Eigen::Vector2d>>& rings_map, const Colour& colour);
-  void disc(const Eigen::Vector2d& centre_map, double radius, const Colour& colour,
-            double rim = 0.0, const Colour& rim_colour = {1, 1, 1});
+  void disc(const Eigen::Vector2d& centre_map, double radius, const Colour& colour, double rim,
+            const Colour& rim_colour);
   /// An image whose lower left corner lies at a point of the map. @param argb  rows from the top.
   void image(std::vector<std::uint32_t>& argb, int columns, int rows,
              const Eigen::Vector2d& lower_left_map, double metres_per_pixel);
@@ -43,13 +40,12 @@ class Canvas {
 
  private:
   Eigen::Vector2d pixel(const Eigen::Vector2d& p_map) const;
-  void colour(const Colour& colour);
 
   Eigen::AlignedBox2d view_;
   double pixels_per_metre_;
   int width_, height_, header_;
-  std::unique_ptr<cairo_surface_t, void (*)(cairo_surface_t*)> surface_;
-  std::unique_ptr<cairo_t, void (*)(cairo_t*)> cairo_;
+  CairoSurface surface_;
+  CairoPen cairo_;
 };
 
 }  // namespace cca

@@ -3,8 +3,11 @@
 
 #include <algorithm>
 
-#include "io/plans/plan_files.hpp"
+#include "io/files/memory_file.hpp"
+#include "io/lines/line_formats.hpp"
+#include "io/maps/occupancy_files.hpp"
 #include "io/poses/local_frame.hpp"
+#include "io/poses/pose_files.hpp"
 
 namespace cca {
 
@@ -37,12 +40,29 @@ MapProducts seenFrom(const Eigen::Vector2d& p_frame, MapProducts products) {
   return products;
 }
 
-std::vector<StampedPose> stampedPoses(const MapProducts& products) {
-  std::vector<StampedPose> poses;
-  for (std::size_t k = 0; k < std::min(products.times.size(), products.trajectory.size()); ++k) {
-    poses.push_back({products.times[k], products.trajectory[k]});
+NamedFiles mapTexts(const MapProducts& map) {
+  NamedFiles files{
+      {"lines.csv", linesCsv(map.lines)},
+      {"arcs.csv", arcsCsv(map.arcs)},
+      {"lines.geojson",
+       linesGeoJson(map.lines, map.poly_lines, map.trajectory, map.arcs, map.place)},
+      {"lines.svg", linesSvg(map.lines, map.poly_lines, map.trajectory, map.arcs, map.place)},
+      {"lines.dxf", linesDxf(map.lines, map.poly_lines, map.trajectory, map.arcs)}};
+  if (map.grid) {
+    files.emplace_back("map.pgm", occupancyPgm(*map.grid));
+    files.emplace_back("map.yaml", occupancyYaml(*map.grid, "map.pgm"));
   }
-  return poses;
+  std::vector<StampedPose> poses;
+  for (std::size_t k = 0; k < std::min(map.times.size(), map.trajectory.size()); ++k) {
+    poses.push_back({map.times[k], map.trajectory[k]});
+  }
+  if (!poses.empty()) {
+    files.emplace_back("poses.csv", posesCsv(poses));
+    files.emplace_back("poses.tum", posesTum(poses));
+  }
+  if (map.graph.size() > 0) files.emplace_back("graph.g2o", graphG2o(map.graph));
+  if (!map.memory.empty()) files.emplace_back(kMemoryFile, map.memory);
+  return files;
 }
 
 std::vector<PlanRoom> seenFrom(const Eigen::Vector2d& p_frame, std::vector<PlanRoom> rooms) {

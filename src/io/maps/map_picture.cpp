@@ -3,8 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
-#include <cstdio>
 #include <cstring>
 #include <utility>
 #include <vector>
@@ -12,6 +10,7 @@
 #include "canvas.hpp"
 #include "io/files/atomic_file.hpp"
 #include "io/files/stray_places.hpp"
+#include "io/files/text.hpp"
 #include "io/lines/line_formats.hpp"
 
 namespace cca {
@@ -39,11 +38,6 @@ constexpr std::array<Colour, 6> kPalette{{{0.00, 0.33, 0.64},
                                           {0.10, 0.53, 0.75}}};
 
 constexpr int kLargestImage = 32767;  // pixels a side, of an image of cairo's
-
-std::uint32_t rgb(const Colour& c) {
-  const auto byte = [](double v) { return static_cast<std::uint32_t>(std::lround(255.0 * v)); };
-  return byte(c.red) << 16 | byte(c.green) << 8 | byte(c.blue);
-}
 
 std::uint32_t cellColour(Occupancy state) {
   if (state == Occupancy::kUnknown) return rgb(kUnknown);
@@ -122,17 +116,10 @@ void drawEnds(Canvas& canvas, const std::vector<Pose2>& trajectory, double unit)
   canvas.disc(last.position(), 6.0 * unit, kEnd, 1.5 * unit, kPaper);
 }
 
-/// The longest of 1, 2, 5, 10, ... m that is no longer than a quarter of the sheet.
-double scaleBarMetres(const Canvas& canvas) {
-  const double longest = 0.25 * canvas.width() / canvas.pixelsPerMetre();
-  const double decade = std::pow(10.0, std::floor(std::log10(longest)));
-  if (5.0 * decade <= longest) return 5.0 * decade;
-  return 2.0 * decade <= longest ? 2.0 * decade : decade;
-}
-
 /// Beside the caption; on a sheet without one, in the lower left corner.
 void drawScaleBar(Canvas& canvas, bool beside_caption, double unit) {
-  const double metres = scaleBarMetres(canvas), length = metres * canvas.pixelsPerMetre();
+  const double metres = scaleBarLength(0.25 * canvas.width() / canvas.pixelsPerMetre());
+  const double length = metres * canvas.pixelsPerMetre();
   const double x = beside_caption ? canvas.width() - length - 16.0 * unit : 16.0 * unit;
   const double y = (beside_caption ? kHeader * unit : canvas.height()) - 18.0 * unit;
   canvas.bar(x - 8.0 * unit, y - 24.0 * unit, length + 16.0 * unit, 36.0 * unit, {1, 1, 1, 0.8});
@@ -140,9 +127,7 @@ void drawScaleBar(Canvas& canvas, bool beside_caption, double unit) {
     canvas.bar(x + 0.25 * part * length, y, 0.25 * length, 5.0 * unit,
                part % 2 ? kSoftInk : kDarkInk);
   }
-  char label[32];
-  std::snprintf(label, sizeof label, "%g m", metres);
-  canvas.text(x, y - 6.0 * unit, 15.0 * unit, false, kDarkInk, label);
+  canvas.text(x, y - 6.0 * unit, 15.0 * unit, false, kDarkInk, formatted("%g m", metres));
 }
 
 /// Names of files may be anything; Cairo draws no text that is not UTF-8.
@@ -154,9 +139,8 @@ std::string asUtf8(const std::string& text) {
 void drawCaption(Canvas& canvas, const MapProducts& products, double unit) {
   double length = 0.0;
   for (const MapLine& line : products.lines) length += line.segment.length();
-  char numbers[160];
-  std::snprintf(numbers, sizeof numbers, "%zu lines, %zu poly-lines, %.0f m of wall",
-                products.lines.size(), products.poly_lines.size(), length);
+  const std::string numbers = formatted("%zu lines, %zu poly-lines, %.0f m of wall",
+                                        products.lines.size(), products.poly_lines.size(), length);
   canvas.bar(0, 0, canvas.width(), kHeader * unit, kPaper);
   canvas.text(16.0 * unit, 28.0 * unit, 21.0 * unit, true, kDarkInk, asUtf8(products.title));
   canvas.text(16.0 * unit, 51.0 * unit, 15.0 * unit, false, kSoftInk, numbers);

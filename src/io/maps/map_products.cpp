@@ -4,23 +4,19 @@
 #include <algorithm>
 #include <filesystem>
 #include <stdexcept>
-#include <tuple>
 #include <utility>
 #include <vector>
 
 #include "io/files/atomic_file.hpp"
 #include "io/files/memory_file.hpp"
-#include "io/lines/line_formats.hpp"
 #include "io/maps/map_folder.hpp"
 #include "io/maps/map_frame.hpp"
 #include "io/maps/map_picture.hpp"
 #include "io/maps/map_scene.hpp"
 #include "io/maps/metric_map.hpp"
 #include "io/maps/occupancy_files.hpp"
-#include "io/mrpt/grid_files.hpp"
 #include "io/plans/plan_files.hpp"
 #include "io/poses/local_frame.hpp"
-#include "io/poses/pose_files.hpp"
 #include "io/replay/replay.hpp"
 
 namespace cca {
@@ -41,7 +37,7 @@ constexpr const char* kSometimes[] = {"map.pgm",      "map.yaml",        "map.gr
 /// Names of files and what is found in damaged ones need not be UTF-8.
 constexpr auto kReplace = nlohmann::ordered_json::error_handler_t::replace;
 
-std::string inFolder(const std::string& folder, const char* name) {
+std::string inFolder(const std::string& folder, const std::string& name) {
   return (fs::path(folder) / name).string();
 }
 
@@ -61,13 +57,13 @@ nlohmann::ordered_json summarize(const MapProducts& products) {
 }
 
 /// Writes the floor plan beside the map, and its numbers into the summary. A map is a map without a
-/// plan, too: what goes wrong with it goes into the summary. @param p_grid  where the grid's frame
-/// lies in the map's. @return  the plan, if it was written.
+/// plan, too: what goes wrong with it goes into the summary. @param map  in the map frame, its grid
+/// asWritten(). @return  the plan, if it was written.
 std::optional<FloorPlan> addPlan(const std::string& folder, const MapProducts& map,
-                                 const Eigen::Vector2d& p_grid, nlohmann::ordered_json& summary) {
+                                 nlohmann::ordered_json& summary) {
   if (!map.grid) return std::nullopt;
   try {
-    const FloorPlan plan = planOfMap(map.lines, asWritten(*map.grid, p_grid));
+    const FloorPlan plan = planOfMap(map.lines, *map.grid);
     writePlanFiles(folder, planFiles(plan, map.title, map.place), true);
     double area = 0.0;
     for (const PlanRoom& room : plan.rooms) area += room.area;
@@ -108,7 +104,7 @@ std::string keepMemory(const std::string& folder) {
   if (!fs::exists(inFolder(folder, kMemoryFile))) return {};
   std::string kept = inFolder(folder, "earlier.slam");
   for (int number = 2; fs::exists(kept); ++number) {
-    kept = inFolder(folder, ("earlier-" + std::to_string(number) + ".slam").c_str());
+    kept = inFolder(folder, "earlier-" + std::to_string(number) + ".slam");
   }
   std::error_code failed;
   fs::rename(inFolder(folder, kMemoryFile), kept, failed);
@@ -119,27 +115,21 @@ std::string keepMemory(const std::string& folder) {
 void writeMapFolder(const std::string& folder, const MapProducts& products) {
   makeFolder(folder);
   withdrawSummary(folder);
-  const MapProducts map = seenFrom(-products.origin, products);
-  const auto& [lines, poly_lines, trajectory] = std::tie(map.lines, map.poly_lines, map.trajectory);
+  MapProducts map = seenFrom(-products.origin, products);
+  if (map.grid) map.grid = asWritten(std::move(*map.grid), products.origin);
   std::vector<std::string> written = products.beside;
-  const auto put = [&](const char* name, const std::string& content) {
+  const auto put = [&](const std::string& name, const std::string& content) {
     writeFile(inFolder(folder, name), content);
     written.push_back(name);
   };
-  put("lines.csv", linesCsv(lines));
-  put("arcs.csv", arcsCsv(map.arcs));
-  put("lines.geojson", linesGeoJson(lines, poly_lines, trajectory, map.arcs, map.place));
-  put("lines.svg", linesSvg(lines, poly_lines, trajectory, map.arcs, map.place));
-  put("lines.dxf", linesDxf(lines, poly_lines, trajectory, map.arcs));
-  writeLineMap(inFolder(folder, "map.linemap.gz"), lines);
+  for (const auto& [name, content] : mapTexts(map)) put(name, content);
+  writeLineMap(inFolder(folder, "map.linemap.gz"), map.lines);
   if (products.grid) {
-    put("map.pgm", occupancyPgm(*products.grid));
-    put("map.yaml", occupancyYaml(asWritten(*products.grid, products.origin), "map.pgm"));
     writeGridMap(inFolder(folder, "map.gridmap.gz"), *products.grid);
     written.push_back("map.gridmap.gz");
   }
   auto summary = summarize(products);
-  const std::optional<FloorPlan> plan = addPlan(folder, map, products.origin, summary);
+  const std::optional<FloorPlan> plan = addPlan(folder, map, summary);
   if (plan) written.insert(written.end(), kPlanFiles.begin(), kPlanFiles.end());
   PictureOptions picture;
   if (plan) picture.rooms = seenFrom(products.origin, plan->rooms);
@@ -148,13 +138,6 @@ void writeMapFolder(const std::string& folder, const MapProducts& products) {
   if (drawn.grid) drawn.grid = asWritten(std::move(*drawn.grid), Eigen::Vector2d::Zero());
   writePicture(inFolder(folder, "map.png"), drawn, picture);
   writeScene(inFolder(folder, "scene.3Dscene"), products);
-  if (!map.times.empty()) {
-    const std::vector<StampedPose> poses = stampedPoses(map);
-    put("poses.csv", posesCsv(poses));
-    put("poses.tum", posesTum(poses));
-  }
-  if (map.graph.size() > 0) put("graph.g2o", graphG2o(map.graph));
-  if (!map.memory.empty()) put(kMemoryFile, map.memory);
   if (!map.replay.empty()) put("replay.html", replayPage({withRooms(map.replay, picture.rooms)}));
   // What an earlier run left would be taken for this one's.
   const auto removeOld = [&](const char* name) {

@@ -61,29 +61,22 @@ struct ToText {
 
 struct ToArchive {
   mrpt::serialization::CArchive& out;
-  void operator()(const char*, double& value, double, double, const char*, const char*) {
+
+  template <class Number>
+  void operator()(const char*, Number& value, Number, Number, const char*, const char*) {
     out << value;
-  }
-  void operator()(const char*, int& value, int, int, const char*, const char*) {
-    out << static_cast<std::int32_t>(value);
   }
 };
 
 struct FromArchive {
   mrpt::serialization::CArchive& in;
-  void operator()(const char* name, double& value, double low, double high, const char*,
+
+  template <class Number>
+  void operator()(const char* name, Number& value, Number low, Number high, const char*,
                   const char*) {
     in >> value;
-    check(name, value >= low && value <= high);
-  }
-  void operator()(const char* name, int& value, int low, int high, const char*, const char*) {
-    std::int32_t read = 0;
-    in >> read;
-    value = read;
-    check(name, value >= low && value <= high);
-  }
-  static void check(const char* name, bool sound) {
-    if (!sound) throw std::runtime_error(std::string("line map: ") + name + " is out of range");
+    if (value >= low && value <= high) return;
+    throw std::runtime_error(std::string("line map: ") + name + " is out of range");
   }
 };
 
@@ -127,11 +120,6 @@ std::optional<Scan> placed(const mrpt::obs::CObservation& observation,
 }
 
 }  // namespace
-
-struct CLineMap2D::Nearest {
-  explicit Nearest(const std::vector<Segment2>& segments) : index(segments) {}
-  SegmentIndex index;
-};
 
 CLineMap2D::TMapDefinition::TMapDefinition() = default;
 
@@ -223,18 +211,18 @@ void CLineMap2D::getVisualizationInto(mrpt::opengl::CSetOfObjects& objects) cons
   objects.insert(walls);
 }
 
-const CLineMap2D::Nearest& CLineMap2D::nearest() const {
+const SegmentIndex& CLineMap2D::nearest() const {
   if (!nearest_) {
     std::vector<Segment2> segments;
     for (const MapLine& line : lines()) segments.push_back({line.segment.start, line.segment.end});
-    nearest_ = std::make_shared<const Nearest>(segments);
+    nearest_ = std::make_shared<const SegmentIndex>(segments);
   }
   return *nearest_;
 }
 
 float CLineMap2D::squareDistanceToClosestCorrespondence(float x, float y) const {
   const double infinite = std::numeric_limits<double>::infinity();
-  const double distance = nearest().index.nearest({x, y}, infinite).distance;
+  const double distance = nearest().nearest({x, y}, infinite).distance;
   return static_cast<float>(distance * distance);
 }
 
@@ -270,7 +258,7 @@ double CLineMap2D::internal_computeObservationLikelihood(
     const double range = scan->ranges[beam], bearing = scan->bearing(beam);
     const Eigen::Vector2d p_sensor(range * std::cos(bearing), range * std::sin(bearing));
     const double distance =
-        nearest().index.nearest(scan->T_map_sensor * p_sensor, p.max_distance).distance;
+        nearest().nearest(scan->T_map_sensor * p_sensor, p.max_distance).distance;
     sum_sq += distance * distance;
   }
   return -0.5 * sum_sq / (p.sigma * p.sigma);

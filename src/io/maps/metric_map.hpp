@@ -15,6 +15,8 @@
 
 namespace cca {
 
+class SegmentIndex;
+
 /// How a scan is judged against the lines: each return errs normally from the nearest one, and no
 /// return counts for more than max_distance (people, furniture).
 struct LineLikelihoodParameters {
@@ -67,8 +69,6 @@ class CLineMap2D : public mrpt::maps::CMetricMap {
   float squareDistanceToClosestCorrespondence(float x, float y) const override;
 
  private:
-  struct Nearest;
-
   void internal_clear() override;
   bool internal_insertObservation(
       const mrpt::obs::CObservation& observation,
@@ -78,13 +78,12 @@ class CLineMap2D : public mrpt::maps::CMetricMap {
       const mrpt::poses::CPose3D& taken_from) const override;
   bool internal_canComputeObservationLikelihood(
       const mrpt::obs::CObservation& observation) const override;
-  const Nearest& nearest() const;
+  const SegmentIndex& nearest() const;
 
   CcaParameters insertion_;
   std::vector<MapLine> read_lines_;
   LineMap map_;
-  mutable std::shared_ptr<const Nearest>
-      nearest_;  // made when first asked for; none after a change
+  mutable std::shared_ptr<const SegmentIndex> nearest_;  // made when first asked for, of lines()
 
   MAP_DEFINITION_START(CLineMap2D)
   std::string file;  ///< empty: none

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "io/maps/occupancy_files.hpp"
 
-#include <cmath>
-#include <cstdio>
+#include "io/files/text.hpp"
 
 namespace cca {
 namespace {
@@ -31,12 +30,11 @@ std::string occupancyPgm(const OccupancyRaster& grid) {
 }
 
 std::string occupancyYaml(const OccupancyRaster& grid, const std::string& image) {
-  char text[512];
-  std::snprintf(text, sizeof text,
-                "resolution: %.6g\norigin: [%.6f, %.6f, 0.0]\n"
-                "occupied_thresh: %.3f\nfree_thresh: %.3f\nnegate: 0\n",
-                grid.resolution, grid.origin.x(), grid.origin.y(), kOccupiedFrom, kFreeBelow);
-  return "image: " + image + "\n" + text;
+  return "image: " + image + "\n" +
+         formatted(
+             "resolution: %.6g\norigin: [%.6f, %.6f, 0.0]\n"
+             "occupied_thresh: %.3f\nfree_thresh: %.3f\nnegate: 0\n",
+             grid.resolution, grid.origin.x(), grid.origin.y(), kOccupiedFrom, kFreeBelow);
 }
 
 OccupancyRaster asWritten(OccupancyRaster grid, const Eigen::Vector2d& p_frame) {

@@ -25,4 +25,8 @@ OccupancyRaster asWritten(OccupancyRaster grid, const Eigen::Vector2d& p_frame);
 /// @throws std::runtime_error as readOccupancyImage() does.
 OccupancyRaster readOccupancyMap(const std::string& yaml_path);
 
+/// Writes MRPT's own file of a grid (.gridmap.gz): free 1, occupied 0, unknown one half.
+/// @throws std::runtime_error naming the file and the reason.
+void writeGridMap(const std::string& path, const OccupancyRaster& grid);
+
 }  // namespace cca

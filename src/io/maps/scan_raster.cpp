@@ -1,9 +1,32 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "cca_mrpt/io/scan_raster.hpp"
 
-#include "io/logs/scan_cut_off.hpp"
+#include <algorithm>
+#include <limits>
 
 namespace cca {
+namespace {
+
+constexpr double kLongestGridBeam = 25.0;  // m; beyond, its footprint exceeds a cell
+
+/// The scan up to kLongestGridBeam: what returns from beyond is free up to there.
+Scan cutOff(const Scan& scan) {
+  Scan cut = scan;
+  const bool is_silent_free = scan.free_range_without_return > 0.0;
+  cut.free_range_without_return = is_silent_free
+                                      ? std::min(kLongestGridBeam, scan.free_range_without_return)
+                                      : kLongestGridBeam;
+  for (double& range : cut.ranges) {
+    if (isNoReturn(range) && !is_silent_free) {
+      range = std::numeric_limits<double>::quiet_NaN();
+    } else if (range > kLongestGridBeam) {
+      range = std::numeric_limits<double>::infinity();
+    }
+  }
+  return cut;
+}
+
+}  // namespace
 
 ScanRaster::ScanRaster(const std::optional<Eigen::Vector2d>& p_begin) {
   if (p_begin) reached_.extend(*p_begin);

@@ -5,12 +5,11 @@
 
 #include <algorithm>
 #include <cctype>
-#include <cmath>
-#include <cstdio>
 #include <stdexcept>
 
 #include "io/files/atomic_file.hpp"
 #include "io/files/png_file.hpp"
+#include "io/files/text.hpp"
 
 namespace cca {
 
@@ -30,13 +29,11 @@ void requirePlainName(const std::string& name) {
 }
 
 std::string yamlText(const Building& plan) {
-  char text[400];
-  std::snprintf(text, sizeof text,
-                "image: %s.png\nresolution: %g\norigin: [0.0, 0.0, 0.0]\noccupied_thresh: 0.65\n"
-                "free_thresh: 0.196\nnegate: 0\nstart: [%g, %g, %g]\n",
-                plan.name.c_str(), kWorldResolution, plan.start.x, plan.start.y,
-                plan.start.theta * 180.0 / M_PI);
-  return text;
+  return formatted(
+      "image: %s.png\nresolution: %g\norigin: [0.0, 0.0, 0.0]\noccupied_thresh: 0.65\n"
+      "free_thresh: 0.196\nnegate: 0\nstart: [%g, %g, %g]\n",
+      plan.name.c_str(), kWorldResolution, plan.start.x, plan.start.y,
+      plan.start.theta * kDegreesPerRadian);
 }
 
 mrpt::img::CImage picture(const World& world) {
@@ -51,11 +48,8 @@ mrpt::img::CImage picture(const World& world) {
 std::string truthText(const Building& plan) {
   std::string text = "x1,y1,x2,y2\n";
   for (const auto& [a, b] : wallFaces(plan, kWorldResolution)) {
-    char line[120];
     // Adding 0 turns a negative zero into a plain one.
-    std::snprintf(line, sizeof line, "%.6f,%.6f,%.6f,%.6f\n", a.x() + 0.0, a.y() + 0.0, b.x() + 0.0,
-                  b.y() + 0.0);
-    text += line;
+    text += formatted("%.6f,%.6f,%.6f,%.6f\n", a.x() + 0.0, a.y() + 0.0, b.x() + 0.0, b.y() + 0.0);
   }
   return text;
 }

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "grid_files.hpp"
-
 #include <mrpt/maps/COccupancyGridMap2D.h>
 
 #include "io/files/gzip_archive.hpp"

@@ -6,8 +6,6 @@
 
 #include <string>
 
-#include "cca_mrpt/geometry/pose2.hpp"
-
 namespace cca {
 
 /// The objects of a file of MRPT's, zipped or not, one by one, up to the first that cannot be read.

@@ -4,14 +4,11 @@
 #include <mrpt/config/config_parser.h>
 #include <mrpt/system/string_utils.h>
 
-#include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <map>
 #include <sstream>
 #include <stdexcept>
 
-#include "io/files/byte_order_mark.hpp"
+#include "io/files/text.hpp"
 
 namespace cca {
 namespace {
@@ -21,10 +18,7 @@ using mrpt::system::trim;
 /// With '\n' behind every line; editors end them by one of "\n", "\r\n", "\r", and may begin the
 /// file with a byte order mark.
 std::string readText(const std::string& path) {
-  if (std::filesystem::is_directory(path)) throw std::runtime_error(path + ": cannot be read");
-  std::ifstream file(path, std::ios::binary);
-  const std::string bytes{std::istreambuf_iterator<char>(file), {}};
-  if (!file) throw std::runtime_error(path + ": cannot be read");
+  const std::string bytes = contentOf(path);
   std::string text;
   for (std::size_t i = bytes.size() - withoutMark(bytes).size(); i < bytes.size(); ++i) {
     const bool ends_with_the_next = bytes[i] == '\r' && bytes[i + 1] == '\n';

@@ -3,31 +3,19 @@
 
 #include <algorithm>
 #include <cmath>
-#include <memory>
-#include <stdexcept>
 
-#include "io/files/surface_png.hpp"
-#include "io/logs/unhinted_text.hpp"
+#include "io/maps/cairo_pen.hpp"
 #include "io/plans/plan_files.hpp"
-#include "io/plans/plan_formats.hpp"
 #include "plan_sheet.hpp"
 
 namespace cca {
 namespace {
 
-using Surface = std::unique_ptr<cairo_surface_t, void (*)(cairo_surface_t*)>;
-using Pen = std::unique_ptr<cairo_t, void (*)(cairo_t*)>;
-
 constexpr double kPointsPerMm = 72.0 / 25.4;
-
-void choose(cairo_t* pen, const Colour& colour) {
-  cairo_set_source_rgba(pen, colour.red, colour.green, colour.blue, colour.alpha);
-}
+constexpr double kPlanPicture = 1600.0;  // pixels of the longer side
 
 void drawText(cairo_t* pen, const SheetShape& shape) {
-  cairo_select_font_face(pen, "sans-serif", CAIRO_FONT_SLANT_NORMAL,
-                         shape.is_bold ? CAIRO_FONT_WEIGHT_BOLD : CAIRO_FONT_WEIGHT_NORMAL);
-  cairo_set_font_size(pen, shape.text_size);
+  chooseFont(pen, shape.text_size, shape.is_bold);
   cairo_text_extents_t extents;
   cairo_text_extents(pen, shape.text.c_str(), &extents);
   const Eigen::Vector2d& p = shape.rings.front().front();
@@ -59,17 +47,14 @@ void drawPath(cairo_t* pen, const SheetShape& shape) {
 
 /// @param scale  units of the surface in a millimetre.
 void draw(const std::string& path, cairo_surface_t* surface, const PlanSheet& sheet, double scale) {
-  const Pen pen(cairo_create(surface), cairo_destroy);
+  const CairoPen pen = penOn(surface);
   cairo_scale(pen.get(), scale, scale);
-  drawUnhinted(pen.get());
   cairo_set_fill_rule(pen.get(), CAIRO_FILL_RULE_EVEN_ODD);
   for (const SheetShape& shape : sheet.shapes)
     shape.text.empty() ? drawPath(pen.get(), shape) : drawText(pen.get(), shape);
   cairo_show_page(pen.get());
   cairo_surface_flush(surface);
-  const cairo_status_t status = cairo_status(pen.get());
-  if (status == CAIRO_STATUS_SUCCESS) return;
-  throw std::runtime_error(path + ": cannot be drawn: " + cairo_status_to_string(status));
+  requireDrawn(pen.get(), path + ": ");
 }
 
 cairo_status_t appendPdf(void* text, const unsigned char* bytes, unsigned count) {
@@ -77,14 +62,10 @@ cairo_status_t appendPdf(void* text, const unsigned char* bytes, unsigned count)
   return CAIRO_STATUS_SUCCESS;
 }
 
-}  // namespace
-
-std::string planPdf(const FloorPlan& plan, const std::string& title,
-                    const std::optional<GeoReference>& place) {
-  const PlanSheet sheet = layOutPlan(plan, title, place);
+std::string planPdf(const PlanSheet& sheet) {
   std::string pdf;
   {
-    const Surface surface(
+    const CairoSurface surface(
         cairo_pdf_surface_create_for_stream(appendPdf, &pdf, kPointsPerMm * sheet.width,
                                             kPointsPerMm * sheet.height),
         cairo_surface_destroy);
@@ -96,23 +77,24 @@ std::string planPdf(const FloorPlan& plan, const std::string& title,
   return pdf;
 }
 
-std::string planPng(const FloorPlan& plan, const std::string& title,
-                    const std::optional<GeoReference>& place, int longest_side) {
-  const PlanSheet sheet = layOutPlan(plan, title, place);
-  const double scale = longest_side / std::max(sheet.width, sheet.height);
+std::string planPng(const PlanSheet& sheet) {
+  const double scale = kPlanPicture / std::max(sheet.width, sheet.height);
   const int width = std::max(1, static_cast<int>(std::lround(scale * sheet.width)));
   const int height = std::max(1, static_cast<int>(std::lround(scale * sheet.height)));
-  const Surface surface(cairo_image_surface_create(CAIRO_FORMAT_RGB24, width, height),
-                        cairo_surface_destroy);
+  const CairoSurface surface(cairo_image_surface_create(CAIRO_FORMAT_RGB24, width, height),
+                             cairo_surface_destroy);
   draw("rooms.png", surface.get(), sheet, scale);
   return pngOf(surface.get());
 }
 
+}  // namespace
+
 NamedFiles planFiles(const FloorPlan& plan, const std::string& title,
                      const std::optional<GeoReference>& place) {
   NamedFiles files = planTexts(plan, title, place);
-  files.emplace_back("plan.pdf", planPdf(plan, title, place));
-  files.emplace_back("rooms.png", planPng(plan, title, place));
+  const PlanSheet sheet = layOutPlan(plan, title, place);
+  files.emplace_back("plan.pdf", planPdf(sheet));
+  files.emplace_back("rooms.png", planPng(sheet));
   return files;
 }
 

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <cstdio>
-
+#include "io/files/text.hpp"
 #include "io/lines/dxf.hpp"
 #include "io/plans/plan_formats.hpp"
 #include "plan_sheet.hpp"
@@ -25,12 +24,9 @@ Dxf planDrawing() {
 void addWall(Dxf& dxf, const PlanWall& wall) {
   if (wall.thickness <= 0.0) {
     dxf.line(wall.start, wall.end, wall.is_presumed ? "A-WALL-PRSM" : "A-WALL");
-    return;
+  } else {
+    dxf.polyLine(outlineOf(wall), "A-WALL", true);
   }
-  const Eigen::Vector2d along = (wall.end - wall.start).normalized();
-  const Eigen::Vector2d half = 0.5 * wall.thickness * Eigen::Vector2d(-along.y(), along.x());
-  dxf.polyLine({wall.start + half, wall.end + half, wall.end - half, wall.start - half}, "A-WALL",
-               true);
 }
 
 /// AutoCAD 2000 is ASCII: other characters as AutoCAD writes them.
@@ -45,9 +41,7 @@ std::string inDxf(const std::string& utf8) {
       unsigned code = lead & (0xFFU >> (bytes + 1));
       for (std::size_t i = 1; i < bytes; ++i)
         code = code << 6 | (static_cast<unsigned char>(utf8[k + i]) & 0x3FU);
-      char escape[16];
-      std::snprintf(escape, sizeof escape, "\\U+%04X", code);
-      text += escape;
+      text += formatted("\\U+%04X", code);
     }
     k += bytes;
   }
@@ -57,11 +51,9 @@ std::string inDxf(const std::string& utf8) {
 void addRoom(Dxf& dxf, const PlanRoom& room) {
   dxf.polyLine(room.outline, "A-AREA", true);
   for (const Polygon& hole : room.holes) dxf.polyLine(hole, "A-AREA", true);
-  char area[32];
-  std::snprintf(area, sizeof area, "%.2f m2", room.area);
   const Eigen::Vector2d down(0.0, -1.4 * kTextHeight);
   dxf.text(room.label, kTextHeight, inDxf(nameOf(room)), "A-AREA-IDEN");
-  dxf.text(room.label + down, kTextHeight, area, "A-AREA-IDEN");
+  dxf.text(room.label + down, kTextHeight, formatted("%.2f m2", room.area), "A-AREA-IDEN");
 }
 
 }  // namespace

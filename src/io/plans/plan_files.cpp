@@ -7,7 +7,7 @@
 #include <stdexcept>
 
 #include "io/files/atomic_file.hpp"
-#include "io/files/content.hpp"
+#include "io/files/text.hpp"
 #include "io/lines/line_formats.hpp"
 #include "io/plans/plan_formats.hpp"
 

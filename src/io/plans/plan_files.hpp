@@ -43,7 +43,8 @@ using NamedFiles = std::vector<std::pair<std::string, std::string>>;
 NamedFiles planTexts(const FloorPlan& plan, const std::string& title,
                      const std::optional<GeoReference>& place = {});
 
-/// These, plan.pdf and rooms.png. @throws std::runtime_error with Cairo's reason.
+/// These, and the same sheet as plan.pdf and rooms.png (1600 pixels). @throws std::runtime_error
+/// with Cairo's reason.
 NamedFiles planFiles(const FloorPlan& plan, const std::string& title,
                      const std::optional<GeoReference>& place = {});
 

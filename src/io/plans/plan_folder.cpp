@@ -2,7 +2,7 @@
 #include <filesystem>
 #include <stdexcept>
 
-#include "io/files/content.hpp"
+#include "io/files/text.hpp"
 #include "io/lines/line_formats.hpp"
 #include "io/maps/occupancy_files.hpp"
 #include "io/plans/plan_files.hpp"

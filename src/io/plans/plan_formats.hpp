@@ -47,14 +47,6 @@ inline constexpr const char* kPlanSvgPlace = "data-to-metres";
 std::string planSvg(const FloorPlan& plan, const std::string& title,
                     const std::optional<GeoReference>& place = {});
 
-/// The same sheet as PDF. @throws std::runtime_error with Cairo's reason.
-std::string planPdf(const FloorPlan& plan, const std::string& title,
-                    const std::optional<GeoReference>& place = {});
-
-/// The same sheet as PNG of `longest_side` pixels. @throws std::runtime_error with the reason.
-std::string planPng(const FloorPlan& plan, const std::string& title,
-                    const std::optional<GeoReference>& place = {}, int longest_side = 1600);
-
 /// Names for rooms: a point in the room [m, map frame], and its name.
 using RoomLabels = std::vector<std::pair<Eigen::Vector2d, std::string>>;
 

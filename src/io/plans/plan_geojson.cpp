@@ -76,17 +76,14 @@ Json furnitureFeature(const PlanFurniture& piece, const GeoPositions& position) 
 
 std::string planGeoJson(const FloorPlan& plan, const std::optional<GeoReference>& place) {
   const GeoPositions position(place);
-  std::string text = position.head();
-  const char* separator = "\n";
-  const auto put = [&](const Json& found) {
-    text += separator + found.dump(-1, ' ', false, Json::error_handler_t::replace);
-    separator = ",\n";
-  };
-  for (const PlanRoom& room : plan.rooms) put(roomFeature(room, position));
-  for (const PlanOpening& opening : plan.openings) put(openingFeature(opening, position));
-  for (const PlanWall& wall : plan.walls) put(wallFeature(wall, position));
-  for (const PlanFurniture& piece : plan.furniture) put(furnitureFeature(piece, position));
-  return text + "\n]}\n";
+  std::vector<Json> all;
+  for (const PlanRoom& room : plan.rooms) all.push_back(roomFeature(room, position));
+  for (const PlanOpening& opening : plan.openings) all.push_back(openingFeature(opening, position));
+  for (const PlanWall& wall : plan.walls) all.push_back(wallFeature(wall, position));
+  for (const PlanFurniture& piece : plan.furniture) {
+    all.push_back(furnitureFeature(piece, position));
+  }
+  return position.collection(all);
 }
 
 }  // namespace cca

@@ -4,13 +4,11 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <filesystem>
-#include <fstream>
-#include <sstream>
 #include <stdexcept>
 
 #include "io/files/memory_file.hpp"
+#include "io/files/text.hpp"
 #include "io/lines/line_formats.hpp"
 #include "plan_reader_formats.hpp"
 
@@ -20,16 +18,6 @@ namespace {
 // m: whoever localises in it keeps a grid over all of it, 1.4 GB for so much. Drawings with
 // coordinates of a country often have something left at (0, 0).
 constexpr double kWidestPlan = 1000.0;
-
-std::string planText(const std::filesystem::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  if (!file || std::filesystem::is_directory(path)) {
-    throw std::runtime_error(path.string() + ": cannot be read");
-  }
-  std::ostringstream text;
-  text << file.rdbuf();
-  return text.str();
-}
 
 std::string endingOf(const std::filesystem::path& path) {
   std::string ending = path.extension().string();
@@ -78,16 +66,16 @@ PlanFile read(const std::filesystem::path& path, double scale,
     throw std::runtime_error(name + ": tells its own metres; a scale is for drawings and .csv");
   }
   if (ending == ".csv") {
-    const std::vector<MapLine> lines = readLinesCsv(planText(path), name);
+    const std::vector<MapLine> lines = readLinesCsv(contentOf(name), name);
     const double unit = scale > 0.0 ? scale : 1.0;
     return {"CSV", planLinesOf(lines, unit), "", sigmasOf(lines, unit)};
   }
   if (ending == ".slam") return readMemoryPlan(name);
   if (ending == ".geojson" || ending == ".json") {
-    return readGeoJsonPlan(planText(path), name, scale);
+    return readGeoJsonPlan(contentOf(name), name, scale);
   }
-  if (ending == ".dxf") return readDxfPlan(planText(path), name, scale);
-  if (ending == ".svg") return readSvgPlan(planText(path), name, scale);
+  if (ending == ".dxf") return readDxfPlan(contentOf(name), name, scale);
+  if (ending == ".svg") return readSvgPlan(contentOf(name), name, scale);
   if (is_grid) return read_grid(name);
   throw std::runtime_error(name +
                            ": is no plan by its name; allowed are a map's folder, .csv, .slam, "
@@ -105,12 +93,11 @@ void checkExtent(const std::vector<PlanLine>& lines, const std::string& path) {
   }
   const Eigen::AlignedBox2d bounds = boundsOf(lines);
   if (bounds.sizes().maxCoeff() <= kWidestPlan) return;
-  std::ostringstream text;
-  text << path << ": its " << lines.size() << " lines lie between (" << bounds.min().x() << ", "
-       << bounds.min().y() << ") and (" << bounds.max().x() << ", " << bounds.max().y()
-       << ") m, more than " << kWidestPlan
-       << " m apart: it is in other units, or a line of it is astray";
-  throw std::runtime_error(text.str());
+  throw std::runtime_error(
+      path + formatted(": its %zu lines lie between (%g, %g) and (%g, %g) m, more than %g m apart: "
+                       "it is in other units, or a line of it is astray",
+                       lines.size(), bounds.min().x(), bounds.min().y(), bounds.max().x(),
+                       bounds.max().y(), kWidestPlan));
 }
 
 }  // namespace
@@ -163,10 +150,7 @@ Eigen::AlignedBox2d boundsOf(const std::vector<PlanLine>& lines) {
 
 std::string sizeInWords(const std::vector<PlanLine>& lines) {
   const Eigen::Vector2d size = boundsOf(lines).sizes();
-  char text[96];
-  std::snprintf(text, sizeof text, "%zu lines within %.1f x %.1f m", lines.size(), size.x(),
-                size.y());
-  return text;
+  return formatted("%zu lines within %.1f x %.1f m", lines.size(), size.x(), size.y());
 }
 
 std::vector<MapLine> mapLinesOf(const std::vector<PlanLine>& plan) {

@@ -5,6 +5,7 @@
 #include <stdexcept>
 #include <string_view>
 
+#include "io/files/text.hpp"
 #include "plan_reader_formats.hpp"
 
 namespace cca {
@@ -21,12 +22,6 @@ struct DxfGroup {
   int code;
   std::string_view value;
 };
-
-std::string_view trimmed(std::string_view text) {
-  const auto begin = text.find_first_not_of(" \t\r");
-  if (begin == std::string_view::npos) return {};
-  return text.substr(begin, text.find_last_not_of(" \t\r") - begin + 1);
-}
 
 /// The groups of a file, one after the other: a line with a code, and one with a value.
 class GroupReader {
@@ -73,7 +68,7 @@ class GroupReader {
   bool line(std::string_view& found) {
     if (at_ >= text_.size()) return false;
     const std::size_t end = std::min(text_.find('\n', at_), text_.size());
-    found = trimmed(text_.substr(at_, end - at_));
+    found = withoutBlanks(text_.substr(at_, end - at_));
     at_ = end + 1;
     ++row_;
     return true;

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <cmath>
-#include <stdexcept>
 
 #include "cca_mrpt/geometry/line_segment.hpp"
 #include "floor_plan/region_outline.hpp"

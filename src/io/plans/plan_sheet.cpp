@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 
 #include "geometry/cross.hpp"
+#include "io/files/text.hpp"
 #include "io/plans/plan_formats.hpp"
 
 namespace cca {
@@ -33,12 +33,6 @@ constexpr std::array<Colour, 8> kRoomFills{{{0.87, 0.92, 0.97},
                                             {0.84, 0.94, 0.94},
                                             {0.98, 0.90, 0.80},
                                             {0.93, 0.94, 0.80}}};
-
-std::string formatted(const char* format, double value) {
-  char text[64];
-  std::snprintf(text, sizeof text, format, value);
-  return text;
-}
 
 Eigen::AlignedBox2d boundsOfPlan(const FloorPlan& plan) {
   Eigen::AlignedBox2d box;
@@ -124,7 +118,7 @@ class Layout {
     drawDimensions(box);
     drawHeader(title);
     drawLegend();
-    if (place) drawNorth(place->turn_deg * M_PI / 180.0);
+    if (place) drawNorth(place->turn_deg * kRadiansPerDegree);
   }
 
   const PlanSheet& sheet() const { return sheet_; }
@@ -145,10 +139,9 @@ class Layout {
     sheet_.shapes.push_back(std::move(shape));
     return sheet_.shapes.back();
   }
-  SheetShape& line(const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Colour& colour,
-                   double width) {
+  SheetShape& line(const Polygon& points, const Colour& colour, double width) {
     SheetShape shape;
-    shape.rings = {{a, b}};
+    shape.rings = {points};
     shape.is_closed = false;
     shape.stroke = colour;
     shape.stroke_width = width;
@@ -192,23 +185,19 @@ class Layout {
     }
   }
 
-  /// A wall of two faces is filled, half its thickness longer at both ends so that corners close.
+  /// A wall of two faces is filled.
   void drawWalls() {
     for (const PlanWall& wall : plan_.walls) {
       if (wall.is_presumed) {
-        line(paper(wall.start), paper(wall.end), kPlanInk, kOpeningStroke).is_dashed = true;
+        line({paper(wall.start), paper(wall.end)}, kPlanInk, kOpeningStroke).is_dashed = true;
         continue;
       }
       if (wall.thickness <= 0.0) {
-        line(paper(wall.start), paper(wall.end), kPlanInk, kFaceStroke);
+        line({paper(wall.start), paper(wall.end)}, kPlanInk, kFaceStroke);
         continue;
       }
-      const Eigen::Vector2d along = (wall.end - wall.start).normalized();
-      const Eigen::Vector2d left(-along.y(), along.x());
-      const Eigen::Vector2d half = 0.5 * wall.thickness * left;
       SheetShape shape;
-      shape.rings = {
-          paper(Polygon{wall.start + half, wall.end + half, wall.end - half, wall.start - half})};
+      shape.rings = {paper(outlineOf(wall))};
       shape.fill = kPlanInk;
       shape.title = formatted("wall, %.3f m thick", wall.thickness);
       add(std::move(shape));
@@ -219,7 +208,7 @@ class Layout {
     for (const PlanOpening& opening : plan_.openings) {
       const bool is_door = opening.kind == OpeningKind::kDoor;
       const Colour& colour = is_door ? kDoorInk : kOpeningInk;
-      SheetShape& drawn = line(paper(opening.a), paper(opening.b), colour, kOpeningStroke);
+      SheetShape& drawn = line({paper(opening.a), paper(opening.b)}, colour, kOpeningStroke);
       drawn.is_dashed = !is_door;
       drawn.title =
           std::string(is_door ? "door" : "opening") + formatted(", %.2f m", opening.width());
@@ -255,8 +244,8 @@ class Layout {
   void dimension(const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Eigen::Vector2d& off,
                  const std::string& length) {
     const Eigen::Vector2d way = (b - a).normalized(), tick(-1.2 * way.y(), 1.2 * way.x());
-    line(a, b, kPlanSoftInk, kThin);
-    for (const Eigen::Vector2d& end : {a, b}) line(end - tick, end + tick, kPlanSoftInk, kThin);
+    line({a, b}, kPlanSoftInk, kThin);
+    for (const Eigen::Vector2d& end : {a, b}) line({end - tick, end + tick}, kPlanSoftInk, kThin);
     text(0.5 * (a + b) + off, kCaption, kPlanSoftInk, length);
   }
 
@@ -267,9 +256,8 @@ class Layout {
     for (const PlanOpening& opening : plan_.openings) doors += opening.kind == OpeningKind::kDoor;
     SheetShape& name = text({kSheetMargin, kSheetMargin + 2.0}, 4.6, kPlanInk, title);
     name.is_bold = name.is_left_aligned = true;
-    char numbers[160];
-    std::snprintf(numbers, sizeof numbers,
-                  "%zu rooms, %.1f m² of floor, %d doors, %zu other openings; 1 : %d; metres",
+    const std::string numbers =
+        formatted("%zu rooms, %.1f m² of floor, %d doors, %zu other openings; 1 : %d; metres",
                   plan_.rooms.size(), area, doors,
                   plan_.openings.size() - static_cast<std::size_t>(doors), sheet_.scale);
     text({kSheetMargin, kSheetMargin + 6.5}, kCaption, kPlanSoftInk, numbers).is_left_aligned =
@@ -309,9 +297,7 @@ class Layout {
     entry(stroke(kOpeningInk, true, kOpeningStroke), "opening", 26);
     entry(box(kFurnitureFill, 1.0), "furniture", 28);
     const double metres = sheet_.scale <= 100 ? 1.0 : sheet_.scale <= 500 ? 5.0 : 50.0;
-    entry(stroke(kPlanInk, false, kFaceStroke), "", 0.0);
-    sheet_.shapes.pop_back();
-    sheet_.shapes.back().rings = {{{x, y}, {x + metres * mm_per_metre_, y}}};
+    line({{x, y}, {x + metres * mm_per_metre_, y}}, kPlanInk, kFaceStroke);
     text({x + metres * mm_per_metre_ + 2.0, y + 0.9}, kCaption, kPlanSoftInk,
          formatted("%g m", metres))
         .is_left_aligned = true;
@@ -323,15 +309,8 @@ class Layout {
     // y points down the page: a turn of the map to the left is one of north to the right.
     const Eigen::Vector2d north(std::sin(turn), -std::cos(turn)), east(-north.y(), north.x());
     const Eigen::Vector2d tip = centre + 3.5 * north, wings = centre + 1.2 * north;
-    for (const Polygon& part :
-         {Polygon{centre - 3.5 * north, tip}, Polygon{wings - east, tip, wings + east}}) {
-      SheetShape arrow;
-      arrow.rings = {part};
-      arrow.is_closed = false;
-      arrow.stroke = kPlanInk;
-      arrow.stroke_width = kFaceStroke;
-      add(std::move(arrow));
-    }
+    line({centre - 3.5 * north, tip}, kPlanInk, kFaceStroke);
+    line({wings - east, tip, wings + east}, kPlanInk, kFaceStroke);
     text(centre - 3.2 * east + Eigen::Vector2d(0.0, 1.0), kCaption, kPlanInk, "N");
   }
 
@@ -343,6 +322,12 @@ class Layout {
 };
 
 }  // namespace
+
+Polygon outlineOf(const PlanWall& wall) {
+  const Eigen::Vector2d along = (wall.end - wall.start).normalized();
+  const Eigen::Vector2d half = 0.5 * wall.thickness * Eigen::Vector2d(-along.y(), along.x());
+  return {wall.start + half, wall.end + half, wall.end - half, wall.start - half};
+}
 
 std::string nameOf(const PlanRoom& room) {
   return room.name.empty() ? "Room " + std::to_string(room.id) : room.name;

@@ -41,6 +41,9 @@ struct PlanSheet {
 PlanSheet layOutPlan(const FloorPlan& plan, const std::string& title,
                      const std::optional<GeoReference>& place = {});
 
+/// The faces and ends of a wall of two faces [m, map frame].
+Polygon outlineOf(const PlanWall& wall);
+
 /// "Kitchen", or "Room 5" where nobody named it.
 std::string nameOf(const PlanRoom& room);
 

@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <cmath>
-#include <cstdio>
-
+#include "io/files/text.hpp"
 #include "io/plans/plan_formats.hpp"
 #include "plan_sheet.hpp"
 
@@ -9,19 +7,10 @@ namespace cca {
 namespace {
 
 std::string inSvg(const Colour& colour) {
-  if (colour.alpha <= 0.0) return "none";
-  char text[16];
-  const auto byte = [](double v) { return static_cast<unsigned>(std::lround(255.0 * v)) & 255U; };
-  std::snprintf(text, sizeof text, "#%02x%02x%02x", byte(colour.red), byte(colour.green),
-                byte(colour.blue));
-  return text;
+  return colour.alpha > 0.0 ? formatted("#%06x", rgb(colour)) : "none";
 }
 
-std::string decimal(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.3f", value);
-  return text;
-}
+std::string decimal(double value) { return formatted("%.3f", value); }
 
 std::string escaped(const std::string& text) {
   std::string safe;
@@ -74,9 +63,8 @@ std::string planSvg(const FloorPlan& plan, const std::string& title,
   const PlanSheet sheet = layOutPlan(plan, title, place);
   const std::string width = decimal(sheet.width), height = decimal(sheet.height);
   const double metres = 0.001 * sheet.scale;
-  char place_on_map[128];  // a coordinate of 1e8 m to the micrometre takes 16 characters
-  std::snprintf(place_on_map, sizeof place_on_map, "translate(%.6f %.6f) scale(%.3f)",
-                sheet.p_map_corner.x(), -sheet.p_map_corner.y(), metres);
+  const std::string place_on_map = formatted(
+      "translate(%.6f %.6f) scale(%.3f)", sheet.p_map_corner.x(), -sheet.p_map_corner.y(), metres);
   std::string svg = "<svg xmlns=\"http://www.w3.org/2000/svg\" id=\"" + std::string(kPlanSvgId) +
                     "\" " + kPlanSvgPlace + "=\"" + place_on_map + "\" width=\"" + width +
                     "mm\" height=\"" + height + "mm\" viewBox=\"0 0 " + width + " " + height +

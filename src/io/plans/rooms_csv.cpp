@@ -1,15 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <cstdlib>
-#include <filesystem>
-#include <fstream>
 #include <nlohmann/json.hpp>
 #include <sstream>
 #include <stdexcept>
 
-#include "io/files/byte_order_mark.hpp"
+#include "io/files/text.hpp"
 #include "io/plans/plan_formats.hpp"
 
 namespace cca {
@@ -42,10 +39,7 @@ std::vector<std::string> fieldsOf(const std::string& row, char separator) {
       fields.back() += c;
     }
   }
-  for (std::string& field : fields) {
-    const std::size_t first = field.find_first_not_of(" \t"), last = field.find_last_not_of(" \t");
-    field = first == std::string::npos ? "" : field.substr(first, last - first + 1);
-  }
+  for (std::string& field : fields) field = std::string(withoutBlanks(field));
   return fields;
 }
 
@@ -76,11 +70,9 @@ std::string roomsCsv(const FloorPlan& plan) {
       if (opening.rooms[0] != room.id && opening.rooms[1] != room.id) continue;
       ++(opening.kind == OpeningKind::kDoor ? doors : others);
     }
-    char numbers[256];
-    std::snprintf(numbers, sizeof numbers, ",%.3f,%.3f,%.3f,%.3f,%.3f,%.3f,%d,%d\n", room.label.x(),
-                  room.label.y(), room.area, room.perimeter, room.unseen_area, room.open_border,
-                  doors, others);
-    text += std::to_string(room.id) + "," + (room.name.empty() ? "" : quoted(room.name)) + numbers;
+    text += std::to_string(room.id) + "," + (room.name.empty() ? "" : quoted(room.name)) +
+            formatted(",%.3f,%.3f,%.3f,%.3f,%.3f,%.3f,%d,%d\n", room.label.x(), room.label.y(),
+                      room.area, room.perimeter, room.unseen_area, room.open_border, doors, others);
   }
   return text;
 }
@@ -103,7 +95,7 @@ RoomLabels readRoomLabels(const std::string& text, const std::string& file) {
   }
   RoomLabels labels;
   for (int number = 2; std::getline(rows, row); ++number) {
-    if (row.find_first_not_of(" \t\r") == std::string::npos) continue;
+    if (withoutBlanks(row).empty()) continue;
     std::vector<std::string> fields = fieldsOf(row, separator);
     const std::string where = file + ", row " + std::to_string(number);
     for (int k = 0; k < 3; ++k) {
@@ -125,12 +117,7 @@ RoomLabels readRoomLabels(const std::string& text, const std::string& file) {
 }
 
 RoomLabels roomLabelsOfFile(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  if (!file || std::filesystem::is_directory(path))
-    throw std::runtime_error(path + ": cannot be read");
-  std::ostringstream text;
-  text << file.rdbuf();
-  return readRoomLabels(text.str(), path);
+  return readRoomLabels(contentOf(path), path);
 }
 
 RoomLabels nameRooms(FloorPlan& plan, const RoomLabels& labels) {

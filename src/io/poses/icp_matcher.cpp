@@ -4,7 +4,6 @@
 #include <mrpt/maps/CSimplePointsMap.h>
 #include <mrpt/slam/CMetricMapBuilderICP.h>
 
-#include <cmath>
 #include <optional>
 
 #include "mrpt_steps.hpp"

@@ -3,21 +3,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
+
+#include "io/files/text.hpp"
 
 namespace cca {
 namespace {
 
 bool tellsTimes(const std::vector<StampedPose>& poses) {
   return std::any_of(poses.begin(), poses.end(), [](const auto& pose) { return pose.time != 0.0; });
-}
-
-template <typename... Values>
-void append(std::string& text, const char* format, Values... values) {
-  char line[512];
-  const int length = std::snprintf(line, sizeof line, format, values...);
-  text.append(line,
-              static_cast<std::size_t>(std::clamp(length, 0, static_cast<int>(sizeof line) - 1)));
 }
 
 }  // namespace
@@ -27,8 +20,8 @@ std::string posesCsv(const std::vector<StampedPose>& poses) {
   std::string text = "stamp,x,y,theta\n";
   for (std::size_t k = 0; k < poses.size(); ++k) {
     const Pose2& pose = poses[k].T_map_robot;
-    append(text, "%.6f,%.6f,%.6f,%.8f\n", timed ? poses[k].time : static_cast<double>(k), pose.x,
-           pose.y, pose.theta);
+    text += formatted("%.6f,%.6f,%.6f,%.8f\n", timed ? poses[k].time : static_cast<double>(k),
+                      pose.x, pose.y, pose.theta);
   }
   return text;
 }
@@ -38,8 +31,9 @@ std::string posesTum(const std::vector<StampedPose>& poses) {
   std::string text;
   for (std::size_t k = 0; k < poses.size(); ++k) {
     const Pose2& pose = poses[k].T_map_robot;
-    append(text, "%.6f %.6f %.6f 0 0 0 %.8f %.8f\n", timed ? poses[k].time : static_cast<double>(k),
-           pose.x, pose.y, std::sin(0.5 * pose.theta), std::cos(0.5 * pose.theta));
+    text += formatted("%.6f %.6f %.6f 0 0 0 %.8f %.8f\n",
+                      timed ? poses[k].time : static_cast<double>(k), pose.x, pose.y,
+                      std::sin(0.5 * pose.theta), std::cos(0.5 * pose.theta));
   }
   return text;
 }
@@ -48,14 +42,14 @@ std::string graphG2o(const PoseGraph& graph) {
   std::string text;
   for (int k = 0; k < graph.size(); ++k) {
     const Pose2& pose = graph.pose(k);
-    append(text, "VERTEX_SE2 %d %.9g %.9g %.9g\n", k, pose.x, pose.y, pose.theta);
+    text += formatted("VERTEX_SE2 %d %.9g %.9g %.9g\n", k, pose.x, pose.y, pose.theta);
   }
   if (graph.size() > 0) text += "FIX 0\n";
   for (const GraphEdge& edge : graph.edges()) {
     const Eigen::Matrix3d& i = edge.information;
-    append(text, "EDGE_SE2 %d %d %.9g %.9g %.9g %.6g %.6g %.6g %.6g %.6g %.6g\n", edge.from,
-           edge.to, edge.T_from_to.x, edge.T_from_to.y, edge.T_from_to.theta, i(0, 0), i(0, 1),
-           i(0, 2), i(1, 1), i(1, 2), i(2, 2));
+    text += formatted("EDGE_SE2 %d %d %.9g %.9g %.9g %.6g %.6g %.6g %.6g %.6g %.6g\n", edge.from,
+                      edge.to, edge.T_from_to.x, edge.T_from_to.y, edge.T_from_to.theta, i(0, 0),
+                      i(0, 1), i(0, 2), i(1, 1), i(1, 2), i(2, 2));
   }
   return text;
 }

@@ -2,10 +2,11 @@
 #include "truth_file.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
+
+#include "io/files/text.hpp"
 
 namespace cca {
 namespace {
@@ -53,9 +54,9 @@ class LogWithTruth : public LogReader {
   }
 
   std::string warnings() const override {
-    const std::string text = log_->warnings();
-    if (readable_) return text;
-    return text + (text.empty() ? "" : "; ") + path_ + " holds no true poses in order of time";
+    std::string text = log_->warnings();
+    if (!readable_) appendWarning(path_ + " holds no true poses in order of time", text);
+    return text;
   }
 
   double progress() const override { return log_->progress(); }

@@ -23,28 +23,18 @@ constexpr char kRoomsFollow = '.';  // in a run, after what packed() gives; no s
 
 constexpr std::int64_t kMomentWithoutTime = 100;  // ms, from one to the next
 
-/// One number of each item, as differences to the item before.
+/// One number of each item from one on, as differences to the item before.
 template <class Items, class Value>
-Json column(const Items& items, Value&& value) {
+Json column(const Items& items, Value&& value, std::size_t from = 0) {
   Json numbers = Json::array();
   std::int64_t last = 0;
-  for (const auto& item : items) {
-    const std::int64_t now = value(item);
+  for (std::size_t k = from; k < items.size(); ++k) {
+    const std::int64_t now = value(items[k]);
     numbers.push_back(now - last);
     last = now;
   }
   return numbers;
 }
-
-/// The items from one on.
-template <class Item>
-struct Tail {
-  Tail(const std::vector<Item>& items, std::size_t from)
-      : first(items.data() + from), past(items.data() + items.size()) {}
-  const Item* begin() const { return first; }
-  const Item* end() const { return past; }
-  const Item *first, *past;
-};
 
 /// RFC 4648, section 4.
 std::string base64Of(const std::vector<std::uint8_t>& bytes) {
@@ -89,17 +79,18 @@ std::int64_t frameOf(const Item& item) {
 }
 
 template <class Change>
-Json jsonOfLines(const Tail<Change>& changes) {
+Json jsonOfLines(const std::vector<Change>& changes, std::size_t from) {
   Json lines;
-  lines["frame"] = column(changes, frameOf<Change>);
-  lines["id"] = column(changes, [](const Change& c) { return static_cast<std::int64_t>(c.id); });
+  const auto put = [&](const char* name, auto value) {
+    lines[name] = column(changes, value, from);
+  };
+  put("frame", frameOf<Change>);
+  put("id", [](const Change& c) { return static_cast<std::int64_t>(c.id); });
   const char* const ends[] = {"x1", "y1", "x2", "y2"};
-  for (std::size_t k = 0; k < 4; ++k) {
-    lines[ends[k]] = column(changes, [k](const Change& c) { return c.line.ends[k]; });
-  }
-  lines["support"] = column(changes, [](const Change& c) { return c.line.support; });
-  lines["sigma_offset"] = column(changes, [](const Change& c) { return c.line.sigma_offset; });
-  lines["sigma_angle"] = column(changes, [](const Change& c) { return c.line.sigma_angle; });
+  for (std::size_t k = 0; k < 4; ++k) put(ends[k], [k](const Change& c) { return c.line.ends[k]; });
+  put("support", [](const Change& c) { return c.line.support; });
+  put("sigma_offset", [](const Change& c) { return c.line.sigma_offset; });
+  put("sigma_angle", [](const Change& c) { return c.line.sigma_angle; });
   return lines;
 }
 
@@ -135,10 +126,6 @@ std::string Replay::since(const Mark& mark) const { return json(mark, {0.0, 0.0}
 
 std::string Replay::json(const Mark& from, const Eigen::Vector2d& origin,
                          const std::string& world) const {
-  const Tail<Frame> new_frames(frames_, from.frames);
-  const Tail<Decision> new_decisions(decisions_, from.decisions);
-  const Tail<Toggle> new_toggles(toggles_, from.toggles);
-  const Tail<LineChange> new_changes(changes_, from.changes);
   Json run;
   run["title"] = title_;
   run["origin"] = {origin.x(), origin.y()};
@@ -148,37 +135,41 @@ std::string Replay::json(const Mark& from, const Eigen::Vector2d& origin,
   for (const Laser& laser : lasers_) run["lasers"].push_back(jsonOf(laser));
   Json& frames = run["frames"];
   const bool has_times = hasTimes();
-  frames["time"] = column(new_frames, [&](const Frame& f) {
+  const auto put = [&](const std::string& name, auto value) {
+    frames[name] = column(frames_, value, from.frames);
+  };
+  put("time", [&](const Frame& f) {
     return has_times ? f.time : kMomentWithoutTime * (&f - frames_.data());
   });
-  frames["distance"] = column(new_frames, [](const Frame& f) { return f.distance; });
+  put("distance", [](const Frame& f) { return f.distance; });
   const char* const names[] = {"x", "y", "theta"};
   for (std::size_t k = 0; k < 3; ++k) {
-    frames[names[k]] = column(new_frames, [k](const Frame& f) { return f.pose[k]; });
-    if (!has_truth_) continue;
-    frames[std::string("true_") + names[k]] =
-        column(new_frames, [k](const Frame& f) { return f.truth[k]; });
+    put(names[k], [k](const Frame& f) { return f.pose[k]; });
+    if (has_truth_)
+      put(std::string("true_") + names[k], [k](const Frame& f) { return f.truth[k]; });
   }
-  frames["laser"] =
-      column(new_frames, [](const Frame& f) { return static_cast<std::int64_t>(f.laser); });
+  put("laser", [](const Frame& f) { return static_cast<std::int64_t>(f.laser); });
   frames["ranges"] = Json::array();
-  for (const Frame& frame : new_frames) {
-    for (Json& range : column(frame.ranges, [](int r) { return r; })) {
+  for (std::size_t k = from.frames; k < frames_.size(); ++k) {
+    for (Json& range : column(frames_[k].ranges, [](int r) { return r; })) {
       frames["ranges"].push_back(std::move(range));
     }
   }
   run["decisions"] = Json::array();
-  for (const Decision& decision : new_decisions) {
+  for (std::size_t k = from.decisions; k < decisions_.size(); ++k) {
+    const Decision& decision = decisions_[k];
     run["decisions"].push_back({{"frame", decision.frame},
                                 {"goal", decision.goal ? Json(*decision.goal) : Json()},
                                 {"reason", decision.reason},
                                 {"way", decision.way}});
   }
   Json& frontier = run["frontier"];
-  frontier["frame"] = column(new_toggles, frameOf<Toggle>);
-  frontier["x"] = column(new_toggles, [](const Toggle& t) { return t.block.first; });
-  frontier["y"] = column(new_toggles, [](const Toggle& t) { return t.block.second; });
-  run["lines"] = jsonOfLines(new_changes);
+  frontier["frame"] = column(toggles_, frameOf<Toggle>, from.toggles);
+  frontier["x"] = column(
+      toggles_, [](const Toggle& t) { return t.block.first; }, from.toggles);
+  frontier["y"] = column(
+      toggles_, [](const Toggle& t) { return t.block.second; }, from.toggles);
+  run["lines"] = jsonOfLines(changes_, from.changes);
   run["coverage"]["distance"] = column(coverage_distance_, [](std::int64_t d) { return d; });
   run["coverage"]["share"] = column(coverage_share_, [](std::int64_t s) { return s; });
   return run.dump(-1, ' ', false, Json::error_handler_t::replace);

@@ -6,11 +6,8 @@
 #include "io/replay/replay.hpp"
 
 namespace cca {
-namespace {
 
 using Json = nlohmann::ordered_json;
-
-}  // namespace
 
 /// Lengths of runs: free, not free, free, ..., row by row from the lowest y.
 std::string replayWorld(const World& world) {

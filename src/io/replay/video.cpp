@@ -7,12 +7,12 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <cstdio>
 #include <filesystem>
 #include <stdexcept>
 #include <vector>
 
 #include "io/files/atomic_file.hpp"
+#include "io/files/text.hpp"
 
 namespace cca {
 namespace {
@@ -57,11 +57,7 @@ Video::~Video() {
   fs::remove_all(folder_, ignored);
 }
 
-std::string Video::nextFrame() {
-  char name[32];
-  std::snprintf(name, sizeof name, "/%06zu.png", frames_++);
-  return folder_ + name;
-}
+std::string Video::nextFrame() { return folder_ + formatted("/%06zu.png", frames_++); }
 
 void Video::encode() {
   if (frames_ == 0) throw std::runtime_error(path_ + ": no picture to make a video from");

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "surface_png.hpp"
+#include "io/maps/cairo_pen.hpp"
 
 #include <png.h>
 
@@ -32,6 +32,32 @@ std::vector<std::uint8_t> rgbOf(cairo_surface_t* surface) {
 }
 
 }  // namespace
+
+CairoPen penOn(cairo_surface_t* surface) {
+  CairoPen pen(cairo_create(surface), cairo_destroy);
+  const std::unique_ptr<cairo_font_options_t, void (*)(cairo_font_options_t*)> options(
+      cairo_font_options_create(), cairo_font_options_destroy);
+  cairo_font_options_set_hint_style(options.get(), CAIRO_HINT_STYLE_NONE);
+  cairo_font_options_set_hint_metrics(options.get(), CAIRO_HINT_METRICS_OFF);
+  cairo_set_font_options(pen.get(), options.get());
+  return pen;
+}
+
+void choose(cairo_t* pen, const Colour& colour) {
+  cairo_set_source_rgba(pen, colour.red, colour.green, colour.blue, colour.alpha);
+}
+
+void chooseFont(cairo_t* pen, double size, bool is_bold) {
+  cairo_select_font_face(pen, "sans-serif", CAIRO_FONT_SLANT_NORMAL,
+                         is_bold ? CAIRO_FONT_WEIGHT_BOLD : CAIRO_FONT_WEIGHT_NORMAL);
+  cairo_set_font_size(pen, size);
+}
+
+void requireDrawn(cairo_t* pen, const std::string& of) {
+  const cairo_status_t status = cairo_status(pen);
+  if (status == CAIRO_STATUS_SUCCESS) return;
+  throw std::runtime_error(of + "cannot be drawn: " + cairo_status_to_string(status));
+}
 
 std::string pngOf(cairo_surface_t* surface) {
   const std::vector<std::uint8_t> rgb = rgbOf(surface);
