@@ -171,6 +171,34 @@ TEST(FreeSpace, WhereTheRobotHasBeenStaysOpenUntilTheCellItselfIsOccupied) {
   EXPECT_FALSE(space.isTraversable({1, 0}));
 }
 
+// Somebody stands beside the robot's former way: its hull is no longer free there.
+TEST(FreeSpace, WhereTheRobotHasBeenShutsWhileSomebodyStandsWhereItsHullWas) {
+  SetCells cells;
+  const FreeSpace& space = cells.space;
+  cells.set({0, 0}, CellState::kFree);
+  cells.space.pass({0, 0});
+  for (int y = 0; y < 3; ++y) {
+    cells.set({2, y}, CellState::kOccupied);
+    EXPECT_TRUE(space.isTraversable({0, 0})) << "may be noise";
+  }
+  cells.set({2, -1}, CellState::kOccupied);
+  EXPECT_FALSE(space.isTraversable({0, 0}));
+  EXPECT_EQ(space.passedCells({0, 0}), 0u);
+  cells.set({2, -1}, CellState::kFree);
+  EXPECT_TRUE(space.isTraversable({0, 0}));
+}
+
+// A wall that is drawn half a cell too near does not shut a passage that the robot came through.
+TEST(FreeSpace, WhereTheRobotHasBeenStaysOpenBetweenWallsWithinTheClearance) {
+  SetCells cells;
+  cells.set({0, 0}, CellState::kFree);
+  cells.space.pass({0, 0});
+  for (int x = -5; x <= 5; ++x) {
+    for (const int y : {-5, 5}) cells.set({x, y}, CellState::kOccupied);  // .225 m, for .25
+  }
+  EXPECT_TRUE(cells.space.isTraversable({0, 0}));
+}
+
 TEST(FreeSpace, HoldsNothingBeforeAnythingIsKnown) {
   const FreeSpace space(0.3, 0.05);
   EXPECT_FALSE(space.isTraversable({0, 0}));

@@ -7,8 +7,9 @@
 namespace cca {
 namespace {
 
-// Beside an open cell. With 1 to 2 more passages of the robot's width shut, 4 and 6 gain nothing;
-// without end ways lead nearer to walls than the robot needs, where what is free is seen first.
+// Beside an open cell, or one that the robot has been in. With 1 to 2 more passages of the robot's
+// width shut, 4 and 6 gain nothing; without end ways lead nearer to walls than the robot needs,
+// where what is free is seen first.
 constexpr int kNoisyCells = 3;
 
 /// Cells, from the centre of the cell at an offset to the nearest point of the one at the origin.
@@ -18,6 +19,10 @@ double distanceTo(Cell offset) {
 }
 
 }  // namespace
+
+bool FreeSpace::Place::isPassed() const {
+  return is_passed && state != CellState::kOccupied && close <= kNoisyCells;
+}
 
 FreeSpace::FreeSpace(double clearance, double resolution) : clearance_(clearance) {
   const double reach = clearance / resolution - 1e-9;

@@ -15,7 +15,8 @@ namespace cca {
 ///
 /// A cell that was open stays so while at most three obstacles come nearer, none by more than a
 /// cell: as much does one noisy cell take of a passage, and noise must not open and shut it scan by
-/// scan. Of a wall it would be more.
+/// scan. Of a wall it would be more. Where the robot has been it may be as many that come nearer by
+/// a cell: more stand where its hull was, and have come since then.
 ///
 /// Unknown cells are not grown: what they hold is for the local planner to see in time.
 class FreeSpace {
@@ -44,8 +45,8 @@ class FreeSpace {
   void update(const ExplorationGrid& grid, const std::vector<Cell>& changed);
 
   /// The robot's centre has been in this cell, so it can be there again, whatever noise says of the
-  /// clearance, as long as the cell itself is not seen occupied: what the robot came through must
-  /// not close behind it.
+  /// clearance: what the robot came through must not close behind it. Not so while the cell itself
+  /// is seen occupied, or something stands where the hull would be, somebody who has come since.
   void pass(Cell c);
 
   bool isTraversable(Cell c) const { return traversableCells(blockOf(c)) & bitOf(c); }
@@ -66,7 +67,7 @@ class FreeSpace {
     CellState state = CellState::kUnknown;
     bool is_open = false, is_passed = false;
 
-    bool isPassed() const { return is_passed && state != CellState::kOccupied; }
+    bool isPassed() const;
   };
   struct Grown {
     Cell offset;
