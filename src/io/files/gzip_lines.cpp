@@ -13,7 +13,7 @@ namespace cca {
 namespace {
 
 constexpr std::size_t kBlock = 1 << 18;
-constexpr std::size_t kLongestLine = 1 << 24;
+constexpr std::size_t kLongestLine = 1 << 24;  // bytes: longer ones are no text of ours
 constexpr int kGzipWindow = 15 + 16;  // [zlib]: the largest window, and gzip's header about it
 constexpr int kMemoryLevel = 8;       // zlib's default
 
