@@ -28,6 +28,7 @@ try() {
     echo "FAILED: $name"
     tail -n 3 "$work"/{info,map,evaluate,render} 2>/dev/null
     failed=1
+    return 1
   fi
 }
 
@@ -59,8 +60,7 @@ try "$mrpt/localization_demo.simplemap.gz" 50
 try "$mrpt/malaga-cs-fac-building.simplemap.gz" 50
 for log in intel freiburg-079 orebro fhw seattle; do
   corrected=$data/logs/$log-corrected.log.gz
-  try "$corrected" 50
-  [ ! -e "$corrected" ] || is_on_the_walls "$log" || failed=1
+  ! try "$corrected" 50 || [ ! -e "$corrected" ] || is_on_the_walls "$log" || failed=1
 done
 
 # Raw wheels and the laser alone: the map must come home to where the log's own corrected poses have it.
