@@ -16,13 +16,6 @@ struct Joint {
 };
 using Joints = std::map<std::string, Joint>;  // by the frame that hangs
 
-bool same(const geometry_msgs::Transform& a, const geometry_msgs::Transform& b) {
-  return a.translation.x == b.translation.x && a.translation.y == b.translation.y &&
-         a.translation.z == b.translation.z && a.rotation.x == b.rotation.x &&
-         a.rotation.y == b.rotation.y && a.rotation.z == b.rotation.z &&
-         a.rotation.w == b.rotation.w;
-}
-
 Joints jointsOf(const std::vector<Transforms::Message>& messages) {
   Joints joints;
   for (const auto& message : messages) {
@@ -30,7 +23,7 @@ Joints jointsOf(const std::vector<Transforms::Message>& messages) {
       const std::string parent = frameName(transform.header.frame_id);
       Joint& joint = joints[frameName(transform.child_frame_id)];
       if (joint.parent.empty()) joint.first = transform.transform;
-      joint.moves = joint.moves || !same(joint.first, transform.transform);
+      joint.moves = joint.moves || joint.first != transform.transform;
       joint.parent = parent;
     }
   }

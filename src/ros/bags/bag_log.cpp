@@ -12,6 +12,7 @@
 #include "bag_topics.hpp"
 #include "cca_mrpt/io/log_reader.hpp"
 #include "cca_mrpt/sensing/missing_returns.hpp"
+#include "io/files/text.hpp"
 #include "ros/messages/scan_message.hpp"
 
 namespace cca {
@@ -38,14 +39,12 @@ class BagLog : public LogReader {
 
   std::string warnings() const override {
     std::string text = fault_;
-    const auto tell = [&text](const std::string& more) {
-      text += (text.empty() || more.empty() ? "" : "; ") + more;
-    };
-    tell(of_topics_);
+    appendWarning(of_topics_, text);
     for (const auto& [rule, fault] : left_out_) {
-      tell(std::to_string(fault.scans) + " impossible scan(s) left out: " + fault.first);
+      appendWarning(std::to_string(fault.scans) + " impossible scan(s) left out: " + fault.first,
+                    text);
     }
-    tell(places_.warnings());
+    appendWarning(places_.warnings(), text);
     return text;
   }
 

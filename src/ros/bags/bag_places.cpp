@@ -4,6 +4,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include "io/files/text.hpp"
+
 namespace cca {
 
 BagPlaces::BagPlaces(std::vector<Transforms::Message> messages, OdometryTrack track,
@@ -21,7 +23,7 @@ BagPlaces::BagPlaces(std::vector<Transforms::Message> messages, OdometryTrack tr
 }
 
 void BagPlaces::take(const nav_msgs::Odometry& odometry) try {
-  last_odometry_ = poseOf(odometry);
+  last_odometry_ = planarPose(odometry.pose.pose).pose;
 } catch (const std::runtime_error&) {
   last_odometry_.reset();
 }
@@ -63,11 +65,9 @@ bool BagPlaces::place(LogRecord& record, const std::string& frame, const ros::Ti
     ++unplaced_[laser.frames.fixed];
     return false;
   }
-  const ScanPlacement placement = placementOf(transforms_, laser.frames, frame, time);
-  placeScan(record.scan, placement.T_fixed_sensor);
+  const ScanPlacement placement = placeByTf(record.scan, transforms_, laser.frames, frame, time);
   record.T_robot_sensor = placement.T_robot_sensor;
-  record.motion =
-      sweepMotion(transforms_, laser.frames, frame, time, halfSweep(record.scan.sweep_duration));
+  record.motion = placement.motion;
   if (laser.is_fixed_map) {
     record.corrected = placement.T_fixed_robot;
     record.odometry = placement.T_odom_robot ? placement.T_odom_robot : wheelsAt(time);
@@ -99,14 +99,16 @@ std::optional<Pose2> BagPlaces::wheelsAt(const ros::Time& time) const {
 
 std::string BagPlaces::warnings() const {
   std::string text;
-  const auto tell = [&text](const std::string& more) { text += (text.empty() ? "" : "; ") + more; };
   for (const auto& [frame, laser] : lasers_) {
     if (laser.is_mount_told) continue;
-    tell("'" + frame + "' has no place on the robot ('" + laser.frames.base +
-         "') in tf, and is taken for its middle, ahead and upright (--mount tells it)");
+    appendWarning("'" + frame + "' has no place on the robot ('" + laser.frames.base +
+                      "') in tf, and is taken for its middle, ahead and upright (--mount tells it)",
+                  text);
   }
   for (const auto& [frame, scans] : unplaced_) {
-    tell(std::to_string(scans) + " scan(s) that tf has no pose in '" + frame + "' for left out");
+    appendWarning(
+        formatted("%zu scan(s) that tf has no pose in '%s' for left out", scans, frame.c_str()),
+        text);
   }
   return text;
 }

@@ -26,7 +26,7 @@ class BagPlaces {
   /// pose of the robot at some time, a scan is not put into another frame instead.
   /// @param laser  frame of the scan. @param time  of the poses.
   /// @return  whether its place is known; else it is counted.
-  /// @throws std::runtime_error as placementOf() does.
+  /// @throws std::runtime_error as placeByTf() does.
   bool place(LogRecord& record, const std::string& laser, const ros::Time& time);
 
   /// What had to be assumed, and what was missed, for people; empty where all was well.

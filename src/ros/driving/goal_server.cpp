@@ -30,11 +30,7 @@ GoalServer::GoalServer(ros::NodeHandle& node, ros::NodeHandle& private_node, std
 }
 
 Pose2 GoalServer::inMap(const geometry_msgs::PoseStamped& goal) const {
-  geometry_msgs::Transform pose;
-  pose.translation.x = goal.pose.position.x;
-  pose.translation.y = goal.pose.position.y;
-  pose.rotation = goal.pose.orientation;
-  const Pose2 T_frame_goal = planarPose(pose).pose;
+  const Pose2 T_frame_goal = planarPose(goal.pose).pose;
   const std::string frame = frameName(goal.header.frame_id);
   if (frame.empty() || frame == frameName(map_frame_)) return T_frame_goal;
   const Transforms& tf = transforms_.transforms();
@@ -118,9 +114,7 @@ void GoalServer::tellProgress() {
   goOnPatrol();
   if (!action_.isActive()) return;
   move_base_msgs::MoveBaseFeedback feedback;
-  feedback.base_position.header.frame_id = map_frame_;
-  feedback.base_position.header.stamp = ros::Time::now();
-  feedback.base_position.pose = poseMessage(exploration_.pose());
+  feedback.base_position = poseMessage(exploration_.pose(), map_frame_, ros::Time::now());
   action_.publishFeedback(feedback);
 }
 

@@ -36,9 +36,7 @@ void MoveBaseDriver::driveTo(const Pose2& T_map_goal) {
   if (T_map_goal_ && isSameGoal(*T_map_goal_, T_map_goal)) return;
   T_map_goal_ = T_map_goal;
   move_base_msgs::MoveBaseGoal goal;
-  goal.target_pose.header.frame_id = map_frame_;
-  goal.target_pose.header.stamp = ros::Time::now();
-  goal.target_pose.pose = poseMessage(T_map_goal);
+  goal.target_pose = poseMessage(T_map_goal, map_frame_, ros::Time::now());
   client_.sendGoal(
       goal, [this](const actionlib::SimpleClientGoalState& state,
                    const move_base_msgs::MoveBaseResultConstPtr& /*result*/) { onDone(state); });

@@ -3,10 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdarg>
-#include <cstdio>
 #include <map>
 #include <memory>
+#include <numeric>
 #include <optional>
 #include <utility>
 
@@ -14,10 +13,11 @@
 #include "cca_mrpt/session/mapping_session.hpp"
 #include "cca_mrpt/slam/slam_localiser.hpp"
 #include "geometry/median.hpp"
+#include "io/files/text.hpp"
 #include "mount_error.hpp"
 #include "ros/input/scan_period.hpp"
-#include "ros/input/scan_placement.hpp"
 #include "ros/messages/scan_message.hpp"
+#include "ros/nodes/node_localisation.hpp"
 
 namespace cca {
 namespace {
@@ -37,24 +37,6 @@ constexpr double kOneInstant = 0.02;  // s
 constexpr double kWrongPlace = 0.04, kWrongTurn = 0.04;  // m, rad, of the laser on the robot
 constexpr double kSureOf = 4.0;                          // sigmas
 constexpr std::size_t kLeastScans = 10;
-
-std::string text(const char* format, ...) __attribute__((format(printf, 1, 2)));
-std::string text(const char* format, ...) {
-  char buffer[300];
-  va_list values;
-  va_start(values, format);
-  std::vsnprintf(buffer, sizeof buffer, format, values);
-  va_end(values);
-  return buffer;
-}
-
-Finding good(std::string what) { return {Finding::Kind::kGood, std::move(what), ""}; }
-Finding note(std::string what, std::string remedy) {
-  return {Finding::Kind::kNote, std::move(what), std::move(remedy)};
-}
-Finding fault(std::string what, std::string remedy) {
-  return {Finding::Kind::kFault, std::move(what), std::move(remedy)};
-}
 
 template <class Messages>
 double medianPeriod(const Messages& messages) {
@@ -81,7 +63,8 @@ std::string arcsOf(const sensor_msgs::LaserScan& scan, double least_deg, const I
              (scan.angle_min + static_cast<double>(beam) * scan.angle_increment);
     };
     if (end > i && width >= least_deg) {
-      arcs += (arcs.empty() ? "" : ", ") + text("%.0f to %.0f deg", bearing(i), bearing(end - 1));
+      arcs +=
+          (arcs.empty() ? "" : ", ") + formatted("%.0f to %.0f deg", bearing(i), bearing(end - 1));
     }
     if (end > i) i = end;
   }
@@ -92,7 +75,6 @@ std::string arcsOf(const sensor_msgs::LaserScan& scan, double least_deg, const I
 struct Drive {
   std::vector<Pose2> by_scans, by_wheels;
   std::vector<ros::Time> middles;
-  double sweep = 0.0;  ///< s, as it has been learned
 };
 
 /// How far the heading goes from one to the next, by rising number.
@@ -114,26 +96,16 @@ double wayOf(const std::vector<Pose2>& poses) {
 
 /// The factor that leads from one to the other, by least squares.
 double scaleOf(const std::vector<double>& from, const std::vector<double>& to) {
-  double product = 0.0, squares = 0.0;
-  for (std::size_t k = 0; k < from.size(); ++k) {
-    product += from[k] * to[k];
-    squares += from[k] * from[k];
-  }
+  const double squares = std::inner_product(from.begin(), from.end(), from.begin(), 0.0);
+  const double product = std::inner_product(from.begin(), from.end(), to.begin(), 0.0);
   return squares > 0.0 ? product / squares : 1.0;
 }
 
-/// @param sweep  s, as the scans show; negative: the last beam first.
-Finding sweepFinding(double sweep) {
-  if (std::abs(sweep) < kOneInstant) return good("scan: all beams of one instant");
-  return good(text("scan: one sweep takes %.3f s, %s beam first; that is undone", std::abs(sweep),
-                   sweep > 0.0 ? "the first" : "the last"));
-}
-
 /// @param scale  of the odometry's turns or ways, as the scans show. @param what  of the wheels.
-Finding scaleFinding(const char* of, double scale, const char* what) {
-  const std::string told = text("odom: %s of the scans are %.3f of its own", of, scale);
-  if (std::abs(scale - 1.0) < kWrongScale) return good(told);
-  return note(told, text("calibrate the wheels' %s; line SLAM learns it", what));
+void checkScale(const char* of, double scale, const char* what, Findings& findings) {
+  const std::string told = formatted("odom: %s of the scans are %.3f of its own", of, scale);
+  if (std::abs(scale - 1.0) < kWrongScale) return findings.good(told);
+  findings.note(told, formatted("calibrate the wheels' %s; line SLAM learns it", what));
 }
 
 /// s, by how much the odometry's stamps have to be moved to turn when the scans do; nothing where
@@ -187,8 +159,8 @@ void RobotCheck::take(const tf2_msgs::TFMessage& transforms, const std::string& 
   }
 }
 
-std::vector<Finding> RobotCheck::findings(const Transforms& transforms) const {
-  std::vector<Finding> findings;
+Findings RobotCheck::findings(const Transforms& transforms) const {
+  Findings findings;
   checkOdometry(findings);
   checkFrames(transforms, findings);
   checkSenders(findings);
@@ -200,7 +172,7 @@ std::vector<Finding> RobotCheck::findings(const Transforms& transforms) const {
   return findings;
 }
 
-void RobotCheck::checkScans(std::vector<Finding>& findings) const {
+void RobotCheck::checkScans(Findings& findings) const {
   std::map<std::string, int> broken;
   for (const auto& heard : scans_) {
     try {
@@ -210,47 +182,47 @@ void RobotCheck::checkScans(std::vector<Finding>& findings) const {
     }
   }
   for (const auto& [why, count] : broken) {
-    findings.push_back(
-        fault(text("%d of %zu scans are impossible: %s", count, scans_.size(), why.c_str()),
-              "mend the driver: such scans are dropped"));
+    findings.fault(
+        formatted("%d of %zu scans are impossible: %s", count, scans_.size(), why.c_str()),
+        "mend the driver: such scans are dropped");
   }
   const sensor_msgs::LaserScan& scan = scans_.front().message;
   const double period = medianPeriod(scans_);
   const std::string what =
-      text("scan: %.1f a second, %zu beams, %.0f to %.0f deg, %.2f to %.2f m", 1.0 / period,
-           scan.ranges.size(), kDegreesPerRadian * scan.angle_min,
-           kDegreesPerRadian * scan.angle_max, scan.range_min, scan.range_max);
+      formatted("scan: %.1f a second, %zu beams, %.0f to %.0f deg, %.2f to %.2f m", 1.0 / period,
+                scan.ranges.size(), kDegreesPerRadian * scan.angle_min,
+                kDegreesPerRadian * scan.angle_max, scan.range_min, scan.range_max);
   if (!(period > 0.0)) {
-    findings.push_back(fault("scan: all have one stamp", "mend the driver: it does not tell time"));
+    findings.fault("scan: all have one stamp", "mend the driver: it does not tell time");
   } else if (period > kSlowLaser) {
     ScanPeriod heard;
     for (const auto& one : scans_) heard.add(one.message.header.stamp);
-    findings.push_back(note(what, text("none: the robot is stopped %.2f s after the last scan",
-                                       heard.longestSilence(0.3))));
+    findings.note(what, formatted("none: the robot is stopped %.2f s after the last scan",
+                                  heard.longestSilence(0.3)));
   } else {
-    findings.push_back(good(what));
+    findings.good(what);
   }
 }
 
-void RobotCheck::checkStamps(std::vector<Finding>& findings) const {
+void RobotCheck::checkStamps(Findings& findings) const {
   std::vector<double> ages;
   for (const auto& heard : scans_) {
     ages.push_back((heard.arrival - heard.message.header.stamp).toSec());
   }
   const double age = median(ages), allowed = medianPeriod(scans_) + kLate;
   if (age < -kClockAhead) {
-    findings.push_back(fault(text("scan: stamped %.2f s ahead of this computer's clock", -age),
-                             "set the clocks by one another (chrony), or use_sim_time"));
+    findings.fault(formatted("scan: stamped %.2f s ahead of this computer's clock", -age),
+                   "set the clocks by one another (chrony), or use_sim_time");
   } else if (age > allowed) {
-    findings.push_back(fault(text("scan: %.2f s old when it comes", age),
-                             "set the clocks by one another (chrony); look for a slow network"));
+    findings.fault(formatted("scan: %.2f s old when it comes", age),
+                   "set the clocks by one another (chrony); look for a slow network");
   } else {
-    findings.push_back(good(text("scan: %.2f s old when it comes", age)));
+    findings.good(formatted("scan: %.2f s old when it comes", age));
   }
 }
 
 /// Beams that end on the robot, or nowhere.
-void RobotCheck::checkOwnBody(const Transforms& transforms, std::vector<Finding>& findings) const {
+void RobotCheck::checkOwnBody(const Transforms& transforms, Findings& findings) const {
   const sensor_msgs::LaserScan& first = scans_.front().message;
   const std::size_t n = first.ranges.size();
   const std::string laser = frameName(first.header.frame_id);
@@ -277,92 +249,86 @@ void RobotCheck::checkOwnBody(const Transforms& transforms, std::vector<Finding>
   };
   const std::string own = arcsOf(first, 0.0, mostly(on_robot));
   if (!own.empty()) {
-    findings.push_back(fault(
-        "scan: meets the robot itself at " + own,
-        text("range_min of the driver above %.2f m, or a laser_filters mask", settings_.radius)));
+    findings.fault("scan: meets the robot itself at " + own,
+                   formatted("range_min of the driver above %.2f m, or a laser_filters mask",
+                             settings_.radius));
   }
   const std::string blind = arcsOf(first, kBlindArc, mostly(nothing));
   if (!blind.empty()) {
-    findings.push_back(note("scan: nothing comes back at " + blind,
-                            "none where that is open space; else see what covers the laser"));
+    findings.note("scan: nothing comes back at " + blind,
+                  "none where that is open space; else see what covers the laser");
   }
 }
 
-void RobotCheck::checkOdometry(std::vector<Finding>& findings) const {
+void RobotCheck::checkOdometry(Findings& findings) const {
   if (odometry_.empty()) return;
   const nav_msgs::Odometry& first = odometry_.front().message;
   const double period = medianPeriod(odometry_);
   if (period > kRarely || !(period > 0.0)) {
-    findings.push_back(fault(text("odom: one message in %.2f s", period),
-                             "20 a second or more: latency and brakes are learned from it"));
+    findings.fault(formatted("odom: one message in %.2f s", period),
+                   "20 a second or more: latency and brakes are learned from it");
   } else {
-    findings.push_back(good(text("odom: %.0f a second", 1.0 / period)));
+    findings.good(formatted("odom: %.0f a second", 1.0 / period));
   }
   const std::string odom = frameName(first.header.frame_id), base = frameName(first.child_frame_id);
   if (!odom.empty() && odom != settings_.odom_frame) {
-    findings.push_back(
-        fault("odom: its frame is '" + odom + "', not '" + settings_.odom_frame + "'",
-              "odom_frame: " + odom));
+    findings.fault("odom: its frame is '" + odom + "', not '" + settings_.odom_frame + "'",
+                   "odom_frame: " + odom);
   }
   if (!base.empty() && base != settings_.base_frame) {
-    findings.push_back(
-        note("odom: it tells of '" + base + "', not of '" + settings_.base_frame + "'",
-             "base_frame: " + base + " (where that is the robot's middle)"));
+    findings.note("odom: it tells of '" + base + "', not of '" + settings_.base_frame + "'",
+                  "base_frame: " + base + " (where that is the robot's middle)");
   }
 }
 
-void RobotCheck::checkFrames(const Transforms& tf, std::vector<Finding>& findings) const {
+void RobotCheck::checkFrames(const Transforms& tf, Findings& findings) const {
   const auto& [odom, base, map, radius] = settings_;
   if (tf.has(odom, base, ros::Time())) {
-    findings.push_back(good("tf: " + odom + " -> " + base));
+    findings.good("tf: " + odom + " -> " + base);
   } else {
-    findings.push_back(
-        fault("tf: " + tf.whyNot(odom, base), "odom_frame, base_frame: as tf has them"));
+    findings.fault("tf: " + tf.whyNot(odom, base), "odom_frame, base_frame: as tf has them");
   }
-  findings.push_back(tf.has(map, base, ros::Time())
-                         ? good("tf: somebody tells " + map + " -> " + odom + " (pose: tf)")
-                         : good("tf: nobody tells " + map + " -> " + odom + " (pose: slam)"));
+  const bool is_told = tf.has(map, base, ros::Time());
+  findings.good((is_told ? "tf: somebody tells " : "tf: nobody tells ") + map + " -> " + odom +
+                (is_told ? " (pose: tf)" : " (pose: slam)"));
   if (scans_.empty()) return;
   const std::string laser = frameName(scans_.front().message.header.frame_id);
   if (laser == base) return;
   if (!tf.has(base, laser, ros::Time())) {
-    findings.push_back(
-        fault("tf: " + tf.whyNot(base, laser),
-              "static_transform_publisher X Y Z YAW PITCH ROLL " + base + " " + laser));
+    findings.fault("tf: " + tf.whyNot(base, laser),
+                   "static_transform_publisher X Y Z YAW PITCH ROLL " + base + " " + laser);
     return;
   }
   try {
     const PlanarPose mount = tf.lookup(base, laser, ros::Time());
     const Pose2& T = mount.pose;
-    findings.push_back(
-        good(text("tf: the laser is at %.2f, %.2f m, %.0f deg%s", T.x, T.y,
-                  kDegreesPerRadian * T.theta, mount.upside_down ? ", upside down" : "")));
+    findings.good(formatted("tf: the laser is at %.2f, %.2f m, %.0f deg%s", T.x, T.y,
+                            kDegreesPerRadian * T.theta, mount.upside_down ? ", upside down" : ""));
   } catch (const std::runtime_error& error) {
-    findings.push_back(
-        fault(std::string("tf: the laser: ") + error.what(), "scans of a level laser are needed"));
+    findings.fault(std::string("tf: the laser: ") + error.what(),
+                   "scans of a level laser are needed");
   }
 }
 
 /// tf keeps one place of a frame: of two it is now here, now there.
-void RobotCheck::checkSenders(std::vector<Finding>& findings) const {
+void RobotCheck::checkSenders(Findings& findings) const {
   for (const auto& [child, senders] : senders_) {
     if (senders.size() < 2) continue;
     std::string list;
     for (const std::string& sender : senders) list += (list.empty() ? "" : ", and in ") + sender;
-    findings.push_back(fault("tf: where '" + child + "' is, is told in " + list,
-                             "let one of them only: end the other, or its publish_tf"));
+    findings.fault("tf: where '" + child + "' is, is told in " + list,
+                   "let one of them only: end the other, or its publish_tf");
   }
   const double age = median(pose_ages_);
   if (age > kLate) {
-    findings.push_back(
-        fault("tf: " + settings_.odom_frame + " -> " + settings_.base_frame +
-                  text(" is %.2f s old when a scan comes", age),
-              "send it 20 times a second or more; set the clocks by one another (chrony)"));
+    findings.fault("tf: " + settings_.odom_frame + " -> " + settings_.base_frame +
+                       formatted(" is %.2f s old when a scan comes", age),
+                   "send it 20 times a second or more; set the clocks by one another (chrony)");
   }
 }
 
 /// What the scans tell of sweep and wheels, where the robot has moved.
-void RobotCheck::checkMotion(const Transforms& tf, std::vector<Finding>& findings) const {
+void RobotCheck::checkMotion(const Transforms& tf, Findings& findings) const {
   const PlacementFrames frames{settings_.odom_frame, settings_.base_frame, "", std::nullopt, ""};
   MappingSession::Settings settings;
   settings.maps_at_the_end = true;
@@ -374,18 +340,13 @@ void RobotCheck::checkMotion(const Transforms& tf, std::vector<Finding>& finding
     const ros::Time middle = sweepMiddle(heard.message);
     if (!hasPlacement(tf, frames, laser, middle)) continue;
     try {
-      Measurement measurement;
-      measurement.scan = scanFromMessage(heard.message);
-      const ScanPlacement placement = placementOf(tf, frames, laser, middle);
-      placeScan(measurement.scan, placement.T_fixed_sensor);
-      missing_returns.judge(measurement.scan);
-      measurement.T_robot_sensor = placement.T_robot_sensor;
-      measurement.T_odom_robot = placement.T_fixed_robot;
-      measurement.time = middle.toSec();
-      measurement.motion =
-          sweepMotion(tf, frames, laser, middle, halfSweep(measurement.scan.sweep_duration));
-      session.add(measurement);
-      drive.by_wheels.push_back(placement.T_fixed_robot);
+      PlacedScan placed;
+      placed.scan = scanFromMessage(heard.message);
+      placed.middle = middle;
+      placed.at = placeByTf(placed.scan, tf, frames, laser, middle);
+      missing_returns.judge(placed.scan);
+      session.add(measurementOf(placed, true));
+      drive.by_wheels.push_back(placed.at.T_fixed_robot);
       drive.middles.push_back(middle);
     } catch (const std::runtime_error&) {  // it has been told above
       continue;
@@ -399,31 +360,33 @@ void RobotCheck::checkMotion(const Transforms& tf, std::vector<Finding>& finding
   for (const double turn : by_scans) turned += std::abs(turn);
   const double way = wayOf(drive.by_scans);
   if (turned < kLeastTurn) {
-    findings.push_back(note(
-        text("the robot has turned by %.0f deg and gone %.1f m", kDegreesPerRadian * turned, way),
-        "drive and turn it by hand meanwhile: scans tell sweep and odometry then"));
+    findings.note(formatted("the robot has turned by %.0f deg and gone %.1f m",
+                            kDegreesPerRadian * turned, way),
+                  "drive and turn it by hand meanwhile: scans tell sweep and odometry then");
     return;
   }
-  findings.push_back(sweepFinding(session.sweepDuration(0)));
-  findings.push_back(scaleFinding("turns", scaleOf(by_wheels, by_scans), "distance"));
+  const double sweep = session.sweepDuration(0);  // negative: the last beam first
+  findings.good(std::abs(sweep) < kOneInstant
+                    ? "scan: all beams of one instant"
+                    : formatted("scan: one sweep takes %.3f s, %s beam first; that is undone",
+                                std::abs(sweep), sweep > 0.0 ? "the first" : "the last"));
+  checkScale("turns", scaleOf(by_wheels, by_scans), "distance", findings);
   if (way > kLeastWay) {
     const double scale = way / std::max(1e-3, wayOf(drive.by_wheels));
-    findings.push_back(scaleFinding("ways", scale, "radius"));
+    checkScale("ways", scale, "radius", findings);
   }
   checkMount(tf, drive.by_scans, drive.by_wheels, findings);
   const auto delay = delayOf(drive, tf, settings_.odom_frame, settings_.base_frame);
   if (!delay) return;
-  const std::string of_stamps = text("scan: its stamps are %.2f s %s the odometry's",
-                                     std::abs(*delay), *delay > 0.0 ? "before" : "after");
-  findings.push_back(std::abs(*delay) < kLeastDelay
-                         ? good("scan: its stamps are the odometry's")
-                         : fault(of_stamps, text("move the driver's stamps by %+.2f s", *delay)));
+  if (std::abs(*delay) < kLeastDelay) return findings.good("scan: its stamps are the odometry's");
+  findings.fault(formatted("scan: its stamps are %.2f s %s the odometry's", std::abs(*delay),
+                           *delay > 0.0 ? "before" : "after"),
+                 formatted("move the driver's stamps by %+.2f s", *delay));
 }
 
 /// Where the laser is on the robot, by how both have moved.
 void RobotCheck::checkMount(const Transforms& tf, const std::vector<Pose2>& by_scans,
-                            const std::vector<Pose2>& by_wheels,
-                            std::vector<Finding>& findings) const {
+                            const std::vector<Pose2>& by_wheels, Findings& findings) const {
   const std::string &base = settings_.base_frame,
                     laser = frameName(scans_.front().message.header.frame_id);
   const auto error = mountError(by_scans, by_wheels);
@@ -435,14 +398,15 @@ void RobotCheck::checkMount(const Transforms& tf, const std::vector<Pose2>& by_s
   if (is_off || is_turned) {
     const Pose2 told = tf.lookup(base, laser, ros::Time()).pose;
     const Pose2 mount = Pose2{is_off ? off.x : 0.0, is_off ? off.y : 0.0, off.theta} * told;
-    findings.push_back(fault(
-        text("tf: by how it moves, the laser is at %.2f, %.2f m, %.0f deg, not where tf has it",
-             mount.x, mount.y, kDegreesPerRadian * mount.theta),
-        text("static_transform_publisher %.2f %.2f Z %.3f PITCH ROLL ", mount.x, mount.y,
-             mount.theta) +
-            base + " " + laser));
+    findings.fault(
+        formatted(
+            "tf: by how it moves, the laser is at %.2f, %.2f m, %.0f deg, not where tf has it",
+            mount.x, mount.y, kDegreesPerRadian * mount.theta),
+        formatted("static_transform_publisher %.2f %.2f Z %.3f PITCH ROLL ", mount.x, mount.y,
+                  mount.theta) +
+            base + " " + laser);
   } else if (error->sigma < kWrongPlace && error->turn_sigma < kWrongTurn) {
-    findings.push_back(good("tf: the laser moves as its place there has it"));
+    findings.good("tf: the laser moves as its place there has it");
   }
 }
 

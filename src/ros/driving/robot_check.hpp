@@ -21,6 +21,16 @@ struct Finding {
   std::string remedy;  ///< the parameter to set, or what to do; empty where nothing is to be done
 };
 
+struct Findings : std::vector<Finding> {
+  void good(const std::string& what) { push_back({Finding::Kind::kGood, what, ""}); }
+  void note(const std::string& what, const std::string& remedy) {
+    push_back({Finding::Kind::kNote, what, remedy});
+  }
+  void fault(const std::string& what, const std::string& remedy) {
+    push_back({Finding::Kind::kFault, what, remedy});
+  }
+};
+
 /// What a robot sends while it is listened to: whether it is all that exploring or mapping needs.
 /// It asks no master and sends nothing.
 class RobotCheck {
@@ -45,7 +55,7 @@ class RobotCheck {
 
   /// All findings, good ones first of each kind of message. Cost: line SLAM over the scans.
   /// @param transforms  all of tf that has come meanwhile.
-  std::vector<Finding> findings(const Transforms& transforms) const;
+  Findings findings(const Transforms& transforms) const;
 
  private:
   template <class Message>
@@ -54,15 +64,15 @@ class RobotCheck {
     ros::Time arrival;
   };
 
-  void checkScans(std::vector<Finding>& findings) const;
-  void checkOwnBody(const Transforms& transforms, std::vector<Finding>& findings) const;
-  void checkStamps(std::vector<Finding>& findings) const;
-  void checkFrames(const Transforms& transforms, std::vector<Finding>& findings) const;
-  void checkOdometry(std::vector<Finding>& findings) const;
-  void checkSenders(std::vector<Finding>& findings) const;
-  void checkMotion(const Transforms& transforms, std::vector<Finding>& findings) const;
+  void checkScans(Findings& findings) const;
+  void checkOwnBody(const Transforms& transforms, Findings& findings) const;
+  void checkStamps(Findings& findings) const;
+  void checkFrames(const Transforms& transforms, Findings& findings) const;
+  void checkOdometry(Findings& findings) const;
+  void checkSenders(Findings& findings) const;
+  void checkMotion(const Transforms& transforms, Findings& findings) const;
   void checkMount(const Transforms& transforms, const std::vector<Pose2>& by_scans,
-                  const std::vector<Pose2>& by_wheels, std::vector<Finding>& findings) const;
+                  const std::vector<Pose2>& by_wheels, Findings& findings) const;
 
   Settings settings_;
   std::vector<Heard<sensor_msgs::LaserScan>> scans_;

@@ -64,16 +64,15 @@ RobotDriver::RobotDriver(ros::NodeHandle& node, ros::NodeHandle& private_node,
              {settings.scans, fixedFrame(settings), settings.frames.base, kOldestScan,
               settings.frames.odom, true},
              [this](const PlacedScan& placed) { use(placed); }),
-      diagnostics_(
-          node, private_node, [this]() -> const auto& { return scans_.dropped(); }),
+      diagnostics_(node, private_node, scans_.dropped()),
       reconfigure_(private_node, changeable(),
                    [this] { exploration_.changeMotion(settings_.robot); }) {
   if (settings_.pose == "odometry") publishMapToOdom(node);
   auto localiser = makeLocaliser(settings_.pose, settings_.corrections, mapping);
   slam_ = dynamic_cast<const SlamLocaliser*>(localiser.get());
   if (slam_) slam_publisher_.emplace(node, settings_.frames);
-  auto* const external = dynamic_cast<ExternalCorrections*>(localiser.get());
-  if (external) path_.emplace(node, *external);
+  external_ = dynamic_cast<ExternalCorrections*>(localiser.get());
+  if (external_) path_ = hearCorrectedPath(node, *external_);
   if (!slam_ && !settings_.resume.empty()) {
     ROS_WARN("_resume:=%s has no effect: the robot is told where it is", settings_.resume.c_str());
   }
@@ -131,11 +130,8 @@ void RobotDriver::delegateDriving() {
 void RobotDriver::publishMapToOdom(ros::NodeHandle& node) {
   fixed_transforms_ = node.advertise<tf2_msgs::TFMessage>("/tf_static", 1, true);
   tf2_msgs::TFMessage message;
-  message.transforms.resize(1);
-  message.transforms[0].header.stamp = ros::Time::now();
-  message.transforms[0].header.frame_id = settings_.frames.map;
-  message.transforms[0].child_frame_id = settings_.frames.odom;
-  message.transforms[0].transform = transformMessage({});
+  message.transforms = {
+      transformMessage({}, settings_.frames.map, settings_.frames.odom, ros::Time::now())};
   fixed_transforms_.publish(message);
 }
 
@@ -177,9 +173,9 @@ void RobotDriver::checkLatency() {
 void RobotDriver::tellIfHeld(const PlacedScan& placed) {
   const double passed = std::clamp((placed.stamp - last_stamp_).toSec(), 0.0, kOldestScan);
   last_stamp_ = placed.stamp;
-  const Pose2 moved = T_fixed_held_.inverse() * placed.T_fixed_robot;
+  const Pose2 moved = T_fixed_held_.inverse() * placed.at.T_fixed_robot;
   if (moved.position().norm() > kHeldWithin || std::abs(wrapAngle(moved.theta)) > kHeldWithin) {
-    T_fixed_held_ = placed.T_fixed_robot;
+    T_fixed_held_ = placed.at.T_fixed_robot;
     held_for_ = 0.0;
   } else if (command_.linear != 0.0 || command_.angular != 0.0) {
     held_for_ += passed;
@@ -202,10 +198,10 @@ void RobotDriver::use(const PlacedScan& placed) {
   Observation observation = exploration_.sense(measurement, measuredVelocity(placed.stamp));
   const ExplorationSession& session = exploration_.session();
   if (slam_) {
-    slam_publisher_->publish(session.estimate(), placed.T_fixed_robot, *slam_, placed.stamp);
+    slam_publisher_->publish(session.estimate(), placed.at.T_fixed_robot, *slam_, placed.stamp);
     slam_publisher_->note(session.estimate(), *slam_, diagnostics_);
   } else if (session.estimate().was_corrected) {
-    path_->logCorrection();
+    logCorrection(*external_);
     moveAlong(session.mapping().past().correctionHere());
   }
   if (const char* why = deaf()) {
@@ -213,7 +209,8 @@ void RobotDriver::use(const PlacedScan& placed) {
     if (move_base_) move_base_->forget();
     return;
   }
-  if (!move_base_ && !looksTowards(placed.scan, placed.T_fixed_robot * Eigen::Vector2d(kAhead, 0)))
+  if (!move_base_ &&
+      !looksTowards(placed.scan, placed.at.T_fixed_robot * Eigen::Vector2d(kAhead, 0)))
     return waitForSight(placed);
   if (const auto silent = silentLaser(1)) {
     if (exploration_.drives()) waitForLaser(*silent);
@@ -236,10 +233,10 @@ void RobotDriver::moveAlong(const Pose2& T_now_was) {
 
 /// What other sensors see.
 void RobotDriver::addObstacles(const PlacedScan& placed, Observation& observation) {
-  const Pose2 T_map_fixed = observation.T_map_robot * placed.T_fixed_robot.inverse();
+  const Pose2 T_map_fixed = observation.T_map_robot * placed.at.T_fixed_robot.inverse();
   observation.seen_elsewhere = seenElsewhere(placed.stamp, T_map_fixed);
   observation.hazards =
-      hazards_.around(placed.T_fixed_robot.position(), placed.stamp, scans_.transforms());
+      hazards_.around(placed.at.T_fixed_robot.position(), placed.stamp, scans_.transforms());
   for (Eigen::Vector2d& p : observation.hazards) p = T_map_fixed * p;
 }
 
@@ -258,7 +255,7 @@ void RobotDriver::useBeside(const PlacedScan& placed) {
   last_used_[placed.topic] = placed.arrival;
   Scan scan = exploration_.addSecondary(measurementOf(placed, slam_ != nullptr), placed.topic);
   scan.T_map_sensor = placed.scan.T_map_sensor;
-  beside_[placed.topic] = {returnsAround(scan, placed.T_fixed_robot.position()), placed.stamp};
+  beside_[placed.topic] = {returnsAround(scan, placed.at.T_fixed_robot.position()), placed.stamp};
 }
 
 std::vector<Eigen::Vector2d> RobotDriver::seenElsewhere(const ros::Time& stamp,

@@ -88,7 +88,7 @@ class RobotDriver {
   Settings settings_;
   Exploration& exploration_;
   ros::Publisher commands_, fixed_transforms_;
-  ros::Subscriber odometry_;
+  ros::Subscriber odometry_, path_;
   std::deque<nav_msgs::Odometry> lately_;  ///< odometry
   Velocity command_;
   Pose2 T_fixed_held_;     ///< where the robot was when it last was elsewhere
@@ -105,7 +105,7 @@ class RobotDriver {
   ros::WallTime last_moving_;
   const SlamLocaliser* slam_ = nullptr;  ///< the exploration's, with line SLAM
   std::optional<SlamPublisher> slam_publisher_;
-  std::optional<CorrectedPath> path_;  ///< with corrections of tf's
+  ExternalCorrections* external_ = nullptr;  ///< the same, with corrections of tf's
   std::optional<MoveBaseDriver> move_base_;
   HazardFeed hazards_;
   ScanFeed scans_;

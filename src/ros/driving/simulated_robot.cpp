@@ -17,16 +17,6 @@ namespace {
 constexpr double kPoseRate = 50.0;    // Hz, at least
 constexpr double kLaserHeight = 0.2;  // m, for the eye only
 
-geometry_msgs::TransformStamped stamped(const Pose2& pose, const std::string& parent,
-                                        const std::string& child, const ros::Time& stamp) {
-  geometry_msgs::TransformStamped message;
-  message.header.stamp = stamp;
-  message.header.frame_id = parent;
-  message.child_frame_id = child;
-  message.transform = transformMessage(pose);
-  return message;
-}
-
 /// What the odometry may be wrong by: the errors of its parameters, added up over the way [m] and
 /// the turns [rad] so far. It is planar, so z, roll and pitch are known.
 void setCovariances(const OdometryParameters& errors, double way, double turned,
@@ -78,7 +68,7 @@ void SimulatedRobot::tick(const Velocity& command) {
 
 void SimulatedRobot::publishMount() {
   tf2_msgs::TFMessage message;
-  message.transforms.push_back(stamped({}, frames_.base, frames_.laser, now()));
+  message.transforms = {transformMessage({}, frames_.base, frames_.laser, now())};
   message.transforms.back().transform.translation.z = kLaserHeight;
   fixed_transforms_.publish(message);
   bag_.write("/tf_static", now(), message, true);
@@ -94,9 +84,9 @@ void SimulatedRobot::publishPose(const ros::Time& stamp) {
   tf2_msgs::TFMessage message;
   if (has_localisation_) {
     const Pose2 T_map_odom = simulation_.T_map_robot() * T_odom_robot.inverse();
-    message.transforms.push_back(stamped(T_map_odom, frames_.map, frames_.odom, stamp));
+    message.transforms.push_back(transformMessage(T_map_odom, frames_.map, frames_.odom, stamp));
   }
-  message.transforms.push_back(stamped(T_odom_robot, frames_.odom, frames_.base, stamp));
+  message.transforms.push_back(transformMessage(T_odom_robot, frames_.odom, frames_.base, stamp));
   transforms_.publish(message);
   bag_.write("/tf", stamp, message);
 
@@ -113,11 +103,9 @@ void SimulatedRobot::publishPose(const ros::Time& stamp) {
 
 Observation SimulatedRobot::scan() {
   Observation observation = simulation_.observe();
-  std_msgs::Header header;
   const LaserParameters& laser = simulation_.parameters().laser;
   const double sweep = observation.scan.sweep_duration;
-  header.stamp = now() - ros::Duration(sweep);
-  header.frame_id = frames_.laser;
+  const auto header = headerMessage(frames_.laser, now() - ros::Duration(sweep));
   const LaserLimits limits{0.0, laser.range, scan_period_, sweep / std::max(1, laser.beams - 1)};
   const auto message = scanToMessage(observation.scan, limits, header);
   scans_.publish(message);

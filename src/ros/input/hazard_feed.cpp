@@ -16,19 +16,13 @@ const ros::Duration kTransformDue(0.5);  // s
 
 HazardFeed::HazardFeed(ros::NodeHandle& node, const Settings& settings)
     : fixed_frame_(settings.fixed_frame) {
-  using Cloud = sensor_msgs::PointCloud2;
-  using Range = sensor_msgs::Range;
-  const auto no_delay = ros::TransportHints().tcpNoDelay();
-  if (!settings.points.empty()) {
-    subscribers_.push_back(node.subscribe<Cloud>(
-        settings.points, kHazardQueue, [this](const Cloud::ConstPtr& m) { receive(*m); },
-        ros::VoidConstPtr(), no_delay));
-  }
-  if (!settings.range.empty()) {
-    subscribers_.push_back(node.subscribe<Range>(
-        settings.range, kHazardQueue, [this](const Range::ConstPtr& m) { receive(*m); },
-        ros::VoidConstPtr(), no_delay));
-  }
+  const auto hear = [&](const std::string& topic, auto take) {
+    if (topic.empty()) return;
+    subscribers_.push_back(
+        node.subscribe(topic, kHazardQueue, take, this, ros::TransportHints().tcpNoDelay()));
+  };
+  hear(settings.points, &HazardFeed::receive<sensor_msgs::PointCloud2>);
+  hear(settings.range, &HazardFeed::receive<sensor_msgs::Range>);
 }
 
 template <class Message>

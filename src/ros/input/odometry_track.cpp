@@ -8,21 +8,13 @@
 
 namespace cca {
 
-Pose2 poseOf(const nav_msgs::Odometry& message) {
-  geometry_msgs::Transform transform;
-  transform.translation.x = message.pose.pose.position.x;
-  transform.translation.y = message.pose.pose.position.y;
-  transform.rotation = message.pose.pose.orientation;
-  return planarPose(transform).pose;
-}
-
 void OdometryTrack::add(const nav_msgs::Odometry& message) try {
   if (frames_.base.empty()) {
     const std::string odom = frameName(message.header.frame_id);
     const std::string base = frameName(message.child_frame_id);
     frames_ = {odom.empty() ? "odom" : odom, base.empty() ? "base_link" : base};
   }
-  const Stamped stamped{message.header.stamp, poseOf(message)};
+  const Stamped stamped{message.header.stamp, planarPose(message.pose.pose).pose};
   const auto is_later = [](const ros::Time& stamp, const Stamped& s) { return stamp < s.stamp; };
   const auto after = poses_.empty() || poses_.back().stamp < stamped.stamp
                          ? poses_.end()

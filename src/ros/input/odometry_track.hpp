@@ -30,7 +30,4 @@ class OdometryTrack {
   std::vector<Stamped> poses_;  ///< in the order of their stamps
 };
 
-/// T_odom_robot of a message. @throws std::runtime_error as planarPose() does.
-Pose2 poseOf(const nav_msgs::Odometry& message);
-
 }  // namespace cca

@@ -92,7 +92,7 @@ void ScanFeed::startAnewIfClockWasSetBack() {
   last_now_ = now;
 }
 
-std::string ScanFeed::whyUnfit(const Waiting& w) const {
+std::string ScanFeed::whyUnfit(const PlacedScan& w) const {
   if (seeingFraction(w.scan) < kSmallestSeeingFraction) return "blind";
   const auto last = last_stamps_.find(w.frame);
   if (last != last_stamps_.end() && w.stamp <= last->second) return "not newer than the last";
@@ -104,12 +104,12 @@ void ScanFeed::receive(const Event& event, std::size_t topic) {
   startAnewIfClockWasSetBack();
   try {
     const sensor_msgs::LaserScan message = scanOf(*event.getConstMessage());
-    Waiting waiting{scanFromMessage(message),
-                    message.header.stamp,
-                    sweepMiddle(message),
-                    event.getReceiptTime(),
-                    frameName(message.header.frame_id),
-                    topic};
+    PlacedScan waiting{scanFromMessage(message),
+                       message.header.stamp,
+                       sweepMiddle(message),
+                       event.getReceiptTime(),
+                       frameName(message.header.frame_id),
+                       topic};
     periods_[topic].add(message.header.stamp);
     if (waiting.frame.empty()) return drop("malformed", "header.frame_id is empty", "frame_id");
     if (waiting.stamp.isZero()) return drop("malformed", "header.stamp is 0", "stamp");
@@ -136,7 +136,7 @@ std::optional<ros::Time> ScanFeed::latestPose(const std::string& laser_frame) co
 }
 
 /// tf comes in the order of time: a time that it has passed, and knows no pose for, it never will.
-ScanFeed::Pose ScanFeed::pose(const Waiting& w, const std::optional<ros::Time>& latest) const {
+ScanFeed::Pose ScanFeed::pose(const PlacedScan& w, const std::optional<ros::Time>& latest) const {
   // Who maps can wait until tf has come to the end of the sweep: what is undone does not depend on
   // how late it is.
   const bool waits = !drives() && !is_at_end_;
@@ -146,7 +146,7 @@ ScanFeed::Pose ScanFeed::pose(const Waiting& w, const std::optional<ros::Time>& 
   return w.middle <= *latest ? Pose::kNever : Pose::kExpected;
 }
 
-std::string ScanFeed::whyNoPose(const Waiting& w) const {
+std::string ScanFeed::whyNoPose(const PlacedScan& w) const {
   const Transforms& tf = transforms_.transforms();
   const bool lacks_laser = !tf.has(frames_.fixed, w.frame, w.middle);
   return tf.whyNot(frames_.fixed, lacks_laser ? w.frame : frames_.base);
@@ -156,9 +156,9 @@ void ScanFeed::serve() {
   if (waiting_.empty()) return;
   const std::size_t most = drives() ? kMostWaitingToDrive : kMostWaiting;
   std::map<std::string, std::optional<ros::Time>> latest;
-  std::deque<Waiting> waiting;
+  std::deque<PlacedScan> waiting;
   std::swap(waiting, waiting_);
-  for (Waiting& w : waiting) {
+  for (PlacedScan& w : waiting) {
     const auto [at, is_new] = latest.try_emplace(w.frame);
     if (is_new) at->second = latestPose(w.frame);
     const Pose known = pose(w, at->second);
@@ -183,41 +183,28 @@ void ScanFeed::finish() {
   serve();
 }
 
-void ScanFeed::use(const Waiting& waiting) {
-  const double oldest = periods_[waiting.topic].oldest(settings_.oldest);
-  if (drives() && (ros::Time::now() - waiting.stamp).toSec() > oldest) return drop("too old");
-  PlacedScan placed;
-  placed.scan = waiting.scan;
-  placed.stamp = waiting.stamp;
-  placed.middle = waiting.middle;
-  placed.arrival = waiting.arrival;
-  placed.frame = waiting.frame;
-  placed.topic = waiting.topic;
+void ScanFeed::use(PlacedScan& placed) {
+  const double oldest = periods_[placed.topic].oldest(settings_.oldest);
+  if (drives() && (ros::Time::now() - placed.stamp).toSec() > oldest) return drop("too old");
   try {
-    const ScanPlacement placement =
-        placementOf(transforms_.transforms(), frames_, waiting.frame, waiting.middle);
-    placeScan(placed.scan, placement.T_fixed_sensor);
-    placed.T_fixed_robot = placement.T_fixed_robot;
-    placed.T_robot_sensor = placement.T_robot_sensor;
-    placed.T_odom_robot = placement.T_odom_robot;
-    placed.motion = sweepMotion(transforms_.transforms(), frames_, waiting.frame, waiting.middle,
-                                halfSweep(waiting.scan.sweep_duration));
+    placed.at =
+        placeByTf(placed.scan, transforms_.transforms(), frames_, placed.frame, placed.middle);
   } catch (const std::runtime_error& error) {
     return drop("no usable transform", error.what());
   }
-  const ScanFault fault = faults_[waiting.frame].check(placed.scan, placed.T_odom_robot);
+  const ScanFault fault = faults_[placed.frame].check(placed.scan, placed.at.T_odom_robot);
   if (fault == ScanFault::kRepeated) return drop("repeated though the wheels went on");
   if (fault == ScanFault::kMillimetres) {
     return drop("ranges look like millimetres",
                 "median " + std::to_string(medianReturn(placed.scan)));
   }
   if (drives()) {
-    const auto verdict = gate_.check(placed.T_fixed_robot, waiting.stamp.toSec());
+    const auto verdict = gate_.check(placed.at.T_fixed_robot, placed.stamp.toSec());
     if (verdict == PoseGate::Verdict::kHeld) return drop("the pose leapt");
     if (verdict == PoseGate::Verdict::kMoved) ROS_WARN("the pose leapt, and stays: going on there");
   }
   last_trouble_.clear();
-  missing_returns_[waiting.frame].judge(placed.scan);
+  missing_returns_[placed.frame].judge(placed.scan);
   sink_(placed);
 }
 

@@ -29,16 +29,13 @@ sensor_msgs::LaserScan scanOf(const topic_tools::ShapeShifter& message);
 
 /// A scan that may be used: sound, and at a pose that tf vouches for.
 struct PlacedScan {
-  Scan scan;  ///< T_map_sensor is in the fixed frame
-  Pose2 T_fixed_robot;
-  Pose2 T_robot_sensor;               ///< identity where the robot's frame is not asked for
-  ros::Time stamp;                    ///< of the message, its first beam
-  ros::Time arrival;                  ///< of the message here
-  std::string frame;                  ///< of the message: which laser
-  std::size_t topic;                  ///< which of the topics it came by
-  std::optional<Pose2> T_odom_robot;  ///< where that is asked for and known
-  ros::Time middle;                   ///< of the sweep: of the poses
-  SweepMotion motion;                 ///< by tf
+  Scan scan;              ///< T_map_sensor is in the fixed frame
+  ros::Time stamp;        ///< of the message, its first beam
+  ros::Time middle;       ///< of the sweep: of the poses
+  ros::Time arrival;      ///< of the message here
+  std::string frame;      ///< of the message: which laser
+  std::size_t topic = 0;  ///< which of the topics it came by
+  ScanPlacement at = {};
 };
 
 /// Turns scans (sensor_msgs/LaserScan, or the first echoes of MultiEchoLaserScan) and tf into
@@ -60,7 +57,7 @@ class ScanFeed {
         {};               ///< empty: not asked for; T_fixed_robot is the sensor's pose then
     double oldest = 0.0;  ///< s, of a scan of one instant that may be driven by; 0: mapping only
     std::string odom_frame = "odom";  ///< in which the robot never leaps, where tf knows it
-    bool asks_odometry = false;       ///< whether PlacedScan::T_odom_robot is wanted
+    bool asks_odometry = false;       ///< whether ScanPlacement::T_odom_robot is wanted
   };
   using Sink = std::function<void(const PlacedScan&)>;
 
@@ -77,25 +74,19 @@ class ScanFeed {
   std::string lastTrouble() const;
 
  private:
-  struct Waiting {
-    Scan scan;
-    ros::Time stamp, middle, arrival;
-    std::string frame;
-    std::size_t topic;
-  };
   enum class Pose { kKnown, kExpected, kNever };
 
   using Event = ros::MessageEvent<const topic_tools::ShapeShifter>;
 
   void receive(const Event& event, std::size_t topic);
   void serve();
-  void use(const Waiting& waiting);
+  void use(PlacedScan& placed);
   bool drives() const { return settings_.oldest > 0.0; }
   /// Why a scan that has just come must not be driven by; empty where it may.
-  std::string whyUnfit(const Waiting& waiting) const;
+  std::string whyUnfit(const PlacedScan& waiting) const;
   std::optional<ros::Time> latestPose(const std::string& laser_frame) const;
-  Pose pose(const Waiting& waiting, const std::optional<ros::Time>& latest) const;
-  std::string whyNoPose(const Waiting& waiting) const;
+  Pose pose(const PlacedScan& waiting, const std::optional<ros::Time>& latest) const;
+  std::string whyNoPose(const PlacedScan& waiting) const;
   /// @param rule  that the scan broke: the first scan of each reason and rule is told at once.
   void drop(const std::string& reason, const std::string& detail = "",
             const std::string& rule = "");
@@ -107,7 +98,7 @@ class ScanFeed {
   Settings settings_;
   PlacementFrames frames_;
   Sink sink_;
-  std::deque<Waiting> waiting_;
+  std::deque<PlacedScan> waiting_;  ///< not placed yet
   PoseGate gate_;
   std::map<std::string, MissingReturns> missing_returns_;  ///< of each laser, by its frame
   std::map<std::string, ScanFaults> faults_;               ///< the same

@@ -20,28 +20,27 @@ struct PlacementFrames {
 
 /// Where tf has a laser and its robot at one time.
 struct ScanPlacement {
-  PlanarPose T_fixed_sensor;
-  Pose2 T_fixed_robot, T_robot_sensor;
+  Pose2 T_fixed_robot;
+  Pose2 T_robot_sensor;               ///< identity where the robot's frame is not asked for
   std::optional<Pose2> T_odom_robot;  ///< where that is asked for and known
+  /// Of the laser during the sweep, in the smooth frame where that is known, else in the fixed one:
+  /// in the middle, and half of a sweep before and after, where tf knows it.
+  SweepMotion motion;
 };
 
-/// Whether placementOf() has what it needs from tf then. @param laser  frame of the scan.
+/// Whether placeByTf() has what it needs from tf then. @param laser  frame of the scan.
 bool hasPlacement(const Transforms& transforms, const PlacementFrames& frames,
                   const std::string& laser, const ros::Time& time);
 
 /// The one way in which scans of bags and of topics are placed: each pose is looked up at once,
 /// since one put together from others differs from it in the last bit.
+/// @param scan    is given its T_map_sensor in the fixed frame.
+/// @param middle  of its sweep.
 /// @throws std::runtime_error where tf does not know a pose, or planarPose() refuses it.
-ScanPlacement placementOf(const Transforms& transforms, const PlacementFrames& frames,
-                          const std::string& laser, const ros::Time& time);
+ScanPlacement placeByTf(Scan& scan, const Transforms& transforms, const PlacementFrames& frames,
+                        const std::string& laser, const ros::Time& middle);
 
 /// Half of a sweep. Of a laser whose driver tells none, half of a usual one.
 ros::Duration halfSweep(double sweep_duration);
-
-/// How the laser moved during a sweep, by tf in the smooth frame where that is known, else in the
-/// fixed one: in the middle, and half of a sweep before and after, where tf knows it.
-SweepMotion sweepMotion(const Transforms& transforms, const PlacementFrames& frames,
-                        const std::string& laser, const ros::Time& middle,
-                        const ros::Duration& half);
 
 }  // namespace cca

@@ -34,6 +34,19 @@ PlanarPose planarPose(const geometry_msgs::Transform& transform) {
   return {{t.x, t.y, std::atan2(xy, xx)}, up < 0.0};
 }
 
+PlanarPose planarPose(const geometry_msgs::Pose& pose) {
+  geometry_msgs::Transform transform;
+  transform.translation.x = pose.position.x;
+  transform.translation.y = pose.position.y;
+  transform.rotation = pose.orientation;
+  return planarPose(transform);
+}
+
+Pose2 flatPose(const geometry_msgs::Pose& pose) {
+  const auto& q = pose.orientation;
+  return {pose.position.x, pose.position.y, 2.0 * std::atan2(q.z, q.w)};
+}
+
 geometry_msgs::Transform transformMessage(const Pose2& pose) {
   geometry_msgs::Transform message;
   message.translation.x = pose.x;
@@ -47,6 +60,30 @@ geometry_msgs::Pose poseMessage(const Pose2& pose) {
   message.position.x = pose.x;
   message.position.y = pose.y;
   message.orientation = yawMessage(pose.theta);
+  return message;
+}
+
+std_msgs::Header headerMessage(const std::string& frame, const ros::Time& stamp) {
+  std_msgs::Header message;
+  message.frame_id = frame;
+  message.stamp = stamp;
+  return message;
+}
+
+geometry_msgs::PoseStamped poseMessage(const Pose2& pose, const std::string& frame,
+                                       const ros::Time& stamp) {
+  geometry_msgs::PoseStamped message;
+  message.header = headerMessage(frame, stamp);
+  message.pose = poseMessage(pose);
+  return message;
+}
+
+geometry_msgs::TransformStamped transformMessage(const Pose2& pose, const std::string& parent,
+                                                 const std::string& child, const ros::Time& stamp) {
+  geometry_msgs::TransformStamped message;
+  message.header = headerMessage(parent, stamp);
+  message.child_frame_id = child;
+  message.transform = transformMessage(pose);
   return message;
 }
 

@@ -49,11 +49,13 @@ std::string published(const std::vector<std::string>& types) {
   return names;
 }
 
-Finding silent(const std::string& topic, const std::vector<std::string>& types) {
+/// @param what  is wrong; empty: nothing came.
+void tellSilent(const std::string& topic, const std::vector<std::string>& types, std::string what,
+                Findings& findings) {
   const std::string others = published(types);
-  const std::string name = ros::names::resolve(topic);
-  return {Finding::Kind::kFault, topic + ": nothing came by " + name,
-          others.empty() ? "start what publishes " + types.front() : topic + ":= one of" + others};
+  if (what.empty()) what = "nothing came by " + ros::names::resolve(topic);
+  findings.fault(topic + ": " + what, others.empty() ? "start what publishes " + types.front()
+                                                     : topic + ":= one of" + others);
 }
 
 const char* nameOf(Finding::Kind kind) {
@@ -61,7 +63,7 @@ const char* nameOf(Finding::Kind kind) {
 }
 
 /// @return  whether there is no fault.
-bool report(const std::vector<Finding>& findings) {
+bool report(const Findings& findings) {
   int faults = 0;
   for (const Finding& finding : findings) {
     std::printf("%s  %s\n", nameOf(finding.kind), finding.what.c_str());
@@ -73,6 +75,12 @@ bool report(const std::vector<Finding>& findings) {
   return faults == 0;
 }
 
+template <class Message, class Take>
+ros::Subscriber hear(ros::NodeHandle& node, const char* topic, std::uint32_t queue,
+                     const Take& take) {
+  return node.subscribe<Message, const ros::MessageEvent<const Message>&>(topic, queue, take);
+}
+
 /// @return  whether the robot is fit.
 bool check() {
   const Settings settings = readSettings();
@@ -80,8 +88,7 @@ bool check() {
   ros::NodeHandle node;
   const TransformFeed tf(node, [] {});
   std::string no_scan;
-  using Event = ros::MessageEvent<const topic_tools::ShapeShifter>;
-  const auto takeScan = [&](const Event& event) {
+  const auto takeScan = [&](const ros::MessageEvent<const topic_tools::ShapeShifter>& event) {
     try {
       check.take(scanOf(*event.getConstMessage()), event.getReceiptTime());
     } catch (const std::runtime_error& error) {
@@ -96,16 +103,10 @@ bool check() {
   const auto takeOdometry = [&](const ros::MessageEvent<const nav_msgs::Odometry>& event) {
     check.take(*event.getConstMessage(), event.getReceiptTime());
   };
-  const auto scan = node.subscribe<topic_tools::ShapeShifter, const Event&>("scan", 100, takeScan);
-  const auto odometry =
-      node.subscribe<nav_msgs::Odometry, const ros::MessageEvent<const nav_msgs::Odometry>&>(
-          "odom", 100, takeOdometry);
-  const auto transforms =
-      node.subscribe<tf2_msgs::TFMessage, const ros::MessageEvent<const tf2_msgs::TFMessage>&>(
-          "/tf", 1000, takeTransforms);
-  const auto fixed =
-      node.subscribe<tf2_msgs::TFMessage, const ros::MessageEvent<const tf2_msgs::TFMessage>&>(
-          "/tf_static", 1000, takeTransforms);
+  const auto scan = hear<topic_tools::ShapeShifter>(node, "scan", 100, takeScan);
+  const auto odometry = hear<nav_msgs::Odometry>(node, "odom", 100, takeOdometry);
+  const auto transforms = hear<tf2_msgs::TFMessage>(node, "/tf", 1000, takeTransforms);
+  const auto fixed = hear<tf2_msgs::TFMessage>(node, "/tf_static", 1000, takeTransforms);
   const ros::Publisher commands = node.advertise<geometry_msgs::Twist>("cmd_vel", 1);
   const ros::WallTime begin = ros::WallTime::now();
   double left = settings.seconds;
@@ -115,21 +116,22 @@ bool check() {
     left = settings.seconds - (ros::WallTime::now() - begin).toSec();
   }
   if (ros::Time::isSimTime() && ros::Time::now().isZero()) {
-    return report({{Finding::Kind::kFault, "clock: use_sim_time is true, and nothing gives /clock",
-                    "rosparam set use_sim_time false, if no simulation or bag is to give it"}});
+    Findings no_clock;
+    no_clock.fault("clock: use_sim_time is true, and nothing gives /clock",
+                   "rosparam set use_sim_time false, if no simulation or bag is to give it");
+    return report(no_clock);
   }
-  std::vector<Finding> findings = check.findings(tf.transforms());
+  Findings findings = check.findings(tf.transforms());
   if (check.scans() == 0) {
-    findings.push_back(silent("scan", {"sensor_msgs/LaserScan", "sensor_msgs/MultiEchoLaserScan"}));
-    if (!no_scan.empty()) findings.back().what = "scan: " + no_scan;
+    tellSilent("scan", {"sensor_msgs/LaserScan", "sensor_msgs/MultiEchoLaserScan"}, no_scan,
+               findings);
   }
-  if (!check.hasOdometry()) findings.push_back(silent("odom", {"nav_msgs/Odometry"}));
+  if (!check.hasOdometry()) tellSilent("odom", {"nav_msgs/Odometry"}, "", findings);
   if (commands.getNumSubscribers() > 0) {
-    findings.push_back({Finding::Kind::kGood, "cmd_vel: somebody listens", ""});
+    findings.good("cmd_vel: somebody listens");
   } else {
-    findings.push_back({Finding::Kind::kFault,
-                        "cmd_vel: nobody listens to " + ros::names::resolve("cmd_vel"),
-                        "cmd_vel:= the topic that the base listens to (rostopic list -s)"});
+    findings.fault("cmd_vel: nobody listens to " + ros::names::resolve("cmd_vel"),
+                   "cmd_vel:= the topic that the base listens to (rostopic list -s)");
   }
   return report(findings);
 }

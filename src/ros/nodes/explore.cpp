@@ -100,9 +100,8 @@ void exploreSimulated(const Settings& settings, ros::NodeHandle& node,
   Exploration exploration(node, private_node, exploration_settings, settings.program);
   exploration.begin(std::make_unique<GivenPoses>());
   const GoalServer goals(node, private_node, settings.driver.frames.map, exploration);
-  const std::map<std::string, long> none_dropped;
-  NodeDiagnostics diagnostics(
-      node, private_node, [&]() -> const auto& { return none_dropped; });
+  const NodeDiagnostics::Dropped none_dropped;
+  NodeDiagnostics diagnostics(node, private_node, none_dropped);
   Pace pace(settings.simulator.speed);
   Velocity velocity;
   while (pace.wait(robot.simulation().time())) {

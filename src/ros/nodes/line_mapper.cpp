@@ -14,7 +14,7 @@
 #include "node_main.hpp"
 #include "ros/bags/topic_recorder.hpp"
 #include "ros/input/scan_feed.hpp"
-#include "ros/messages/line_messages.hpp"
+#include "ros/messages/map_messages.hpp"
 #include "ros/output/line_publisher.hpp"
 #include "ros/output/map_saver.hpp"
 #include "ros/output/plan_server.hpp"
@@ -81,8 +81,7 @@ class LineMapper {
         page_(private_node, parameters_.page, pageSettings(),
               [this](const RunCommand& command) { heed(command); }),
         scans_(node, scanSettings(), [this](const PlacedScan& scan) { insert(scan); }),
-        diagnostics_(
-            node, private_node, [this]() -> const auto& { return scans_.dropped(); }),
+        diagnostics_(node, private_node, scans_.dropped()),
         scan_lines_(node.advertise<cca_mrpt::LineMap>("scan_lines", 10)),
         reset_(private_node.advertiseService("reset", &LineMapper::onReset, this)),
         saver_(private_node, parameters_.out, [this] { return products(); }),
@@ -133,13 +132,12 @@ class LineMapper {
 
   /// An empty map.
   void begin() {
-    path_.reset();
+    path_.shutdown();
     auto localiser =
         makeLocaliser(parameters_.pose, parameters_.corrections, parameters_.program.mapping);
     slam_ = dynamic_cast<SlamLocaliser*>(localiser.get());
-    if (auto* external = dynamic_cast<ExternalCorrections*>(localiser.get())) {
-      path_.emplace(node_, *external);
-    }
+    external_ = dynamic_cast<ExternalCorrections*>(localiser.get());
+    if (external_) path_ = hearCorrectedPath(node_, *external_);
     grid_.restart();
     session_ = std::make_unique<MappingSession>(
         std::move(localiser), MappingSession::Settings{parameters_.program.mapping}, &grid_);
@@ -172,7 +170,7 @@ class LineMapper {
   void show(const Estimate& estimate, const Measurement& measurement, const PlacedScan& scan) {
     estimate_ = estimate;
     if (estimate.was_corrected) {
-      if (path_) path_->logCorrection();
+      if (external_) logCorrection(*external_);
       way_.replace(session_->times(), session_->trajectory());
     }
     if (slam_) {
@@ -199,10 +197,7 @@ class LineMapper {
     for (const LineSegment& line : session_->scanLines()) {
       numbered.push_back({numbered.size(), line, line.moments.weight});
     }
-    std_msgs::Header header;
-    header.stamp = scan.stamp;
-    header.frame_id = scan.frame;
-    scan_lines_.publish(lineMapMessage(numbered, header));
+    scan_lines_.publish(lineMapMessage(numbered, headerMessage(scan.frame, scan.stamp)));
   }
 
   bool onReset(std_srvs::Trigger::Request& /*request*/, std_srvs::Trigger::Response& response) {
@@ -237,9 +232,10 @@ class LineMapper {
   GridRecorder grid_;
   SlamLocaliser* slam_ = nullptr;  ///< the session's, with line SLAM
   std::unique_ptr<MappingSession> session_;
-  std::optional<CorrectedPath> path_;  ///< with corrections of tf's
-  Estimate estimate_;                  ///< the last one
-  Pose2 T_map_start_;                  ///< where SLAM's map begins: at the last ~reset
+  ExternalCorrections* external_ = nullptr;  ///< the same, with corrections of tf's
+  ros::Subscriber path_;
+  Estimate estimate_;  ///< the last one
+  Pose2 T_map_start_;  ///< where SLAM's map begins: at the last ~reset
   std::optional<SlamPublisher> slam_publisher_;
   LinePublisher publisher_;
   WayPublisher way_;

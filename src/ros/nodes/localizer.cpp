@@ -67,8 +67,7 @@ class Localizer {
         pose_(node, parameters_.frames, "amcl_pose"),
         scans_(node, {parameters_.scans, parameters_.frames.odom, parameters_.frames.base},
                [this](const PlacedScan& scan) { localise(scan); }),
-        diagnostics_(
-            node, private_node, [this]() -> const auto& { return scans_.dropped(); }),
+        diagnostics_(node, private_node, scans_.dropped()),
         initial_pose_(node.subscribe("initialpose", 1, &Localizer::place, this)) {
     lines_.publish(mapLinesOf(plan_.lines), ros::Time::now());
     ROS_INFO("%zu lines of %s (%s)", plan_.lines.size(), parameters_.plan.c_str(),
@@ -121,9 +120,7 @@ class Localizer {
                parameters_.frames.map.c_str());
       return;
     }
-    const auto& p = message.pose.pose.position;
-    const auto& q = message.pose.pose.orientation;
-    const Pose2 told{p.x, p.y, 2.0 * std::atan2(q.z, q.w)};
+    const Pose2 told = flatPose(message.pose.pose);
     const auto& given = message.pose.covariance;
     Eigen::Vector3d variances(given[0], given[7], given[35]);
     if (!isFinite(told) || !variances.allFinite()) {

@@ -83,28 +83,21 @@ void registerAgain() {
 MasterWatch::MasterWatch() : thread_([this] { watch(); }) {}
 
 MasterWatch::~MasterWatch() {
-  {
-    const std::lock_guard<std::mutex> lock(mutex_);
-    ends_ = true;
-  }
-  ending_.notify_all();
+  ending_.set_value();
   thread_.join();
 }
 
 void MasterWatch::watch() {
   int known = masterProcess();
-  std::unique_lock<std::mutex> lock(mutex_);
-  while (!ending_.wait_for(lock, std::chrono::seconds(1), [this] { return ends_; })) {
-    lock.unlock();
+  const std::future<void> ended = ending_.get_future();
+  while (ended.wait_for(std::chrono::seconds(1)) == std::future_status::timeout) {
     const int present = masterProcess();
-    if (present != 0 && present != known) {
-      if (known != 0) {
-        ROS_WARN("the master was restarted: registering with it again");
-        registerAgain();
-      }
-      known = present;
+    if (present == 0 || present == known) continue;
+    if (known != 0) {
+      ROS_WARN("the master was restarted: registering with it again");
+      registerAgain();
     }
-    lock.lock();
+    known = present;
   }
 }
 

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <condition_variable>
-#include <mutex>
+#include <future>
 #include <thread>
 
 namespace cca {
@@ -21,9 +20,7 @@ class MasterWatch {
  private:
   void watch();
 
-  std::mutex mutex_;
-  std::condition_variable ending_;
-  bool ends_ = false;
+  std::promise<void> ending_;
   std::thread thread_;
 };
 

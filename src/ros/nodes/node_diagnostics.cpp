@@ -6,10 +6,8 @@
 namespace cca {
 
 NodeDiagnostics::NodeDiagnostics(ros::NodeHandle& node, ros::NodeHandle& private_node,
-                                 Dropped dropped)
-    : dropped_(std::move(dropped)),
-      updater_(node, private_node),
-      last_report_(ros::WallTime::now()) {
+                                 const Dropped& dropped)
+    : dropped_(dropped), updater_(node, private_node), last_report_(ros::WallTime::now()) {
   updater_.setHardwareID("none");
   updater_.add("scans", this, &NodeDiagnostics::report);
   // By the wall: a stopped clock is one of the things to be told.
@@ -31,7 +29,7 @@ void NodeDiagnostics::report(diagnostic_updater::DiagnosticStatusWrapper& status
   const double seconds = std::max(1e-3, (now - last_report_).toSec());
   const double rate = static_cast<double>(scans_ - scans_reported_) / seconds;
   long dropped = 0;
-  for (const auto& [reason, count] : dropped_()) {
+  for (const auto& [reason, count] : dropped_) {
     status.add("dropped: " + reason, count);
     dropped += count;
   }

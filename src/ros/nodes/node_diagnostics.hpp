@@ -4,7 +4,6 @@
 #include <diagnostic_updater/diagnostic_updater.h>
 #include <ros/ros.h>
 
-#include <functional>
 #include <map>
 #include <string>
 
@@ -16,9 +15,10 @@ namespace cca {
 /// spent on a scan, how far scans and map agree, and the node's state.
 class NodeDiagnostics {
  public:
-  using Dropped = std::function<const std::map<std::string, long>&()>;
+  using Dropped = std::map<std::string, long>;
 
-  NodeDiagnostics(ros::NodeHandle& node, ros::NodeHandle& private_node, Dropped dropped);
+  /// @param dropped  scans by reason; outlives this.
+  NodeDiagnostics(ros::NodeHandle& node, ros::NodeHandle& private_node, const Dropped& dropped);
 
   /// @param agreement  of scans and map, with this scan.
   void scanUsed(double seconds_spent, const ScanAgreement& agreement);
@@ -29,7 +29,7 @@ class NodeDiagnostics {
  private:
   void report(diagnostic_updater::DiagnosticStatusWrapper& status);
 
-  Dropped dropped_;
+  const Dropped& dropped_;
   diagnostic_updater::Updater updater_;
   ros::WallTimer timer_;
   ros::WallTime last_report_;

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "node_localisation.hpp"
 
-#include <cmath>
 #include <utility>
 
 #include "cca_mrpt/localisation/given_poses.hpp"
 #include "node_main.hpp"
 #include "ros/input/transform_feed.hpp"
+#include "ros/messages/pose_message.hpp"
 
 namespace cca {
 namespace {
@@ -25,35 +25,32 @@ std::unique_ptr<Localiser> makeLocaliser(const std::string& pose, bool correctio
 Measurement measurementOf(const PlacedScan& placed, bool is_in_odometry) {
   Measurement measurement;
   measurement.scan = placed.scan;
-  measurement.T_robot_sensor = placed.T_robot_sensor;
+  measurement.T_robot_sensor = placed.at.T_robot_sensor;
   measurement.time = placed.middle.toSec();
-  measurement.motion = placed.motion;
+  measurement.motion = placed.at.motion;
   if (is_in_odometry) {
-    measurement.T_odom_robot = placed.T_fixed_robot;
+    measurement.T_odom_robot = placed.at.T_fixed_robot;
   } else {
-    measurement.T_map_robot = placed.T_fixed_robot;
-    measurement.T_odom_robot = placed.T_odom_robot;
+    measurement.T_map_robot = placed.at.T_fixed_robot;
+    measurement.T_odom_robot = placed.at.T_odom_robot;
   }
   return measurement;
 }
 
-CorrectedPath::CorrectedPath(ros::NodeHandle& node, ExternalCorrections& corrections)
-    : corrections_(corrections),
-      path_(node.subscribe("corrected_path", 1, &CorrectedPath::receive, this)) {}
-
-void CorrectedPath::logCorrection() const {
-  ROS_INFO("the localisation was corrected: the past is placed anew%s",
-           corrections_.isTold() ? " by corrected_path" : "");
+ros::Subscriber hearCorrectedPath(ros::NodeHandle& node, ExternalCorrections& corrections) {
+  const auto receive = [&corrections](const nav_msgs::Path::ConstPtr& path) {
+    std::vector<ExternalCorrections::TimedPose> poses;
+    for (const auto& stamped : path->poses) {
+      poses.push_back({stamped.header.stamp.toSec(), flatPose(stamped.pose)});
+    }
+    corrections.correct(std::move(poses));
+  };
+  return node.subscribe<nav_msgs::Path>("corrected_path", 1, receive);
 }
 
-void CorrectedPath::receive(const nav_msgs::Path& path) {
-  std::vector<ExternalCorrections::TimedPose> poses;
-  for (const auto& stamped : path.poses) {
-    const auto& p = stamped.pose.position;
-    const auto& q = stamped.pose.orientation;
-    poses.push_back({stamped.header.stamp.toSec(), {p.x, p.y, 2.0 * std::atan2(q.z, q.w)}});
-  }
-  corrections_.correct(std::move(poses));
+void logCorrection(const ExternalCorrections& corrections) {
+  ROS_INFO("the localisation was corrected: the past is placed anew%s",
+           corrections.isTold() ? " by corrected_path" : "");
 }
 
 std::string choosePose(ros::NodeHandle& node, const FrameNames& frames,

@@ -26,19 +26,11 @@ Measurement measurementOf(const PlacedScan& placed, bool is_in_odometry);
 
 /// `corrected_path` (nav_msgs/Path, poses of the robot with stamps): who localises the robot
 /// publishes its way as corrected.
-class CorrectedPath {
- public:
-  /// @param corrections  that take it; to outlive this.
-  CorrectedPath(ros::NodeHandle& node, ExternalCorrections& corrections);
-  /// Logs that the past has been corrected, and by what.
-  void logCorrection() const;
+/// @param corrections  that take it; to outlive the subscriber.
+ros::Subscriber hearCorrectedPath(ros::NodeHandle& node, ExternalCorrections& corrections);
 
- private:
-  void receive(const nav_msgs::Path& path);
-
-  ExternalCorrections& corrections_;
-  ros::Subscriber path_;
-};
+/// Logs that the past has been corrected, and by what.
+void logCorrection(const ExternalCorrections& corrections);
 
 /// Waits until it is clear who tells where the robot is.
 /// @param tell  is given what is waited for.

@@ -9,9 +9,8 @@
 
 #include "navigation/world/world_model.hpp"
 #include "ros/messages/grid_message.hpp"
-#include "ros/messages/line_messages.hpp"
+#include "ros/messages/map_messages.hpp"
 #include "ros/messages/pose_message.hpp"
-#include "ros/messages/robot_markers.hpp"
 
 namespace cca {
 namespace {
@@ -35,21 +34,11 @@ ExplorationPublisher::ExplorationPublisher(ros::NodeHandle& node, std::string ma
       static_map_(node.advertiseService("static_map", &ExplorationPublisher::onGetMap, this)),
       dynamic_map_(node.advertiseService("dynamic_map", &ExplorationPublisher::onGetMap, this)) {}
 
-std_msgs::Header ExplorationPublisher::header(const ros::Time& stamp) const {
-  std_msgs::Header h;
-  h.frame_id = map_frame_;
-  h.stamp = stamp;
-  return h;
-}
-
 void ExplorationPublisher::showGoal(const std::optional<Pose2>& T_map_goal,
                                     const ros::Time& stamp) {
   const auto is_shown = [&](const Pose2& T) { return shown_goal_ && *shown_goal_ == T.position(); };
   if (T_map_goal && !is_shown(*T_map_goal)) {
-    geometry_msgs::PoseStamped message;
-    message.header = header(stamp);
-    message.pose = poseMessage(*T_map_goal);
-    goal_.publish(message);
+    goal_.publish(poseMessage(*T_map_goal, map_frame_, stamp));
   }
   shown_goal_.reset();
   if (T_map_goal) shown_goal_ = T_map_goal->position();
@@ -75,7 +64,8 @@ void ExplorationPublisher::showAll(const ExplorationSession& session,
                                    const mrpt::maps::COccupancyGridMap2D& grid,
                                    const ros::Time& stamp) {
   lines_.publish(session.mapping().lineMap().lines(), stamp);
-  shown_map_ = gridMessage(grid, header(stamp));
+  const std_msgs::Header header = headerMessage(map_frame_, stamp);
+  shown_map_ = gridMessage(grid, header);
   map_.publish(shown_map_);
   map_metadata_.publish(shown_map_.info);
   std::vector<Eigen::Vector2d> frontier;
@@ -84,14 +74,15 @@ void ExplorationPublisher::showAll(const ExplorationSession& session,
   for (const Cell cell : explorer.world().frontierCells().cells()) {
     frontier.push_back(exploration_grid.centreOf(cell));
   }
-  frontiers_.publish(frontierMarkers(frontier, exploration_grid.resolution(), header(stamp)));
+  frontiers_.publish(frontierMarkers(frontier, exploration_grid.resolution(), header));
   way_.publish(stamp);
   lines_shown_ = map_shown_ = ros::WallTime::now();
 }
 
 void ExplorationPublisher::showRobot(const Pose2& T_map_robot, const ros::Time& stamp) {
   if (robot_.getNumSubscribers() == 0) return;
-  robot_.publish(robotMarkers(T_map_robot, radius_, shown_status_, header(stamp)));
+  robot_.publish(
+      robotMarkers(T_map_robot, radius_, shown_status_, headerMessage(map_frame_, stamp)));
 }
 
 bool ExplorationPublisher::onGetMap(nav_msgs::GetMap::Request& /*request*/,

@@ -41,7 +41,6 @@ class ExplorationPublisher {
   void showGoal(const std::optional<Pose2>& T_map_goal, const ros::Time& stamp);
   void showRobot(const Pose2& T_map_robot, const ros::Time& stamp);
   bool onGetMap(nav_msgs::GetMap::Request&, nav_msgs::GetMap::Response& response);
-  std_msgs::Header header(const ros::Time& stamp) const;
 
   std::string map_frame_;
   double radius_;  // m

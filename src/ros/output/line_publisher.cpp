@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "line_publisher.hpp"
 
-#include "ros/messages/line_messages.hpp"
+#include "ros/messages/map_messages.hpp"
+#include "ros/messages/pose_message.hpp"
 
 namespace cca {
 
@@ -11,9 +12,7 @@ LinePublisher::LinePublisher(ros::NodeHandle& node, std::string frame)
       markers_(node.advertise<visualization_msgs::MarkerArray>("line_markers", 2, true)) {}
 
 void LinePublisher::publish(const std::vector<MapLine>& lines, const ros::Time& stamp) {
-  std_msgs::Header header;
-  header.frame_id = frame_;
-  header.stamp = stamp;
+  const std_msgs::Header header = headerMessage(frame_, stamp);
   lines_.publish(lineMapMessage(lines, header));
   markers_.publish(lineMarkers(lines, header));
 }

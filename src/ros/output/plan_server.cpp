@@ -5,13 +5,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <exception>
 #include <utility>
 
+#include "io/files/text.hpp"
 #include "io/maps/occupancy_files.hpp"
 #include "io/plans/plan_files.hpp"
-#include "ros/messages/plan_markers.hpp"
+#include "ros/messages/map_messages.hpp"
+#include "ros/messages/pose_message.hpp"
 
 namespace cca {
 namespace {
@@ -19,10 +20,9 @@ namespace {
 const ros::WallDuration kPlanPeriod(5.0);
 
 std::string inWords(const PlanRoom& room) {
-  char text[96];
-  std::snprintf(text, sizeof text, "room %d, %.1f m2%s", room.id, room.area,
-                room.open_border > 0.5 ? ", not yet seen to its end" : "");
-  return room.name.empty() ? text : room.name + ": " + text;
+  return (room.name.empty() ? "" : room.name + ": ") +
+         formatted("room %d, %.1f m2%s", room.id, room.area,
+                   room.open_border > 0.5 ? ", not yet seen to its end" : "");
 }
 
 /// The room of a name, else of an id; nullptr: none.
@@ -91,10 +91,7 @@ void PlanServer::show() {
     planned_.clear();
   }
   if (is_shown_) return;
-  std_msgs::Header header;
-  header.frame_id = map_frame_;
-  header.stamp = ros::Time::now();
-  markers_.publish(planMarkers(plan_, header));
+  markers_.publish(planMarkers(plan_, headerMessage(map_frame_, ros::Time::now())));
   is_shown_ = true;
 }
 
@@ -148,18 +145,13 @@ void PlanServer::sendTo(const PlanRoom& room, cca_mrpt::DriveToRoom::Response& r
       planned_.empty() ? Eigen::Vector2d(room.label) : planned_.back().position();
   const Eigen::Vector2d way = room.label - here;
   const double heading = way.isZero() ? 0.0 : std::atan2(way.y(), way.x());  // as it drives in
-  geometry_msgs::PoseStamped& goal = response.goal;
-  goal.header.frame_id = map_frame_;
-  goal.header.stamp = ros::Time::now();
-  goal.pose.position.x = room.label.x();
-  goal.pose.position.y = room.label.y();
-  goal.pose.orientation.z = std::sin(0.5 * heading);
-  goal.pose.orientation.w = std::cos(0.5 * heading);
+  response.goal =
+      poseMessage({room.label.x(), room.label.y(), heading}, map_frame_, ros::Time::now());
   response.id = static_cast<std::uint32_t>(room.id);
   response.message = inWords(room);
   response.success = goals_.getNumSubscribers() > 0;
   if (response.success)
-    goals_.publish(goal);
+    goals_.publish(response.goal);
   else
     response.message = "nobody listens to " + goals_.getTopic();
 }

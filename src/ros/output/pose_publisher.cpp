@@ -23,25 +23,12 @@ PosePublisher::PosePublisher(ros::NodeHandle& node, FrameNames frames, const std
 
 void PosePublisher::publish(const Estimate& estimate, const Pose2& T_odom_robot,
                             const ros::Time& stamp) {
-  publishTransform(estimate.T_map_robot * T_odom_robot.inverse(), stamp);
-  publishPose(estimate, stamp);
-}
-
-void PosePublisher::publishTransform(const Pose2& T_map_odom, const ros::Time& stamp) {
   tf2_msgs::TFMessage transforms;
-  transforms.transforms.resize(1);
-  auto& transform = transforms.transforms.front();
-  transform.header.frame_id = frames_.map;
-  transform.header.stamp = stamp + kHolds;
-  transform.child_frame_id = frames_.odom;
-  transform.transform = transformMessage(T_map_odom);
+  transforms.transforms = {transformMessage(estimate.T_map_robot * T_odom_robot.inverse(),
+                                            frames_.map, frames_.odom, stamp + kHolds)};
   transforms_.publish(transforms);
-}
-
-void PosePublisher::publishPose(const Estimate& estimate, const ros::Time& stamp) {
   geometry_msgs::PoseWithCovarianceStamped pose;
-  pose.header.frame_id = frames_.map;
-  pose.header.stamp = stamp;
+  pose.header = headerMessage(frames_.map, stamp);
   pose.pose.pose = poseMessage(estimate.T_map_robot);
   constexpr int kRows[] = {0, 1, 5};  // x, y, yaw of a pose in space
   for (int i = 0; i < 3; ++i) {

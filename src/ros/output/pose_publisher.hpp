@@ -22,8 +22,6 @@ class PosePublisher {
   void publish(const Estimate& estimate, const Pose2& T_odom_robot, const ros::Time& stamp);
 
  private:
-  void publishTransform(const Pose2& T_map_odom, const ros::Time& stamp);
-  void publishPose(const Estimate& estimate, const ros::Time& stamp);
   void warnOfOthers(const ros::MessageEvent<const tf2_msgs::TFMessage>& event) const;
 
   FrameNames frames_;

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "slam_publisher.hpp"
 
-#include "ros/messages/line_messages.hpp"
+#include "ros/messages/map_messages.hpp"
+#include "ros/messages/pose_message.hpp"
 #include "slam/loop_closing.hpp"
 
 namespace cca {
@@ -29,16 +30,13 @@ void SlamPublisher::note(const Estimate& estimate, const SlamLocaliser& localise
 }
 
 void SlamPublisher::publishLoops(const Slam& slam, const ros::Time& stamp) {
-  std_msgs::Header header;
-  header.frame_id = map_frame_;
-  header.stamp = stamp;
   const PoseGraph& graph = slam.graph();
   std::vector<Eigen::Vector2d> ends;
   for (const LoopVerdict& loop : slam.loops()) {
     ends.push_back(graph.pose(loop.frame).position());
     ends.push_back(graph.pose(loop.candidate).position());
   }
-  loop_markers_.publish(loopMarkers(ends, header));
+  loop_markers_.publish(loopMarkers(ends, headerMessage(map_frame_, stamp)));
   loops_shown_ = slam.loopsClosed();
 }
 

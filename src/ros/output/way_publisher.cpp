@@ -19,16 +19,11 @@ WayPublisher::WayPublisher(ros::NodeHandle& node, const std::string& frame)
 
 void WayPublisher::add(const Pose2& T_map_robot, const ros::Time& stamp) {
   if (!way_.poses.empty()) {
-    const auto& last = way_.poses.back().pose;
-    const double way = std::hypot(T_map_robot.x - last.position.x, T_map_robot.y - last.position.y);
-    const double theta = 2.0 * std::atan2(last.orientation.z, last.orientation.w);
-    if (way < kStep && std::abs(wrapAngle(T_map_robot.theta - theta)) < kTurn) return;
+    const Pose2 last = flatPose(way_.poses.back().pose);
+    const double way = std::hypot(T_map_robot.x - last.x, T_map_robot.y - last.y);
+    if (way < kStep && std::abs(wrapAngle(T_map_robot.theta - last.theta)) < kTurn) return;
   }
-  geometry_msgs::PoseStamped pose;
-  pose.header.frame_id = way_.header.frame_id;
-  pose.header.stamp = stamp;
-  pose.pose = poseMessage(T_map_robot);
-  way_.poses.push_back(pose);
+  way_.poses.push_back(poseMessage(T_map_robot, way_.header.frame_id, stamp));
 }
 
 void WayPublisher::replace(const std::vector<double>& times,

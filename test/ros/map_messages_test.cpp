@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "ros/messages/line_messages.hpp"
+#include "ros/messages/map_messages.hpp"
 
 #include <gtest/gtest.h>
 
