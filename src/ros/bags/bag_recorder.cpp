@@ -3,7 +3,6 @@
 
 #include <filesystem>
 #include <stdexcept>
-#include <system_error>
 
 namespace cca {
 

@@ -13,11 +13,7 @@ namespace cca {
 
 std::vector<BagTopic> topicsOf(const rosbag::Bag& bag, const std::vector<std::string>& types) {
   rosbag::View view;
-  if (types.empty()) {
-    view.addQuery(bag);
-  } else {
-    view.addQuery(bag, rosbag::TypeQuery(types));
-  }
+  types.empty() ? view.addQuery(bag) : view.addQuery(bag, rosbag::TypeQuery(types));
   std::map<std::string, BagTopic> topics;
   for (const auto* connection : view.getConnections()) {
     topics[connection->topic] = {connection->topic, connection->datatype};

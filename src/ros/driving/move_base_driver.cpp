@@ -43,10 +43,8 @@ void MoveBaseDriver::driveTo(const Pose2& T_map_goal) {
 }
 
 void MoveBaseDriver::stop() {
-  if (!T_map_goal_) return;
-  T_map_goal_.reset();
-  client_.cancelGoal();
-  client_.stopTrackingGoal();
+  if (T_map_goal_) client_.cancelGoal();
+  forget();
 }
 
 void MoveBaseDriver::forget() {

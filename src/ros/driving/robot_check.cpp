@@ -7,7 +7,6 @@
 #include <memory>
 #include <numeric>
 #include <optional>
-#include <utility>
 
 #include "cca_mrpt/sensing/missing_returns.hpp"
 #include "cca_mrpt/session/mapping_session.hpp"

@@ -76,7 +76,11 @@ RobotDriver::RobotDriver(ros::NodeHandle& node, ros::NodeHandle& private_node,
   if (!slam_ && !settings_.resume.empty()) {
     ROS_WARN("_resume:=%s has no effect: the robot is told where it is", settings_.resume.c_str());
   }
-  exploration_.begin(std::move(localiser), settings_.resume, [this] { standWhileCorrecting(); });
+  exploration_.begin(std::move(localiser), settings_.resume, [this] {
+    // It takes a second where the map is large; nobody else would stop the robot. move_base drives
+    // on by its own.
+    if (!move_base_) stand();
+  });
   if (settings_.pose == "tf" && !settings_.plan.empty()) {
     exploration_.knowPlan(settings_.plan_lines);
   } else if (!settings_.plan.empty()) {
@@ -89,9 +93,8 @@ RobotDriver::RobotDriver(ros::NodeHandle& node, ros::NodeHandle& private_node,
   } else {
     commands_ = node.advertise<geometry_msgs::Twist>("cmd_vel", 1);
   }
-  odometry_ = node.subscribe<nav_msgs::Odometry>(
-      "odom", 10, [this](const nav_msgs::Odometry::ConstPtr& m) { take(*m); }, ros::VoidConstPtr(),
-      ros::TransportHints().tcpNoDelay());
+  odometry_ =
+      node.subscribe("odom", 10, &RobotDriver::take, this, ros::TransportHints().tcpNoDelay());
   watchdog_ =
       node.createTimer(ros::Duration(kWatchPeriod), [this](const ros::TimerEvent&) { watch(); });
 }
@@ -161,9 +164,8 @@ Velocity RobotDriver::measuredVelocity(const ros::Time& stamp) const {
 void RobotDriver::checkLatency() {
   const ActuationModel& shown = exploration_.actuation();
   const bool is_later = shown.earliest() > settings_.robot.latency + kWorthTelling;
-  if (has_told_latency_ || !shown.knowsLatency() || !is_later) return;
-  has_told_latency_ = true;
-  ROS_WARN(
+  if (!shown.knowsLatency() || !is_later) return;
+  ROS_WARN_ONCE(
       "odom shows that commands act %.2f s late; robot/latency says %.2f s: the larger is used",
       shown.latency(), settings_.robot.latency);
 }
@@ -198,11 +200,13 @@ void RobotDriver::use(const PlacedScan& placed) {
   Observation observation = exploration_.sense(measurement, measuredVelocity(placed.stamp));
   const ExplorationSession& session = exploration_.session();
   if (slam_) {
-    slam_publisher_->publish(session.estimate(), placed.at.T_fixed_robot, *slam_, placed.stamp);
-    slam_publisher_->note(session.estimate(), *slam_, diagnostics_);
+    slam_publisher_->publish(session.estimate(), placed.at.T_fixed_robot, *slam_, placed.stamp,
+                             diagnostics_);
   } else if (session.estimate().was_corrected) {
     logCorrection(*external_);
-    moveAlong(session.mapping().past().correctionHere());
+    // What is kept stands in the frame of the map.
+    hazards_.move(session.mapping().past().correctionHere());
+    for (Beside& beside : beside_) beside.points.clear();  // the next are a tenth of a second away
   }
   if (const char* why = deaf()) {
     if (exploration_.drives()) exploration_.wait(why);
@@ -223,12 +227,6 @@ void RobotDriver::use(const PlacedScan& placed) {
   obey(exploration_.step(std::move(observation), placed.stamp));
   last_used_[0] = placed.arrival;
   diagnostics_.scanUsed((ros::WallTime::now() - begin).toSec(), exploration_.agreement());
-}
-
-/// Where the map was corrected, and what is kept stands in its frame.
-void RobotDriver::moveAlong(const Pose2& T_now_was) {
-  hazards_.move(T_now_was);
-  for (Beside& beside : beside_) beside.points.clear();  // the next are a tenth of a second away
 }
 
 /// What other sensors see.
@@ -275,9 +273,8 @@ double RobotDriver::longestSilence(std::size_t topic) const {
 
 void RobotDriver::tellSlowLaser(std::size_t topic) {
   const double limit = longestSilence(topic);
-  if (has_told_rate_ || limit <= settings_.scan_timeout) return;
-  has_told_rate_ = true;
-  ROS_WARN(
+  if (limit <= settings_.scan_timeout) return;
+  ROS_WARN_ONCE(
       "'%s' comes %.1f times a second: the robot is stopped %.2f s after the last one, not "
       "%.2f s (scan_timeout)",
       settings_.scans[topic].c_str(), 1.0 / scans_.period(topic).seconds(), limit,
@@ -339,12 +336,6 @@ void RobotDriver::stand() {
   } else {
     command({});
   }
-}
-
-// Correcting the past takes a second where the map is large; nobody else would stop the robot.
-// move_base drives on by its own.
-void RobotDriver::standWhileCorrecting() {
-  if (!move_base_) stand();
 }
 
 void RobotDriver::command(const Velocity& velocity) {

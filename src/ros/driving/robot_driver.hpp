@@ -5,7 +5,6 @@
 #include <ros/ros.h>
 
 #include <deque>
-#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
@@ -59,7 +58,6 @@ class RobotDriver {
   void take(const nav_msgs::Odometry& odometry);
   void use(const PlacedScan& placed);
   void useBeside(const PlacedScan& placed);
-  void moveAlong(const Pose2& T_now_was);
   void addObstacles(const PlacedScan& placed, Observation& observation);
   void obey(const Velocity& velocity);
   std::vector<Eigen::Vector2d> seenElsewhere(const ros::Time& stamp,
@@ -76,7 +74,6 @@ class RobotDriver {
   /// Why the robot cannot be driven; nullptr where it can.
   const char* deaf() const;
   void stand();
-  void standWhileCorrecting();
   void command(const Velocity& velocity);
   Velocity measuredVelocity(const ros::Time& stamp) const;
   void checkLatency();
@@ -94,7 +91,6 @@ class RobotDriver {
   Pose2 T_fixed_held_;     ///< where the robot was when it last was elsewhere
   double held_for_ = 0.0;  ///< s, since then, of being told to move
   ros::Time last_stamp_;
-  bool has_told_latency_ = false, has_told_rate_ = false;
   std::vector<ros::Time> last_used_;  ///< scan of each laser: when it came
   /// What the last scan of a laser but the first shows around the robot; m, fixed frame.
   struct Beside {

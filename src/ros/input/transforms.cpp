@@ -61,26 +61,24 @@ std::optional<ros::Time> Transforms::latest(const std::string& target,
   return buffer_.lookupTransform(frameName(target), frameName(source), {}).header.stamp;
 }
 
+geometry_msgs::Transform Transforms::find(const std::string& target, const std::string& source,
+                                          const ros::Time& time) const try {
+  return buffer_.lookupTransform(frameName(target), frameName(source), time).transform;
+} catch (const tf2::TransformException& error) {
+  throw std::runtime_error(error.what());
+}
+
 PlanarPose Transforms::lookup(const std::string& target, const std::string& source,
                               const ros::Time& time) const {
-  try {
-    return planarPose(
-        buffer_.lookupTransform(frameName(target), frameName(source), time).transform);
-  } catch (const tf2::TransformException& error) {
-    throw std::runtime_error(error.what());
-  }
+  return planarPose(find(target, source, time));
 }
 
 Eigen::Isometry3d Transforms::lookupInSpace(const std::string& target, const std::string& source,
                                             const ros::Time& time) const {
-  try {
-    const auto m = buffer_.lookupTransform(frameName(target), frameName(source), time).transform;
-    const auto& q = m.rotation;
-    return Eigen::Translation3d(m.translation.x, m.translation.y, m.translation.z) *
-           Eigen::Quaterniond(q.w, q.x, q.y, q.z).normalized();
-  } catch (const tf2::TransformException& error) {
-    throw std::runtime_error(error.what());
-  }
+  const geometry_msgs::Transform m = find(target, source, time);
+  const auto& q = m.rotation;
+  return Eigen::Translation3d(m.translation.x, m.translation.y, m.translation.z) *
+         Eigen::Quaterniond(q.w, q.x, q.y, q.z).normalized();
 }
 
 std::string Transforms::whyNot(const std::string& target, const std::string& source) const {

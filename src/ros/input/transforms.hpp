@@ -52,6 +52,9 @@ class Transforms {
   std::string whyNot(const std::string& target, const std::string& source) const;
 
  private:
+  geometry_msgs::Transform find(const std::string& target, const std::string& source,
+                                const ros::Time& time) const;
+
   tf2::BufferCore buffer_;
 };
 

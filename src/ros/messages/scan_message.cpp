@@ -2,14 +2,13 @@
 #include "ros/messages/scan_message.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 #include <utility>
 #include <vector>
 
 #include "geometry/median.hpp"
+#include "io/files/text.hpp"
 
 namespace cca {
 namespace {
@@ -29,9 +28,7 @@ constexpr double kFarthestMedian = 250.0;
 template <class... Values>
 void refuseUnless(bool sound, const char* rule, const char* pattern, Values... values) {
   if (sound) return;
-  std::array<char, 200> text{};
-  std::snprintf(text.data(), text.size(), pattern, values...);
-  throw MalformedScan(rule, text.data());
+  throw MalformedScan(rule, formatted(pattern, values...));
 }
 
 void check(const sensor_msgs::LaserScan& m) {

@@ -22,15 +22,6 @@ constexpr double kLongestStep = 0.5;           // s
 constexpr double kLongestContradiction = 5.0;  // s
 const ros::WallDuration kPagePeriod(0.5);
 
-LivePageSettings pageOf(const Exploration::Settings& settings, double robot_radius) {
-  LivePageSettings page;
-  page.title = settings.title;
-  page.robot_radius = robot_radius;
-  page.world = settings.world;
-  page.has_robot = true;
-  return page;
-}
-
 }  // namespace
 
 Exploration::Exploration(ros::NodeHandle& node, ros::NodeHandle& private_node, Settings settings,
@@ -38,17 +29,29 @@ Exploration::Exploration(ros::NodeHandle& node, ros::NodeHandle& private_node, S
     : settings_(std::move(settings)),
       program_(program),
       publisher_(node, settings_.map_frame, program.robot.radius),
-      page_(private_node, settings_.page, pageOf(settings_, program.robot.radius),
-            [this](const RunCommand& command) { heed(command); }),
+      page_(private_node, settings_.page, [this](const RunCommand& command) { heed(command); }),
       mode_(settings_.autostart ? Mode::kRunning : Mode::kStopped),
       saver_(private_node, settings_.out, [this] { return products(); }),
-      plan_(node, private_node, settings_.map_frame,
-            settings_.labels.empty() ? RoomLabels{} : roomLabelsOfFile(settings_.labels),
-            saver_.mutex(), [this] { return products(); }) {
-  services_ = {private_node.advertiseService("start", &Exploration::onStart, this),
-               private_node.advertiseService("stop", &Exploration::onStop, this),
-               private_node.advertiseService("pause", &Exploration::onPause, this),
-               private_node.advertiseService("home", &Exploration::onHome, this)};
+      plan_(node, private_node, settings_.map_frame, settings_.labels, saver_) {
+  using Trigger = std_srvs::Trigger;
+  using SetBool = std_srvs::SetBool;
+  const auto offer = [&](const char* name, Answer (Exploration::*order)()) {
+    const auto serve = [this, order](Trigger::Request&, Trigger::Response& response) {
+      std::tie(response.success, response.message) = (this->*order)();
+      return true;
+    };
+    services_.push_back(
+        private_node.advertiseService<Trigger::Request, Trigger::Response>(name, serve));
+  };
+  offer("start", &Exploration::start);
+  offer("stop", &Exploration::stop);
+  offer("home", &Exploration::returnHome);
+  const auto serve_pause = [this](SetBool::Request& request, SetBool::Response& response) {
+    std::tie(response.success, response.message) = pause(request.data);
+    return true;
+  };
+  services_.push_back(
+      private_node.advertiseService<SetBool::Request, SetBool::Response>("pause", serve_pause));
   setMode(mode_);
   page_timer_ = private_node.createWallTimer(kPagePeriod, [this](const ros::WallTimerEvent&) {
     if (session_) page_.repeat(publisher_.status(), session_->mapping().lineMap());
@@ -166,8 +169,7 @@ void Exploration::followErrand(const Action& action, double passed) {
 void Exploration::endErrand(ErrandOutcome outcome, const std::string& how) {
   session_->explorer().recall();
   why_paused_ = how + "; call ~pause with false to go on";
-  state_ = finished_ ? "finished: " + how : "paused: " + why_paused_;
-  publisher_.showStatus(state_);
+  setState(finished_ ? "finished: " + how : "paused: " + why_paused_);
   const ErrandEnd end = std::exchange(errand_end_, nullptr);
   page_.setPaused(!drives());
   end(outcome, how);
@@ -181,8 +183,7 @@ void Exploration::sendTo(const Pose2& T_map_goal, ErrandEnd end) {
   session_->explorer().sendTo(T_map_goal);
   errand_end_ = std::move(end);
   page_.setPaused(false);
-  state_ = "driving: to where it was sent";
-  publisher_.showStatus(state_);
+  setState("driving: to where it was sent");
 }
 
 void Exploration::recall(const std::string& why) {
@@ -227,10 +228,9 @@ void Exploration::tell(const Action& action) {
   }
   const bool is_paused = action.status == ExplorationStatus::kPaused;
   const std::string& reason = is_paused ? why_paused_ : action.reason;
-  state_ = failed_ ? "failed: scans contradict the map; the pose is lost, or the scans are wrong"
+  setState(failed_ ? "failed: scans contradict the map; the pose is lost, or the scans are wrong"
                    : std::string(nameOf(action.status)) + ": " + reason +
-                         (at_odds ? "; scans contradict the map" : "");
-  publisher_.showStatus(state_);
+                         (at_odds ? "; scans contradict the map" : ""));
 }
 
 void Exploration::finish(const ros::Time& stamp) {
@@ -249,7 +249,7 @@ void Exploration::finish(const ros::Time& stamp) {
 
 MapProducts Exploration::products() const {
   if (!hasBegun()) throw std::runtime_error("there is no map yet");
-  MapProducts products = mapProducts(settings_.title, session_->mapping());
+  MapProducts products = mapProducts(settings_.page.title, session_->mapping());
   products.grid = recorder_.grid().raster();
   products.summary["finished"] = finished_ && !failed_;
   products.summary["agreement"] = agreement().overall();
@@ -264,6 +264,11 @@ void Exploration::end() {
   if (settings_.save_at_end && hasBegun()) saver_.saveOrTell();
 }
 
+void Exploration::setState(const std::string& state) {
+  state_ = state;
+  publisher_.showStatus(state_);
+}
+
 void Exploration::setMode(Mode mode) {
   recall("called off");
   const std::lock_guard<std::mutex> lock(saver_.mutex());
@@ -272,18 +277,16 @@ void Exploration::setMode(Mode mode) {
   why_paused_ = "call ~pause with false to go on";
   page_.setPaused(!drives());
   if (finished_) return;
-  state_ = mode == Mode::kStopped  ? "stopped: call ~start to explore"
+  setState(mode == Mode::kStopped  ? "stopped: call ~start to explore"
            : mode == Mode::kPaused ? "paused: " + why_paused_
-                                   : "waiting: for the first scan";
-  publisher_.showStatus(state_);
+                                   : "waiting: for the first scan");
 }
 
 void Exploration::pause(const std::string& why) {
   setMode(Mode::kPaused);
   if (finished_) return;
   why_paused_ = why + "; " + why_paused_;
-  state_ = "paused: " + why_paused_;
-  publisher_.showStatus(state_);
+  setState("paused: " + why_paused_);
 }
 
 Exploration::Answer Exploration::start() {
@@ -328,42 +331,11 @@ void Exploration::heed(const RunCommand& command) {
     return sendTo({command.place_map.x(), command.place_map.y(), std::atan2(way.y(), way.x())},
                   [](ErrandOutcome, const std::string& how) { ROS_INFO("%s", how.c_str()); });
   }
-  const Answer answer = command.kind == Kind::kStart   ? start()
-                        : command.kind == Kind::kPause ? pause(true)
-                        : command.kind == Kind::kHome  ? returnHome()
-                                                       : stop();
-  if (!answer.success) ROS_WARN("the page's command: %s", answer.message.c_str());
-}
-
-namespace {
-
-template <class Answer, class Response>
-bool tellAnswer(const Answer& answer, Response& response) {
-  response.success = answer.success;
-  response.message = answer.message;
-  return true;
-}
-
-}  // namespace
-
-bool Exploration::onStart(std_srvs::Trigger::Request& /*request*/,
-                          std_srvs::Trigger::Response& response) {
-  return tellAnswer(start(), response);
-}
-
-bool Exploration::onStop(std_srvs::Trigger::Request& /*request*/,
-                         std_srvs::Trigger::Response& response) {
-  return tellAnswer(stop(), response);
-}
-
-bool Exploration::onHome(std_srvs::Trigger::Request& /*request*/,
-                         std_srvs::Trigger::Response& response) {
-  return tellAnswer(returnHome(), response);
-}
-
-bool Exploration::onPause(std_srvs::SetBool::Request& request,
-                          std_srvs::SetBool::Response& response) {
-  return tellAnswer(pause(request.data), response);
+  const auto [success, message] = command.kind == Kind::kStart   ? start()
+                                  : command.kind == Kind::kPause ? pause(true)
+                                  : command.kind == Kind::kHome  ? returnHome()
+                                                                 : stop();
+  if (!success) ROS_WARN("the page's command: %s", message.c_str());
 }
 
 }  // namespace cca

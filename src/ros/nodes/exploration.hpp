@@ -8,6 +8,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "cca_mrpt/io/parameters.hpp"
@@ -30,13 +31,11 @@ class Exploration {
  public:
   struct Settings {
     std::string map_frame = "map";
-    std::string labels;  ///< CSV with names of rooms; empty: none
-    std::string title = "exploration";
+    std::string labels;           ///< CSV with names of rooms; empty: none
     std::string out = "cca_map";  ///< folder for ~save, relative to where the node runs
     bool autostart = true;
     bool save_at_end = true;
-    RunPage::Settings page;
-    std::string world;  ///< what there is in truth, for the page: replayWorld(); may be empty
+    RunPage::Settings page;  ///< its title is the map's, too
   };
 
   Exploration(ros::NodeHandle& node, ros::NodeHandle& private_node, Settings settings,
@@ -114,21 +113,15 @@ class Exploration {
  private:
   enum class Mode { kStopped, kRunning, kPaused };
 
-  /// What became of something that a person wanted.
-  struct Answer {
-    bool success;
-    std::string message;
-  };
+  /// What became of something that a person wanted: whether it is done, and a message.
+  using Answer = std::pair<bool, std::string>;
   Answer start();
   Answer stop();
   Answer pause(bool is_wanted);
   Answer returnHome();
   void heed(const RunCommand& command);
-  bool onStart(std_srvs::Trigger::Request&, std_srvs::Trigger::Response& response);
-  bool onStop(std_srvs::Trigger::Request&, std_srvs::Trigger::Response& response);
-  bool onHome(std_srvs::Trigger::Request&, std_srvs::Trigger::Response& response);
-  bool onPause(std_srvs::SetBool::Request& request, std_srvs::SetBool::Response& response);
   void setMode(Mode mode);
+  void setState(const std::string& state);
   Velocity act(const Action& action, double passed, const ros::Time& stamp);
   void showPage(const Observation& observation, Action action, const ros::Time& stamp);
   void lookAtPlan(const Pose2& T_map_robot);

@@ -6,7 +6,6 @@
 #include <stdexcept>
 
 #include "cca_mrpt/localisation/given_poses.hpp"
-#include "cca_mrpt/simulation/laser_models.hpp"
 #include "exploration.hpp"
 #include "io/files/memory_file.hpp"
 #include "io/plans/plan_reader.hpp"
@@ -80,13 +79,15 @@ Settings readSettings() {
   parameters.flag("save_at_end", s.exploration.save_at_end);
   parameters.flag("exit_at_end", s.exit_at_end);
   s.exploration.page.read(parameters);
+  s.exploration.page.has_robot = true;
   parameters.program(s.program, sections);
   parameters.refuseUnknown();
   s.driver.robot = s.program.robot;
   s.exploration.map_frame = s.driver.frames.map;
-  if (s.simulator.world != kNoWorld) {
-    s.exploration.title = std::filesystem::path(s.simulator.world).stem().string();
-  }
+  s.exploration.page.robot_radius = s.program.robot.radius;
+  s.exploration.page.title = s.simulator.world == kNoWorld
+                                 ? "exploration"
+                                 : std::filesystem::path(s.simulator.world).stem().string();
   return s;
 }
 
@@ -96,7 +97,7 @@ void exploreSimulated(const Settings& settings, ros::NodeHandle& node,
       node, makeSimulation(settings.simulator, settings.program),
       {settings.driver.frames, settings.simulator.scan_rate, settings.simulator.record, true});
   Exploration::Settings exploration_settings = settings.exploration;
-  exploration_settings.world = replayWorld(robot.simulation().world());
+  exploration_settings.page.world = replayWorld(robot.simulation().world());
   Exploration exploration(node, private_node, exploration_settings, settings.program);
   exploration.begin(std::make_unique<GivenPoses>());
   const GoalServer goals(node, private_node, settings.driver.frames.map, exploration);
@@ -121,17 +122,6 @@ void exploreSimulated(const Settings& settings, ros::NodeHandle& node,
   exploration.end();
 }
 
-/// What `auto` comes to, see choosePose().
-std::string chosenPose(const RobotDriver::Settings& settings, ros::NodeHandle& node,
-                       Exploration& exploration) {
-  if (settings.pose != "auto") return settings.pose;
-  const std::string pose =
-      choosePose(node, settings.frames, [&](const std::string& what) { exploration.wait(what); });
-  if (pose == "tf") ROS_INFO("tf tells where the robot is: _pose:=tf");
-  if (pose == "slam") ROS_INFO("nobody tells where the robot is: _pose:=slam");
-  return pose;
-}
-
 void exploreWithRobot(const Settings& settings, ros::NodeHandle& node,
                       ros::NodeHandle& private_node) {
   std::set<std::string> topics = topicsOfRobot(settings.driver.scans);
@@ -147,7 +137,10 @@ void exploreWithRobot(const Settings& settings, ros::NodeHandle& node,
   if (!driver_settings.plan.empty())
     driver_settings.plan_lines = readPlan(driver_settings.plan).lines;
   if (!driver_settings.resume.empty()) static_cast<void>(loadMemory(driver_settings.resume));
-  driver_settings.pose = chosenPose(settings.driver, node, exploration);
+  if (driver_settings.pose == "auto") {
+    driver_settings.pose = choosePose(node, driver_settings.frames,
+                                      [&](const std::string& what) { exploration.wait(what); });
+  }
   if (!driver_settings.pose.empty()) {
     RobotDriver driver(node, private_node, driver_settings, settings.program.mapping, exploration);
     while (keepRunning(0.1)) {
@@ -195,14 +188,8 @@ const NodeDescription kNode{
     "  hazard_points [] topic, PointCloud2: what bumpers and the like have met\n"
     "  hazard_range [] topic, Range: the same of distance sensors\n"
     "  scan_timeout [0.3] s without a usable scan until the robot is stopped\n"
-    "in a simulated world\n"
-    "  start_pose [the world's] X,Y,DEG\n"
-    "  speed [1] simulated seconds a second; other than 1 needs /use_sim_time\n"
-    "  laser_model [ld19] a laser by name: " +
-        laserModelNames() +
-        "\n"
-        "  scan_rate [10, or the laser's own] Hz\n"
-        "  seed [1] of all that is random",
+    "in a simulated world\n" +
+        simulatorHelp(),
     {"mapping", "exploration", "robot", "laser", "odometry"}};
 
 }  // namespace

@@ -63,6 +63,7 @@ LineMapperParameters readParameters(const ros::NodeHandle& private_node) {
   parameters.flag("save_at_end", p.save_at_end);
   parameters.text("record", p.record);
   parameters.text("labels", p.labels);
+  p.page.title = "line_mapper";
   p.page.read(parameters);
   parameters.program(p.program, {"mapping"});
   parameters.refuseUnknown();
@@ -71,23 +72,20 @@ LineMapperParameters readParameters(const ros::NodeHandle& private_node) {
 
 class LineMapper {
  public:
-  LineMapper() : LineMapper(ros::NodeHandle(), ros::NodeHandle("~")) {}
-  LineMapper(ros::NodeHandle node, ros::NodeHandle private_node)
+  explicit LineMapper(ros::NodeHandle node = {},
+                      ros::NodeHandle private_node = ros::NodeHandle("~"))
       : parameters_(readParameters(private_node)),
         node_(node),
         recorder_(node, parameters_.record, topicsOfRobot(parameters_.scans)),
         publisher_(node, parameters_.frames.map),
         way_(node, parameters_.frames.map),
-        page_(private_node, parameters_.page, pageSettings(),
-              [this](const RunCommand& command) { heed(command); }),
+        page_(private_node, parameters_.page, [this](const RunCommand& command) { heed(command); }),
         scans_(node, scanSettings(), [this](const PlacedScan& scan) { insert(scan); }),
         diagnostics_(node, private_node, scans_.dropped()),
         scan_lines_(node.advertise<cca_mrpt::LineMap>("scan_lines", 10)),
         reset_(private_node.advertiseService("reset", &LineMapper::onReset, this)),
         saver_(private_node, parameters_.out, [this] { return products(); }),
-        plan_(node, private_node, parameters_.frames.map,
-              parameters_.labels.empty() ? RoomLabels{} : roomLabelsOfFile(parameters_.labels),
-              saver_.mutex(), [this] { return products(); }) {
+        plan_(node, private_node, parameters_.frames.map, parameters_.labels, saver_) {
     begin();
     if (slam_) {
       slam_publisher_.emplace(node, parameters_.frames);
@@ -116,12 +114,6 @@ class LineMapper {
             0.0,
             frames.odom,
             corrects};
-  }
-
-  static LivePageSettings pageSettings() {
-    LivePageSettings page;
-    page.title = "line_mapper";
-    return page;
   }
 
   /// There is nobody to be sent anywhere: while it is paused, scans are left out.
@@ -174,8 +166,8 @@ class LineMapper {
       way_.replace(session_->times(), session_->trajectory());
     }
     if (slam_) {
-      slam_publisher_->publish(estimate, *measurement.T_odom_robot, *slam_, scan.stamp);
-      slam_publisher_->note(estimate, *slam_, diagnostics_);
+      slam_publisher_->publish(estimate, *measurement.T_odom_robot, *slam_, scan.stamp,
+                               diagnostics_);
     }
     way_.add(estimate.T_map_robot, scan.stamp);
     const ros::WallTime now = ros::WallTime::now();
@@ -215,7 +207,7 @@ class LineMapper {
 
   MapProducts products() const {
     if (session_->times().empty()) throw std::runtime_error("there is no map yet");
-    MapProducts products = mapProducts("line_mapper", *session_);
+    MapProducts products = mapProducts(parameters_.page.title, *session_);
     products.grid = grid_.grid().raster();
     products.summary["scans"] = session_->times().size();
     products.summary["agreement"] = session_->agreement().overall();

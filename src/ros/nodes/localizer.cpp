@@ -4,7 +4,6 @@
 // in a finished map or a drawn plan, which stays as it is.
 #include <geometry_msgs/PoseWithCovarianceStamped.h>
 
-#include <cmath>
 #include <stdexcept>
 
 #include "cca_mrpt/known_map/known_map.hpp"
@@ -57,8 +56,7 @@ LocalizerParameters readLocalizerParameters(const ros::NodeHandle& private_node)
 
 class Localizer {
  public:
-  Localizer() : Localizer(ros::NodeHandle(), ros::NodeHandle("~")) {}
-  Localizer(ros::NodeHandle node, ros::NodeHandle private_node)
+  explicit Localizer(ros::NodeHandle node = {}, ros::NodeHandle private_node = ros::NodeHandle("~"))
       : parameters_(readLocalizerParameters(private_node)),
         plan_(readPlan(parameters_.plan, parameters_.scale)),
         bounds_(boundsOf(plan_.lines)),

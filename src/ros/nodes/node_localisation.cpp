@@ -60,14 +60,20 @@ std::string choosePose(ros::NodeHandle& node, const FrameNames& frames,
   ros::WallTime alone_since;
   while (keepRunning(0.1)) {
     const ros::WallTime now = ros::WallTime::now();
-    if (tf.has(frames.map, frames.base, {})) return "tf";
+    if (tf.has(frames.map, frames.base, {})) {
+      ROS_INFO("tf tells where the robot is: _pose:=tf");
+      return "tf";
+    }
     if (!tf.has(frames.odom, frames.base, {})) {
       alone_since = {};
       tell(tf.whyNot(frames.odom, frames.base));
       continue;
     }
     if (alone_since.isZero()) alone_since = now;
-    if (now - alone_since > kPoseAwaited) return "slam";
+    if (now - alone_since > kPoseAwaited) {
+      ROS_INFO("nobody tells where the robot is: _pose:=slam");
+      return "slam";
+    }
     tell("for somebody who tells where '" + frames.odom + "' is");
   }
   return {};

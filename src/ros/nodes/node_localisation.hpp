@@ -32,7 +32,7 @@ ros::Subscriber hearCorrectedPath(ros::NodeHandle& node, ExternalCorrections& co
 /// Logs that the past has been corrected, and by what.
 void logCorrection(const ExternalCorrections& corrections);
 
-/// Waits until it is clear who tells where the robot is.
+/// Waits until it is clear who tells where the robot is, and logs it.
 /// @param tell  is given what is waited for.
 /// @return  "tf" as soon as tf joins map and base; "slam" where for five seconds of the wall it has
 ///          joined no more than odometry and base; empty where the node is to end.

@@ -6,7 +6,6 @@
 
 #include <cmath>
 
-#include "cca_mrpt/simulation/laser_models.hpp"
 #include "node_main.hpp"
 #include "ros/driving/pace.hpp"
 #include "ros/driving/simulated_robot.hpp"
@@ -78,14 +77,9 @@ const NodeDescription kNode{
     "a robot in a simulated world: cmd_vel in; scan, odom, tf out\n\n"
     "_name:=value [default]\n"
     "  world map_server YAML file, or the name of one in maps/; must be given\n"
-    "  config [] .ini file, read first\n"
-    "  start_pose [the world's] X,Y,DEG\n"
-    "  speed [1] simulated seconds a second; other than 1 needs /use_sim_time\n"
-    "  laser_model [ld19] a laser by name: " +
-        laserModelNames() +
+    "  config [] .ini file, read first\n" +
+        simulatorHelp() +
         "\n"
-        "  scan_rate [10, or the laser's own] Hz\n"
-        "  seed [1] of all that is random\n"
         "  record [] bag to write\n"
         "  localisation [true] tells map -> odom, which is the truth; false: nobody here does\n"
         "  map_frame [map], odom_frame [odom], base_frame [base_link], laser_frame [laser]",

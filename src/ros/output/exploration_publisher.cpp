@@ -50,7 +50,10 @@ void ExplorationPublisher::show(const ExplorationSession& session,
                                 const ros::Time& stamp) {
   way_.add(T_map_robot, stamp);
   showGoal(T_map_goal, stamp);
-  showRobot(T_map_robot, stamp);
+  if (robot_.getNumSubscribers() > 0) {
+    robot_.publish(
+        robotMarkers(T_map_robot, radius_, shown_status_, headerMessage(map_frame_, stamp)));
+  }
   const ros::WallTime now = ros::WallTime::now();
   if (now - map_shown_ >= kMapPeriod) {
     showAll(session, grid, stamp);
@@ -77,12 +80,6 @@ void ExplorationPublisher::showAll(const ExplorationSession& session,
   frontiers_.publish(frontierMarkers(frontier, exploration_grid.resolution(), header));
   way_.publish(stamp);
   lines_shown_ = map_shown_ = ros::WallTime::now();
-}
-
-void ExplorationPublisher::showRobot(const Pose2& T_map_robot, const ros::Time& stamp) {
-  if (robot_.getNumSubscribers() == 0) return;
-  robot_.publish(
-      robotMarkers(T_map_robot, radius_, shown_status_, headerMessage(map_frame_, stamp)));
 }
 
 bool ExplorationPublisher::onGetMap(nav_msgs::GetMap::Request& /*request*/,

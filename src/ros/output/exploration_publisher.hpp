@@ -39,7 +39,6 @@ class ExplorationPublisher {
 
  private:
   void showGoal(const std::optional<Pose2>& T_map_goal, const ros::Time& stamp);
-  void showRobot(const Pose2& T_map_robot, const ros::Time& stamp);
   bool onGetMap(nav_msgs::GetMap::Request&, nav_msgs::GetMap::Response& response);
 
   std::string map_frame_;

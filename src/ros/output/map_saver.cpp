@@ -25,6 +25,11 @@ MapSaver::MapSaver(const ros::NodeHandle& private_node, std::string folder, Snap
   spinner_.start();
 }
 
+MapProducts MapSaver::products() {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return snapshot_();
+}
+
 void MapSaver::save() {
   const std::lock_guard<std::mutex> one_at_a_time(writing_);
   std::optional<MapMemory> memory;
@@ -58,12 +63,8 @@ void MapSaver::tellIfNothingCanBeWritten() const try {
   ROS_ERROR("no map can be saved: %s", error.what());
 }
 
-void MapSaver::saveOrTell() {
-  try {
-    save();
-  } catch (const std::exception& error) {
-    ROS_ERROR("the map could not be saved: %s", error.what());
-  }
+void MapSaver::saveOrTell() try { save(); } catch (const std::exception& error) {
+  ROS_ERROR("the map could not be saved: %s", error.what());
 }
 
 void MapSaver::saveSoon() {
@@ -72,15 +73,13 @@ void MapSaver::saveSoon() {
 }
 
 bool MapSaver::onSave(std_srvs::Trigger::Request& /*request*/,
-                      std_srvs::Trigger::Response& response) {
-  try {
-    save();
-    response.success = true;
-    response.message = folder_;
-  } catch (const std::exception& error) {
-    response.success = false;
-    response.message = error.what();
-  }
+                      std_srvs::Trigger::Response& response) try {
+  save();
+  response.success = true;
+  response.message = folder_;
+  return true;
+} catch (const std::exception& error) {
+  response.message = error.what();
   return true;
 }
 

@@ -39,6 +39,8 @@ class MapSaver {
 
   /// To be held wherever what the snapshot reads is changed.
   std::mutex& mutex() { return mutex_; }
+  /// What the snapshot gives, under the mutex.
+  MapProducts products();
   /// In the caller's thread. @throws std::runtime_error naming the file and the reason.
   void save();
   /// The same where nobody is there to catch: a failure is told on the console.

@@ -46,12 +46,10 @@ std::string callNames(const std::vector<PlanRoom>& rooms) {
 }  // namespace
 
 PlanServer::PlanServer(ros::NodeHandle& node, const ros::NodeHandle& private_node,
-                       std::string map_frame, RoomLabels labels, std::mutex& mutex,
-                       MapSaver::Snapshot snapshot)
+                       std::string map_frame, const std::string& labels, MapSaver& saver)
     : map_frame_(std::move(map_frame)),
-      labels_(std::move(labels)),
-      mutex_(mutex),
-      snapshot_(std::move(snapshot)),
+      labels_(labels.empty() ? RoomLabels{} : roomLabelsOfFile(labels)),
+      saver_(saver),
       node_(private_node),
       markers_(node.advertise<visualization_msgs::MarkerArray>("plan", 1, true)),
       goals_(node.advertise<geometry_msgs::PoseStamped>("move_base_simple/goal", 1)),
@@ -65,10 +63,7 @@ PlanServer::PlanServer(ros::NodeHandle& node, const ros::NodeHandle& private_nod
 }
 
 void PlanServer::makePlan() {
-  const MapProducts map = [&] {
-    const std::lock_guard<std::mutex> lock(mutex_);
-    return snapshot_();
-  }();
+  const MapProducts map = saver_.products();
   // Where nothing was seen since, and the past was not corrected, it is the same map.
   const auto is_same = [](const Pose2& a, const Pose2& b) {
     return a.x == b.x && a.y == b.y && a.theta == b.theta;
@@ -95,14 +90,12 @@ void PlanServer::show() {
   is_shown_ = true;
 }
 
-bool PlanServer::tryPlan(std::string& why_not) {
-  try {
-    makePlan();
-    return true;
-  } catch (const std::exception& error) {
-    why_not = error.what();
-    return false;
-  }
+bool PlanServer::tryPlan(std::string& why_not) try {
+  makePlan();
+  return true;
+} catch (const std::exception& error) {
+  why_not = error.what();
+  return false;
 }
 
 bool PlanServer::onRoomAt(cca_mrpt::RoomAt::Request& request,
@@ -131,12 +124,11 @@ bool PlanServer::onDriveToRoom(cca_mrpt::DriveToRoom::Request& request,
                                cca_mrpt::DriveToRoom::Response& response) {
   response.success = false;
   if (!tryPlan(response.message)) return true;
-  const PlanRoom* room = roomCalled(request.room, plan_.rooms);
-  if (!room) {
+  if (const PlanRoom* room = roomCalled(request.room, plan_.rooms)) {
+    sendTo(*room, response);
+  } else {
     response.message = "no room is called '" + request.room + "'; " + callNames(plan_.rooms);
-    return true;
   }
-  sendTo(*room, response);
   return true;
 }
 

@@ -6,7 +6,6 @@
 #include <ros/callback_queue.h>
 #include <ros/ros.h>
 
-#include <mutex>
 #include <string>
 #include <vector>
 
@@ -23,11 +22,10 @@ namespace cca {
 /// Goals go to `move_base_simple/goal`: whoever drives the robot takes them from there.
 class PlanServer {
  public:
-  /// @param mutex     held while `snapshot` is called.
-  /// @param labels    names of rooms, in the map frame.
-  /// @param snapshot  as of MapSaver.
+  /// @param labels  CSV with names of rooms, in the map frame; empty: none.
+  /// @param saver   of the same map; outlives this.
   PlanServer(ros::NodeHandle& node, const ros::NodeHandle& private_node, std::string map_frame,
-             RoomLabels labels, std::mutex& mutex, MapSaver::Snapshot snapshot);
+             const std::string& labels, MapSaver& saver);
 
  private:
   void show();
@@ -41,8 +39,7 @@ class PlanServer {
 
   std::string map_frame_;
   RoomLabels labels_;
-  std::mutex& mutex_;
-  MapSaver::Snapshot snapshot_;
+  MapSaver& saver_;
   FloorPlan plan_;
   std::vector<Pose2> planned_;  ///< trajectory of the map that it is the plan of
   bool is_shown_ = true;        ///< there is nothing to show yet

@@ -18,17 +18,16 @@ void RunPage::Settings::read(PrivateParameters& parameters) {
     if (!serve) parameters.withoutEffect(name);
   }
   if (!serve) return;
+  port = kPort;
   parameters.number("serve_port", port, 0, 65535, "");
   parameters.text("serve_address", address);
 }
 
-RunPage::RunPage(const ros::NodeHandle& node, const Settings& settings, LivePageSettings page,
+RunPage::RunPage(const ros::NodeHandle& node, const Settings& settings,
                  std::function<void(const RunCommand&)> heed)
     : heed_(std::move(heed)) {
   if (!settings.serve) return;
-  page.address = settings.address;
-  page.port = settings.port;
-  page_ = openLivePage(page);
+  page_ = openLivePage(settings);
   timer_ = node.createWallTimer(kHeedPeriod, [this](const ros::WallTimerEvent&) { heedAll(); });
   ROS_INFO("the run can be seen at %s", page_->url().c_str());
 }

@@ -18,18 +18,16 @@ namespace cca {
 /// does anything.
 class RunPage {
  public:
-  struct Settings {
+  struct Settings : LivePageSettings {
     bool serve = false;
-    std::string address = "127.0.0.1";
-    int port = LivePageSettings::kPort;
     /// ~serve, ~serve_port, ~serve_address.
     void read(PrivateParameters& parameters);
   };
 
-  /// Opens it, and says where on the console. @param page  what of it is not told by the settings.
+  /// Opens it, and says where on the console.
   /// @param heed  called in the node's own thread, with what viewers want.
   /// @throws std::runtime_error where it cannot be served there.
-  RunPage(const ros::NodeHandle& node, const Settings& settings, LivePageSettings page,
+  RunPage(const ros::NodeHandle& node, const Settings& settings,
           std::function<void(const RunCommand&)> heed);
 
   /// Whether show() shows anything now.

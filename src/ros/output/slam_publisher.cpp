@@ -13,15 +13,11 @@ SlamPublisher::SlamPublisher(ros::NodeHandle& node, const FrameNames& frames)
       loop_markers_(node.advertise<visualization_msgs::MarkerArray>("loop_markers", 1, true)) {}
 
 void SlamPublisher::publish(const Estimate& estimate, const Pose2& T_odom_robot,
-                            const SlamLocaliser& localiser, const ros::Time& stamp) {
+                            const SlamLocaliser& localiser, const ros::Time& stamp,
+                            NodeDiagnostics& diagnostics) {
   pose_.publish(estimate, T_odom_robot, stamp);
   const Slam& slam = localiser.slam();
   if (estimate.was_corrected || slam.loopsClosed() != loops_shown_) publishLoops(slam, stamp);
-}
-
-void SlamPublisher::note(const Estimate& estimate, const SlamLocaliser& localiser,
-                         NodeDiagnostics& diagnostics) const {
-  const Slam& slam = localiser.slam();
   diagnostics.note("slam: agreement of the last scan", estimate.agreement);
   diagnostics.note("slam: loops closed", slam.loopsClosed());
   diagnostics.note("slam: lost", !estimate.is_known);

@@ -16,11 +16,9 @@ class SlamPublisher {
  public:
   SlamPublisher(ros::NodeHandle& node, const FrameNames& frames);
 
-  /// After each scan. @param T_odom_robot  at its time.
+  /// After each scan. @param T_odom_robot  at its time. @param diagnostics  told of it, too.
   void publish(const Estimate& estimate, const Pose2& T_odom_robot, const SlamLocaliser& localiser,
-               const ros::Time& stamp);
-  void note(const Estimate& estimate, const SlamLocaliser& localiser,
-            NodeDiagnostics& diagnostics) const;
+               const ros::Time& stamp, NodeDiagnostics& diagnostics);
 
  private:
   void publishLoops(const Slam& slam, const ros::Time& stamp);

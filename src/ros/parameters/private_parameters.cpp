@@ -106,8 +106,8 @@ void PrivateParameters::flag(const std::string& name, bool& value) {
 }
 
 template <class Number>
-void PrivateParameters::parse(const std::string& name, Number& value, Number lowest, Number highest,
-                              const std::string& unit) {
+void PrivateParameters::number(const std::string& name, Number& value, Number lowest,
+                               Number highest, const std::string& unit) {
   XmlRpc::XmlRpcValue parameter;
   if (!given(name, parameter)) return;
   const std::string text = textOf(parameter);
@@ -123,15 +123,9 @@ void PrivateParameters::parse(const std::string& name, Number& value, Number low
   value = number;
 }
 
-void PrivateParameters::number(const std::string& name, double& value, double lowest,
-                               double highest, const std::string& unit) {
-  parse(name, value, lowest, highest, unit);
-}
-
-void PrivateParameters::number(const std::string& name, int& value, int lowest, int highest,
-                               const std::string& unit) {
-  parse(name, value, lowest, highest, unit);
-}
+template void PrivateParameters::number(const std::string&, double&, double, double,
+                                        const std::string&);
+template void PrivateParameters::number(const std::string&, int&, int, int, const std::string&);
 
 void PrivateParameters::choice(const std::string& name, std::string& value,
                                const std::vector<std::string>& allowed) {

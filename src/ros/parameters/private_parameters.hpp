@@ -27,9 +27,9 @@ class PrivateParameters {
   /// A topic; none where it is empty.
   void topic(const std::string& name, std::string& value);
   void flag(const std::string& name, bool& value);
-  void number(const std::string& name, double& value, double lowest, double highest,
-              const std::string& unit);
-  void number(const std::string& name, int& value, int lowest, int highest,
+  /// int or double.
+  template <class Number>
+  void number(const std::string& name, Number& value, Number lowest, Number highest,
               const std::string& unit);
   void choice(const std::string& name, std::string& value, const std::vector<std::string>& allowed);
   /// One or more names: a list, or the same as text, `[a, b]`, as rosrun's command line gives it.
@@ -46,9 +46,6 @@ class PrivateParameters {
   void refuseUnknown() const;
 
  private:
-  template <class Number>
-  void parse(const std::string& name, Number& value, Number lowest, Number highest,
-             const std::string& unit);
   bool given(const std::string& name, XmlRpc::XmlRpcValue& value);
   [[noreturn]] void refuse(const std::string& name, const std::string& value,
                            const std::string& allowed) const;

@@ -2,6 +2,7 @@
 #include "reconfigure_server.hpp"
 
 #include <dynamic_reconfigure/ConfigDescription.h>
+#include <dynamic_reconfigure/config_tools.h>
 
 #include <algorithm>
 #include <cmath>
@@ -48,10 +49,7 @@ dynamic_reconfigure::Config ReconfigureServer::config(
     const std::function<double(const Number&)>& value) const {
   dynamic_reconfigure::Config config;
   for (const Number& number : numbers_) {
-    dynamic_reconfigure::DoubleParameter parameter;
-    parameter.name = number.name;
-    parameter.value = value(number);
-    config.doubles.push_back(parameter);
+    dynamic_reconfigure::ConfigTools::appendParameter(config, number.name, value(number));
   }
   config.groups.resize(1);
   config.groups[0].name = kGroup;

@@ -54,6 +54,15 @@ void readParameters(PrivateParameters& parameters, SimulatorParameters& p, Param
   parameters.text("record", p.record);
 }
 
+std::string simulatorHelp() {
+  return "  start_pose [the world's] X,Y,DEG\n"
+         "  speed [1] simulated seconds a second; other than 1 needs /use_sim_time\n"
+         "  laser_model [ld19] a laser by name: " +
+         laserModelNames() +
+         "\n  scan_rate [10, or the laser's own] Hz\n"
+         "  seed [1] of all that is random";
+}
+
 Simulation makeSimulation(const SimulatorParameters& p, const Parameters& program) {
   if (p.speed != 1.0 && !ros::Time::isSimTime()) {
     throw std::runtime_error("parameter ~speed must be 1 unless /use_sim_time is true");

@@ -24,6 +24,9 @@ struct SimulatorParameters {
 /// @param program  its laser becomes that of ~laser_model.
 void readParameters(PrivateParameters& parameters, SimulatorParameters& p, Parameters& program);
 
+/// What --help tells of them, but for world and record; without an end of line.
+std::string simulatorHelp();
+
 /// @throws std::runtime_error for a world or start that cannot be, and for a speed other than 1
 ///         without simulated time: the stamps would run away from everybody else's clock.
 Simulation makeSimulation(const SimulatorParameters& p, const Parameters& program);
