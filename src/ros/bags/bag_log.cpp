@@ -55,7 +55,8 @@ class BagLog : public LogReader {
  private:
   /// @param asked  empty: the one with most scans.
   std::string laserTopic(const std::string& asked) {
-    const std::vector<BagTopic> lasers = laserTopicsOf(bag_);
+    const std::vector<BagTopic> lasers =
+        topicsOf(bag_, {"sensor_msgs/LaserScan", "sensor_msgs/MultiEchoLaserScan"});
     if (lasers.empty()) of_topics_ = "topics: " + listed(topicsOf(bag_));
     const auto is_asked = [&](const BagTopic& topic) {  // with or without its slash
       return frameName(topic.name) == frameName(asked);

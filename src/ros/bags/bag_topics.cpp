@@ -24,10 +24,6 @@ std::vector<BagTopic> topicsOf(const rosbag::Bag& bag, const std::vector<std::st
   return listed;
 }
 
-std::vector<BagTopic> laserTopicsOf(const rosbag::Bag& bag) {
-  return topicsOf(bag, {"sensor_msgs/LaserScan", "sensor_msgs/MultiEchoLaserScan"});
-}
-
 std::optional<BagTopic> busiest(const std::vector<BagTopic>& topics) {
   const auto busiest = std::max_element(
       topics.begin(), topics.end(),

@@ -25,8 +25,6 @@ struct BagTopic {
 
 /// Topics of these types, or all; in the order of their names.
 std::vector<BagTopic> topicsOf(const rosbag::Bag& bag, const std::vector<std::string>& types = {});
-/// Those that scanOf() reads.
-std::vector<BagTopic> laserTopicsOf(const rosbag::Bag& bag);
 /// The one with most messages, the first of these; nothing where there is none.
 std::optional<BagTopic> busiest(const std::vector<BagTopic>& topics);
 /// "'/scan' (sensor_msgs/LaserScan, 12 messages), ...".

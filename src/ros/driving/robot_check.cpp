@@ -116,19 +116,15 @@ std::optional<double> delayOf(const Drive& drive, const Transforms& transforms,
   const int steps = static_cast<int>(std::lround(kLongestDelay / kDelayStep));
   for (int step = -steps; step <= steps; ++step) {
     const ros::Duration delay(step * kDelayStep);
-    std::vector<Pose2> moved;
-    std::vector<std::size_t> known;
-    for (std::size_t k = 0; k < drive.middles.size(); ++k) {
-      const ros::Time time = drive.middles[k] + delay;
-      const bool has = transforms.has(odom, base, time);
-      moved.push_back(has ? transforms.lookup(odom, base, time).pose : Pose2{});
-      if (has) known.push_back(k);
-    }
     double sum = 0.0, count = 0.0;
-    const std::vector<double> turns = turnsOf(moved);
-    for (std::size_t i = 1; i < known.size(); ++i) {
-      if (known[i] != known[i - 1] + 1) continue;
-      const double error = turns[known[i] - 1] - by_scans[known[i] - 1];
+    std::optional<double> last, heading;
+    for (std::size_t k = 0; k < drive.middles.size(); ++k, last = heading) {
+      const ros::Time time = drive.middles[k] + delay;
+      heading.reset();
+      if (!transforms.has(odom, base, time)) continue;
+      heading = transforms.lookup(odom, base, time).pose.theta;
+      if (!last) continue;
+      const double error = wrapAngle(*heading - *last) - by_scans[k - 1];
       sum += error * error;
       ++count;
     }

@@ -3,8 +3,8 @@
 
 #include <nav_msgs/Odometry.h>
 
+#include <map>
 #include <optional>
-#include <vector>
 
 #include "cca_mrpt/geometry/pose2.hpp"
 #include "ros/bags/bag_frames.hpp"
@@ -22,12 +22,8 @@ class OdometryTrack {
   std::optional<Pose2> at(const ros::Time& time) const;
 
  private:
-  struct Stamped {
-    ros::Time stamp;
-    Pose2 pose;
-  };
   OdometryFrames frames_;
-  std::vector<Stamped> poses_;  ///< in the order of their stamps
+  std::multimap<ros::Time, Pose2> poses_;  ///< by their stamps
 };
 
 }  // namespace cca

@@ -32,9 +32,6 @@ sensor_msgs::LaserScan scanOf(const topic_tools::ShapeShifter& message) try {
 
 ScanFeed::ScanFeed(ros::NodeHandle& node, Settings settings, Sink sink)
     : settings_(std::move(settings)),
-      frames_{settings_.fixed_frame, settings_.robot_frame,
-              settings_.asks_odometry ? settings_.odom_frame : "", std::nullopt,
-              settings_.odom_frame},
       sink_(std::move(sink)),
       periods_(settings_.topics.size()),
       transforms_(node, [this] { serve(); }) {
@@ -129,9 +126,9 @@ void ScanFeed::receive(const Event& event, std::size_t topic) {
 
 std::optional<ros::Time> ScanFeed::latestPose(const std::string& laser_frame) const {
   const Transforms& tf = transforms_.transforms();
-  const auto laser = tf.latest(frames_.fixed, laser_frame);
-  if (frames_.base.empty() || !laser) return laser;
-  const auto robot = tf.latest(frames_.fixed, frames_.base);
+  const auto laser = tf.latest(settings_.frames.fixed, laser_frame);
+  if (settings_.frames.base.empty() || !laser) return laser;
+  const auto robot = tf.latest(settings_.frames.fixed, settings_.frames.base);
   return robot ? std::min(laser, robot) : robot;
 }
 
@@ -142,14 +139,15 @@ ScanFeed::Pose ScanFeed::pose(const PlacedScan& w, const std::optional<ros::Time
   const bool waits = !drives() && !is_at_end_;
   const ros::Duration rest = waits ? halfSweep(w.scan.sweep_duration) : ros::Duration(0.0);
   if (!latest || (!latest->isZero() && w.middle + rest > *latest)) return Pose::kExpected;
-  if (hasPlacement(transforms_.transforms(), frames_, w.frame, w.middle)) return Pose::kKnown;
+  if (hasPlacement(transforms_.transforms(), settings_.frames, w.frame, w.middle))
+    return Pose::kKnown;
   return w.middle <= *latest ? Pose::kNever : Pose::kExpected;
 }
 
 std::string ScanFeed::whyNoPose(const PlacedScan& w) const {
   const Transforms& tf = transforms_.transforms();
-  const bool lacks_laser = !tf.has(frames_.fixed, w.frame, w.middle);
-  return tf.whyNot(frames_.fixed, lacks_laser ? w.frame : frames_.base);
+  const bool lacks_laser = !tf.has(settings_.frames.fixed, w.frame, w.middle);
+  return tf.whyNot(settings_.frames.fixed, lacks_laser ? w.frame : settings_.frames.base);
 }
 
 void ScanFeed::serve() {
@@ -187,8 +185,8 @@ void ScanFeed::use(PlacedScan& placed) {
   const double oldest = periods_[placed.topic].oldest(settings_.oldest);
   if (drives() && (ros::Time::now() - placed.stamp).toSec() > oldest) return drop("too old");
   try {
-    placed.at =
-        placeByTf(placed.scan, transforms_.transforms(), frames_, placed.frame, placed.middle);
+    placed.at = placeByTf(placed.scan, transforms_.transforms(), settings_.frames, placed.frame,
+                          placed.middle);
   } catch (const std::runtime_error& error) {
     return drop("no usable transform", error.what());
   }

@@ -51,13 +51,9 @@ struct PlacedScan {
 class ScanFeed {
  public:
   struct Settings {
-    std::vector<std::string> topics{"scan"};
-    std::string fixed_frame = "map";
-    std::string robot_frame =
-        {};               ///< empty: not asked for; T_fixed_robot is the sensor's pose then
+    std::vector<std::string> topics;
+    PlacementFrames frames;
     double oldest = 0.0;  ///< s, of a scan of one instant that may be driven by; 0: mapping only
-    std::string odom_frame = "odom";  ///< in which the robot never leaps, where tf knows it
-    bool asks_odometry = false;       ///< whether ScanPlacement::T_odom_robot is wanted
   };
   using Sink = std::function<void(const PlacedScan&)>;
 
@@ -96,7 +92,6 @@ class ScanFeed {
   void tellSilence();
 
   Settings settings_;
-  PlacementFrames frames_;
   Sink sink_;
   std::deque<PlacedScan> waiting_;  ///< not placed yet
   PoseGate gate_;

@@ -11,19 +11,17 @@ constexpr int kTransformQueue =
 
 TransformFeed::TransformFeed(ros::NodeHandle& node, std::function<void()> on_change)
     : on_change_(std::move(on_change)) {
-  const auto no_delay = ros::TransportHints().tcpNoDelay();
   using Message = tf2_msgs::TFMessage;
-  moving_ = node.subscribe<Message>(
-      "/tf", kTransformQueue, [this](const Message::ConstPtr& m) { take(*m, false); },
-      ros::VoidConstPtr(), no_delay);
-  fixed_ = node.subscribe<Message>(
-      "/tf_static", kTransformQueue, [this](const Message::ConstPtr& m) { take(*m, true); },
-      ros::VoidConstPtr(), no_delay);
-}
-
-void TransformFeed::take(const tf2_msgs::TFMessage& message, bool is_static) {
-  transforms_.add(message, is_static);
-  on_change_();
+  const auto hear = [&](const char* topic, bool is_static) {
+    const auto take = [this, is_static](const Message::ConstPtr& message) {
+      transforms_.add(*message, is_static);
+      on_change_();
+    };
+    return node.subscribe<Message>(topic, kTransformQueue, take, ros::VoidConstPtr(),
+                                   ros::TransportHints().tcpNoDelay());
+  };
+  moving_ = hear("/tf", false);
+  fixed_ = hear("/tf_static", true);
 }
 
 }  // namespace cca

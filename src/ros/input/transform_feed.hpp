@@ -21,8 +21,6 @@ class TransformFeed {
   void clear() { transforms_.clear(); }
 
  private:
-  void take(const tf2_msgs::TFMessage& message, bool is_static);
-
   Transforms transforms_;
   std::function<void()> on_change_;
   ros::Subscriber moving_, fixed_;

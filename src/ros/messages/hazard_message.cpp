@@ -2,7 +2,6 @@
 #include "ros/messages/hazard_message.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstring>
 #include <stdexcept>
@@ -32,20 +31,15 @@ std::vector<Eigen::Vector3d> hazardPoints(const sensor_msgs::PointCloud2& m) {
   if (row > m.row_step || std::uint64_t{m.height} * m.row_step > m.data.size()) {
     throw std::runtime_error("PointCloud2: fewer bytes than width, height and steps say");
   }
-  const std::array<std::size_t, 3> offsets{offsetOf(m, "x"), offsetOf(m, "y"), offsetOf(m, "z")};
+  const std::size_t offsets[]{offsetOf(m, "x"), offsetOf(m, "y"), offsetOf(m, "z")};
   std::vector<Eigen::Vector3d> points;
   for (std::size_t i = 0; i < m.height; ++i) {
     for (std::size_t j = 0; j < m.width; ++j) {
-      Eigen::Vector3d p;
-      for (int k = 0; k < 3; ++k) {
-        float number = 0.0f;
-        std::memcpy(
-            &number,
-            &m.data[i * m.row_step + j * m.point_step + offsets[static_cast<std::size_t>(k)]],
-            sizeof number);
-        p[k] = number;
-      }
-      if (p.norm() <= kFarthestHazard) points.push_back(p);  // NaN is not
+      const std::uint8_t* point = m.data.data() + i * m.row_step + j * m.point_step;
+      Eigen::Vector3f p;
+      for (int k = 0; k < 3; ++k) std::memcpy(&p[k], point + offsets[k], sizeof p[k]);
+      if (p.cast<double>().norm() <= kFarthestHazard)
+        points.push_back(p.cast<double>());  // NaN is not
     }
   }
   return points;

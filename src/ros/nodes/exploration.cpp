@@ -89,8 +89,7 @@ void Exploration::lookAtPlan(const Pose2& T_map_robot) {
 
 Observation Exploration::sense(const Measurement& measurement, const Velocity& velocity) {
   const std::lock_guard<std::mutex> lock(saver_.mutex());
-  const bool is_idle = !errand_end_ && (mode_ == Mode::kStopped || finished_);
-  if (is_idle && !session_->mapping().localiser().correctsPast()) return {};
+  if (isIdle() && !session_->mapping().localiser().correctsPast()) return {};
   const Observation observation = session_->sense(measurement, velocity);
   const bool was_corrected = session_->estimate().was_corrected;
   if (was_corrected) publisher_.correctWay(session_->mapping());
@@ -104,7 +103,7 @@ Observation Exploration::sense(const Measurement& measurement, const Velocity& v
 
 Scan Exploration::addSecondary(const Measurement& measurement, std::size_t sensor) {
   const std::lock_guard<std::mutex> lock(saver_.mutex());
-  if (!errand_end_ && (mode_ == Mode::kStopped || finished_)) return measurement.scan;
+  if (isIdle()) return measurement.scan;
   session_->addSecondary(measurement, sensor);
   return session_->mapping().scan();
 }
@@ -115,7 +114,7 @@ Velocity Exploration::step(Observation observation, const ros::Time& stamp) {
   last_time_ = observation.time;
   T_map_goal_.reset();
   T_map_robot_ = observation.T_map_robot;
-  if (!errand_end_ && (mode_ == Mode::kStopped || finished_)) {
+  if (isIdle()) {
     if (session_->mapping().localiser().correctsPast()) showPage(observation, {}, stamp);
     return {};
   }
@@ -303,7 +302,7 @@ Exploration::Answer Exploration::stop() {
 }
 
 Exploration::Answer Exploration::pause(bool is_wanted) {
-  if (!errand_end_ && (mode_ == Mode::kStopped || finished_)) return {false, "not exploring"};
+  if (isIdle()) return {false, "not exploring"};
   setMode(is_wanted ? Mode::kPaused : Mode::kRunning);
   return {true, is_wanted ? "paused" : "exploring"};
 }

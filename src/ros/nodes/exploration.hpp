@@ -131,6 +131,7 @@ class Exploration {
   void followErrand(const Action& action, double passed);
   void endErrand(ErrandOutcome outcome, const std::string& how);
   bool isContradicted(double seconds);
+  bool isIdle() const { return !errand_end_ && (mode_ == Mode::kStopped || finished_); }
   bool hasBegun() const { return session_ && !session_->mapping().times().empty(); }
 
   /// The grid, and who is to know that the map is made anew.

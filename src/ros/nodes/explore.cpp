@@ -91,14 +91,12 @@ Settings readSettings() {
   return s;
 }
 
-void exploreSimulated(const Settings& settings, ros::NodeHandle& node,
-                      ros::NodeHandle& private_node) {
+void exploreSimulated(Settings settings, ros::NodeHandle& node, ros::NodeHandle& private_node) {
   SimulatedRobot robot(
       node, makeSimulation(settings.simulator, settings.program),
       {settings.driver.frames, settings.simulator.scan_rate, settings.simulator.record, true});
-  Exploration::Settings exploration_settings = settings.exploration;
-  exploration_settings.page.world = replayWorld(robot.simulation().world());
-  Exploration exploration(node, private_node, exploration_settings, settings.program);
+  settings.exploration.page.world = replayWorld(robot.simulation().world());
+  Exploration exploration(node, private_node, settings.exploration, settings.program);
   exploration.begin(std::make_unique<GivenPoses>());
   const GoalServer goals(node, private_node, settings.driver.frames.map, exploration);
   const NodeDiagnostics::Dropped none_dropped;
@@ -122,27 +120,25 @@ void exploreSimulated(const Settings& settings, ros::NodeHandle& node,
   exploration.end();
 }
 
-void exploreWithRobot(const Settings& settings, ros::NodeHandle& node,
-                      ros::NodeHandle& private_node) {
-  std::set<std::string> topics = topicsOfRobot(settings.driver.scans);
-  topics.insert({settings.driver.hazard_points, settings.driver.hazard_range});
+void exploreWithRobot(Settings settings, ros::NodeHandle& node, ros::NodeHandle& private_node) {
+  RobotDriver::Settings& driver = settings.driver;
+  std::set<std::string> topics = topicsOfRobot(driver.scans);
+  topics.insert({driver.hazard_points, driver.hazard_range});
   const TopicRecorder recorder(node, settings.record, topics);
   Exploration exploration(node, private_node, settings.exploration, settings.program);
   std::optional<GoalServer> goals;  // where move_base drives, it takes them itself
-  if (settings.driver.driver != "move_base") {
-    goals.emplace(node, private_node, settings.driver.frames.map, exploration);
+  if (driver.driver != "move_base") {
+    goals.emplace(node, private_node, driver.frames.map, exploration);
   }
-  RobotDriver::Settings driver_settings = settings.driver;
   // At once, where they cannot be read, and not when tf is there.
-  if (!driver_settings.plan.empty())
-    driver_settings.plan_lines = readPlan(driver_settings.plan).lines;
-  if (!driver_settings.resume.empty()) static_cast<void>(loadMemory(driver_settings.resume));
-  if (driver_settings.pose == "auto") {
-    driver_settings.pose = choosePose(node, driver_settings.frames,
-                                      [&](const std::string& what) { exploration.wait(what); });
+  if (!driver.plan.empty()) driver.plan_lines = readPlan(driver.plan).lines;
+  if (!driver.resume.empty()) static_cast<void>(loadMemory(driver.resume));
+  if (driver.pose == "auto") {
+    driver.pose =
+        choosePose(node, driver.frames, [&](const std::string& what) { exploration.wait(what); });
   }
-  if (!driver_settings.pose.empty()) {
-    RobotDriver driver(node, private_node, driver_settings, settings.program.mapping, exploration);
+  if (!driver.pose.empty()) {
+    RobotDriver robot(node, private_node, driver, settings.program.mapping, exploration);
     while (keepRunning(0.1)) {
       if (exploration.finished() && settings.exit_at_end) break;
     }

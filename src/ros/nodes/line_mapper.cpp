@@ -109,11 +109,8 @@ class LineMapper {
     const FrameNames& frames = parameters_.frames;
     const bool is_slam = parameters_.pose == "slam", corrects = parameters_.corrections;
     return {parameters_.scans,
-            is_slam ? frames.odom : frames.map,
-            is_slam || corrects ? frames.base : "",
-            0.0,
-            frames.odom,
-            corrects};
+            {is_slam ? frames.odom : frames.map, is_slam || corrects ? frames.base : "",
+             corrects ? frames.odom : "", std::nullopt, frames.odom}};
   }
 
   /// There is nobody to be sent anywhere: while it is paused, scans are left out.

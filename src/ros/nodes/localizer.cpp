@@ -63,7 +63,10 @@ class Localizer {
         localiser_(plan_.lines, plan_.sigmas),
         lines_(node, parameters_.frames.map),
         pose_(node, parameters_.frames, "amcl_pose"),
-        scans_(node, {parameters_.scans, parameters_.frames.odom, parameters_.frames.base},
+        scans_(node,
+               {parameters_.scans,
+                {parameters_.frames.odom, parameters_.frames.base, "", std::nullopt,
+                 parameters_.frames.odom}},
                [this](const PlacedScan& scan) { localise(scan); }),
         diagnostics_(node, private_node, scans_.dropped()),
         initial_pose_(node.subscribe("initialpose", 1, &Localizer::place, this)) {

@@ -66,14 +66,15 @@ void PrivateParameters::refuse(const std::string& name, const std::string& value
                            allowed);
 }
 
-bool PrivateParameters::given(const std::string& name, XmlRpc::XmlRpcValue& value) {
+std::optional<std::string> PrivateParameters::given(const std::string& name) {
   known_.push_back(name);
-  return node_.getParam(name, value);
+  XmlRpc::XmlRpcValue value;
+  if (!node_.getParam(name, value)) return std::nullopt;
+  return textOf(value);
 }
 
 void PrivateParameters::text(const std::string& name, std::string& value) {
-  XmlRpc::XmlRpcValue parameter;
-  if (given(name, parameter)) value = textOf(parameter);
+  value = given(name).value_or(value);
 }
 
 void PrivateParameters::path(const std::string& name, std::string& value, const std::string& what) {
@@ -98,9 +99,7 @@ void PrivateParameters::topic(const std::string& name, std::string& value) {
 }
 
 void PrivateParameters::flag(const std::string& name, bool& value) {
-  XmlRpc::XmlRpcValue parameter;
-  if (!given(name, parameter)) return;
-  const std::string text = textOf(parameter);
+  const std::string text = given(name).value_or(value ? "true" : "false");
   if (text != "true" && text != "false") refuse(name, text, "true or false");
   value = text == "true";
 }
@@ -108,9 +107,9 @@ void PrivateParameters::flag(const std::string& name, bool& value) {
 template <class Number>
 void PrivateParameters::number(const std::string& name, Number& value, Number lowest,
                                Number highest, const std::string& unit) {
-  XmlRpc::XmlRpcValue parameter;
-  if (!given(name, parameter)) return;
-  const std::string text = textOf(parameter);
+  const std::optional<std::string> told = given(name);
+  if (!told) return;
+  const std::string& text = *told;
   const char* last = text.data() + text.size();
   Number number{};
   const auto [end, error] = std::from_chars(text.data(), last, number);
@@ -137,13 +136,15 @@ void PrivateParameters::choice(const std::string& name, std::string& value,
 }
 
 void PrivateParameters::names(const std::string& name, std::vector<std::string>& value) {
+  const std::optional<std::string> told = given(name);
+  if (!told) return;
   XmlRpc::XmlRpcValue parameter;
-  if (!given(name, parameter)) return;
+  node_.getParam(name, parameter);
   std::vector<std::string> chosen;
   if (parameter.getType() == XmlRpc::XmlRpcValue::TypeArray) {
     for (int k = 0; k < parameter.size(); ++k) chosen.push_back(textOf(parameter[k]));
   } else {
-    chosen = namesIn(textOf(parameter));
+    chosen = namesIn(*told);
   }
   auto sorted = chosen;
   std::sort(sorted.begin(), sorted.end());
@@ -154,7 +155,7 @@ void PrivateParameters::names(const std::string& name, std::vector<std::string>&
                                       return !word.empty() && ros::names::validate(word, why);
                                     }) &&
                         std::adjacent_find(sorted.begin(), sorted.end()) == sorted.end();
-  if (!is_sound) refuse(name, textOf(parameter), "a list of different topics, [a, b]");
+  if (!is_sound) refuse(name, *told, "a list of different topics, [a, b]");
   value = chosen;
 }
 
@@ -173,11 +174,10 @@ void PrivateParameters::program(Parameters& p, const std::vector<std::string>& s
   auto own = known_;  // the node's: `pose` is its own, and the program's is run/pose
   own.insert(own.end(), unused_.begin(), unused_.end());
   const auto set = [&](const ParameterField& field, const std::string& name) {
-    XmlRpc::XmlRpcValue parameter;
     if (!contains(sections, field.section)) return withoutEffect(name);
-    if (!given(name, parameter)) return;
+    const std::optional<std::string> text = given(name);
     try {
-      field.set(textOf(parameter));
+      if (text) field.set(*text);
     } catch (const std::runtime_error& error) {
       throw std::runtime_error("parameter " + node_.resolveName(name) + " = " + error.what());
     }

@@ -3,6 +3,7 @@
 
 #include <ros/ros.h>
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -46,7 +47,8 @@ class PrivateParameters {
   void refuseUnknown() const;
 
  private:
-  bool given(const std::string& name, XmlRpc::XmlRpcValue& value);
+  /// As one would write it in an .ini file; nothing where it is not given.
+  std::optional<std::string> given(const std::string& name);
   [[noreturn]] void refuse(const std::string& name, const std::string& value,
                            const std::string& allowed) const;
 
