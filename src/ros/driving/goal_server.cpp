@@ -25,7 +25,10 @@ GoalServer::GoalServer(ros::NodeHandle& node, ros::NodeHandle& private_node, std
       progress_(node.createWallTimer(kProgressPeriod,
                                      [this](const ros::WallTimerEvent&) { tellProgress(); })) {
   action_.registerGoalCallback([this] { takeOfAction(); });
-  action_.registerPreemptCallback([this] { cancel(); });
+  action_.registerPreemptCallback([this] {
+    // Another goal of the action comes by takeOfAction().
+    if (!action_.isNewGoalAvailable()) exploration_.recall("cancelled");
+  });
   action_.start();
 }
 
@@ -38,27 +41,25 @@ Pose2 GoalServer::inMap(const geometry_msgs::PoseStamped& goal) const {
   return tf.lookup(map_frame_, frame, {}).pose * T_frame_goal;
 }
 
-void GoalServer::takeOfAction() {
-  const auto goal = action_.acceptNewGoal();
-  try {
-    const Pose2 T_map_goal = inMap(goal->target_pose);
-    patrol_.reset();
-    exploration_.sendTo(T_map_goal, [this](Exploration::ErrandOutcome outcome,
-                                           const std::string& how) { endAction(outcome, how); });
-  } catch (const std::runtime_error& error) {
-    ROS_WARN("the goal is refused: %s", error.what());
-    action_.setAborted({}, error.what());
-  }
-}
-
-void GoalServer::takeOfTopic(const geometry_msgs::PoseStamped& goal) try {
+std::string GoalServer::send(const geometry_msgs::PoseStamped& goal,
+                             Exploration::ErrandEnd end) try {
   const Pose2 T_map_goal = inMap(goal);
   patrol_.reset();
-  exploration_.sendTo(T_map_goal, [](Exploration::ErrandOutcome, const std::string& how) {
-    ROS_INFO("the goal: %s", how.c_str());
-  });
+  exploration_.sendTo(T_map_goal, std::move(end));
+  return "";
 } catch (const std::runtime_error& error) {
   ROS_WARN("the goal is refused: %s", error.what());
+  return error.what();
+}
+
+void GoalServer::takeOfAction() {
+  const auto end = [this](auto outcome, const std::string& how) { endAction(outcome, how); };
+  const std::string refused = send(action_.acceptNewGoal()->target_pose, end);
+  if (!refused.empty()) action_.setAborted({}, refused);
+}
+
+void GoalServer::takeOfTopic(const geometry_msgs::PoseStamped& goal) {
+  send(goal, [](auto, const std::string& how) { ROS_INFO("the goal: %s", how.c_str()); });
 }
 
 void GoalServer::takePatrol(const nav_msgs::Path& path) try {
@@ -96,11 +97,6 @@ void GoalServer::goOnPatrol() {
                         patrol_->missed = is_missed ? patrol_->missed + 1 : 0;
                         patrol_->is_due = true;
                       });
-}
-
-/// Another goal of the action comes by takeOfAction().
-void GoalServer::cancel() {
-  if (!action_.isNewGoalAvailable()) exploration_.recall("cancelled");
 }
 
 void GoalServer::endAction(Exploration::ErrandOutcome outcome, const std::string& how) {

@@ -29,11 +29,12 @@ class GoalServer {
              Exploration& exploration);
 
  private:
+  /// @return  why the goal is refused; empty where it is not.
+  std::string send(const geometry_msgs::PoseStamped& goal, Exploration::ErrandEnd end);
   void takeOfAction();
   void takeOfTopic(const geometry_msgs::PoseStamped& goal);
   void takePatrol(const nav_msgs::Path& path);
   void goOnPatrol();
-  void cancel();
   void endAction(Exploration::ErrandOutcome outcome, const std::string& how);
   void tellProgress();
   /// T_map_goal. @throws std::runtime_error where that is not known, or the pose is none.

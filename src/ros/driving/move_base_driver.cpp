@@ -53,26 +53,21 @@ void MoveBaseDriver::forget() {
   client_.stopTrackingGoal();
 }
 
-void MoveBaseDriver::onRejected(const std::string& why) {
-  ++rejected_;
-  if (rejected_ < kMostRejected) return outcome_(DriveOutcome::kFailed);
-  rejected_ = 0;
-  barred_("move_base rejects one goal after another" + (why.empty() ? "" : ": " + why));
-}
-
 // Those that were cancelled or replaced are tracked no longer.
 void MoveBaseDriver::onDone(const actionlib::SimpleClientGoalState& state) {
   T_map_goal_.reset();
   if (state.state_ != actionlib::SimpleClientGoalState::REJECTED) rejected_ = 0;
+  const std::string why = state.getText();
   switch (state.state_) {
     case actionlib::SimpleClientGoalState::SUCCEEDED:
       return outcome_(DriveOutcome::kReached);
     case actionlib::SimpleClientGoalState::REJECTED:
-      ROS_WARN("move_base: REJECTED: %s; the goal is set aside", state.getText().c_str());
-      return onRejected(state.getText());
+      ROS_WARN("move_base: REJECTED: %s; the goal is set aside", why.c_str());
+      if (++rejected_ < kMostRejected) return outcome_(DriveOutcome::kFailed);
+      rejected_ = 0;
+      return barred_("move_base rejects one goal after another" + (why.empty() ? "" : ": " + why));
     case actionlib::SimpleClientGoalState::ABORTED:
-      ROS_WARN("move_base: %s: %s; the goal is set aside", state.toString().c_str(),
-               state.getText().c_str());
+      ROS_WARN("move_base: %s: %s; the goal is set aside", state.toString().c_str(), why.c_str());
       return outcome_(DriveOutcome::kFailed);
     case actionlib::SimpleClientGoalState::PREEMPTED:
     case actionlib::SimpleClientGoalState::RECALLED:

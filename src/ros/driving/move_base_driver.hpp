@@ -38,7 +38,6 @@ class MoveBaseDriver {
 
  private:
   void onDone(const actionlib::SimpleClientGoalState& state);
-  void onRejected(const std::string& why);
 
   std::string map_frame_;
   std::function<void(DriveOutcome)> outcome_;

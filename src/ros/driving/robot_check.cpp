@@ -41,8 +41,7 @@ template <class Messages>
 double medianPeriod(const Messages& messages) {
   std::vector<double> periods;
   for (std::size_t k = 1; k < messages.size(); ++k) {
-    periods.push_back(
-        (messages[k].message.header.stamp - messages[k - 1].message.header.stamp).toSec());
+    periods.push_back((messages[k].header.stamp - messages[k - 1].header.stamp).toSec());
   }
   return median(periods);
 }
@@ -139,14 +138,6 @@ std::optional<double> delayOf(const Drive& drive, const Transforms& transforms,
 
 }  // namespace
 
-void RobotCheck::take(const sensor_msgs::LaserScan& scan, const ros::Time& arrival) {
-  scans_.push_back({scan, arrival});
-}
-
-void RobotCheck::take(const nav_msgs::Odometry& odometry, const ros::Time& arrival) {
-  odometry_.push_back({odometry, arrival});
-}
-
 void RobotCheck::take(const tf2_msgs::TFMessage& transforms, const std::string& sender) {
   for (const auto& transform : transforms.transforms) {
     const std::string parent = frameName(transform.header.frame_id);
@@ -169,9 +160,9 @@ Findings RobotCheck::findings(const Transforms& transforms) const {
 
 void RobotCheck::checkScans(Findings& findings) const {
   std::map<std::string, int> broken;
-  for (const auto& heard : scans_) {
+  for (const auto& message : scans_) {
     try {
-      scanFromMessage(heard.message);
+      scanFromMessage(message);
     } catch (const std::runtime_error& error) {
       ++broken[error.what()];
     }
@@ -181,7 +172,7 @@ void RobotCheck::checkScans(Findings& findings) const {
         formatted("%d of %zu scans are impossible: %s", count, scans_.size(), why.c_str()),
         "mend the driver: such scans are dropped");
   }
-  const sensor_msgs::LaserScan& scan = scans_.front().message;
+  const sensor_msgs::LaserScan& scan = scans_.front();
   const double period = medianPeriod(scans_);
   const std::string what =
       formatted("scan: %.1f a second, %zu beams, %.0f to %.0f deg, %.2f to %.2f m", 1.0 / period,
@@ -191,7 +182,7 @@ void RobotCheck::checkScans(Findings& findings) const {
     findings.fault("scan: all have one stamp", "mend the driver: it does not tell time");
   } else if (period > kSlowLaser) {
     ScanPeriod heard;
-    for (const auto& one : scans_) heard.add(one.message.header.stamp);
+    for (const auto& one : scans_) heard.add(one.header.stamp);
     findings.note(what, formatted("none: the robot is stopped %.2f s after the last scan",
                                   heard.longestSilence(0.3)));
   } else {
@@ -200,11 +191,7 @@ void RobotCheck::checkScans(Findings& findings) const {
 }
 
 void RobotCheck::checkStamps(Findings& findings) const {
-  std::vector<double> ages;
-  for (const auto& heard : scans_) {
-    ages.push_back((heard.arrival - heard.message.header.stamp).toSec());
-  }
-  const double age = median(ages), allowed = medianPeriod(scans_) + kLate;
+  const double age = median(scan_ages_), allowed = medianPeriod(scans_) + kLate;
   if (age < -kClockAhead) {
     findings.fault(formatted("scan: stamped %.2f s ahead of this computer's clock", -age),
                    "set the clocks by one another (chrony), or use_sim_time");
@@ -218,7 +205,7 @@ void RobotCheck::checkStamps(Findings& findings) const {
 
 /// Beams that end on the robot, or nowhere.
 void RobotCheck::checkOwnBody(const Transforms& transforms, Findings& findings) const {
-  const sensor_msgs::LaserScan& first = scans_.front().message;
+  const sensor_msgs::LaserScan& first = scans_.front();
   const std::size_t n = first.ranges.size();
   const std::string laser = frameName(first.header.frame_id);
   Pose2 T_base_laser;
@@ -226,12 +213,12 @@ void RobotCheck::checkOwnBody(const Transforms& transforms, Findings& findings) 
     T_base_laser = transforms.lookup(settings_.base_frame, laser, ros::Time()).pose;
   }
   std::vector<double> on_robot(n), nothing(n), count(n);
-  for (const auto& heard : scans_) {
-    if (heard.message.ranges.size() != n) continue;
+  for (const auto& message : scans_) {
+    if (message.ranges.size() != n) continue;
     for (std::size_t i = 0; i < n; ++i) {
-      const double range = heard.message.ranges[i];
+      const double range = message.ranges[i];
       const double bearing = first.angle_min + static_cast<double>(i) * first.angle_increment;
-      const bool returns = std::isfinite(range) && range > 0.0 && range < heard.message.range_max;
+      const bool returns = std::isfinite(range) && range > 0.0 && range < message.range_max;
       const Eigen::Vector2d p =
           T_base_laser * Eigen::Vector2d(range * std::cos(bearing), range * std::sin(bearing));
       ++count[i];
@@ -257,7 +244,7 @@ void RobotCheck::checkOwnBody(const Transforms& transforms, Findings& findings) 
 
 void RobotCheck::checkOdometry(Findings& findings) const {
   if (odometry_.empty()) return;
-  const nav_msgs::Odometry& first = odometry_.front().message;
+  const nav_msgs::Odometry& first = odometry_.front();
   const double period = medianPeriod(odometry_);
   if (period > kRarely || !(period > 0.0)) {
     findings.fault(formatted("odom: one message in %.2f s", period),
@@ -287,7 +274,7 @@ void RobotCheck::checkFrames(const Transforms& tf, Findings& findings) const {
   findings.good((is_told ? "tf: somebody tells " : "tf: nobody tells ") + map + " -> " + odom +
                 (is_told ? " (pose: tf)" : " (pose: slam)"));
   if (scans_.empty()) return;
-  const std::string laser = frameName(scans_.front().message.header.frame_id);
+  const std::string laser = frameName(scans_.front().header.frame_id);
   if (laser == base) return;
   if (!tf.has(base, laser, ros::Time())) {
     findings.fault("tf: " + tf.whyNot(base, laser),
@@ -330,13 +317,13 @@ void RobotCheck::checkMotion(const Transforms& tf, Findings& findings) const {
   MappingSession session(std::make_unique<SlamLocaliser>(), settings);
   MissingReturns missing_returns;
   Drive drive;
-  for (const auto& heard : scans_) {
-    const std::string laser = frameName(heard.message.header.frame_id);
-    const ros::Time middle = sweepMiddle(heard.message);
+  for (const auto& message : scans_) {
+    const std::string laser = frameName(message.header.frame_id);
+    const ros::Time middle = sweepMiddle(message);
     if (!hasPlacement(tf, frames, laser, middle)) continue;
     try {
       PlacedScan placed;
-      placed.scan = scanFromMessage(heard.message);
+      placed.scan = scanFromMessage(message);
       placed.middle = middle;
       placed.at = placeByTf(placed.scan, tf, frames, laser, middle);
       missing_returns.judge(placed.scan);
@@ -382,8 +369,7 @@ void RobotCheck::checkMotion(const Transforms& tf, Findings& findings) const {
 /// Where the laser is on the robot, by how both have moved.
 void RobotCheck::checkMount(const Transforms& tf, const std::vector<Pose2>& by_scans,
                             const std::vector<Pose2>& by_wheels, Findings& findings) const {
-  const std::string &base = settings_.base_frame,
-                    laser = frameName(scans_.front().message.header.frame_id);
+  const std::string &base = settings_.base_frame, laser = frameName(scans_.front().header.frame_id);
   const auto error = mountError(by_scans, by_wheels);
   if (!error || laser == base || !tf.has(base, laser, ros::Time())) return;
   const Pose2& off = error->T_true_told;

@@ -42,8 +42,11 @@ class RobotCheck {
   explicit RobotCheck(Settings settings) : settings_(std::move(settings)) {}
 
   /// @param arrival  in ROS time.
-  void take(const sensor_msgs::LaserScan& scan, const ros::Time& arrival);
-  void take(const nav_msgs::Odometry& odometry, const ros::Time& arrival);
+  void take(const sensor_msgs::LaserScan& scan, const ros::Time& arrival) {
+    scans_.push_back(scan);
+    scan_ages_.push_back((arrival - scan.header.stamp).toSec());
+  }
+  void take(const nav_msgs::Odometry& odometry) { odometry_.push_back(odometry); }
   /// @param sender  the node.
   void take(const tf2_msgs::TFMessage& transforms, const std::string& sender);
   /// @param age  s, of tf's last odom -> base when a scan comes.
@@ -57,12 +60,6 @@ class RobotCheck {
   Findings findings(const Transforms& transforms) const;
 
  private:
-  template <class Message>
-  struct Heard {
-    Message message;
-    ros::Time arrival;
-  };
-
   void checkScans(Findings& findings) const;
   void checkOwnBody(const Transforms& transforms, Findings& findings) const;
   void checkStamps(Findings& findings) const;
@@ -74,10 +71,10 @@ class RobotCheck {
                   const std::vector<Pose2>& by_wheels, Findings& findings) const;
 
   Settings settings_;
-  std::vector<Heard<sensor_msgs::LaserScan>> scans_;
-  std::vector<Heard<nav_msgs::Odometry>> odometry_;
+  std::vector<sensor_msgs::LaserScan> scans_;
+  std::vector<nav_msgs::Odometry> odometry_;
   std::map<std::string, std::set<std::string>> senders_;  ///< of each child: "'parent' by node"
-  std::vector<double> pose_ages_;                         ///< s
+  std::vector<double> scan_ages_, pose_ages_;             ///< s, when a scan comes
 };
 
 }  // namespace cca

@@ -69,7 +69,13 @@ RobotDriver::RobotDriver(ros::NodeHandle& node, ros::NodeHandle& private_node,
       diagnostics_(node, private_node, scans_.dropped()),
       reconfigure_(private_node, changeable(),
                    [this] { exploration_.changeMotion(settings_.robot); }) {
-  if (settings_.pose == "odometry") publishMapToOdom(node);
+  if (settings_.pose == "odometry") {
+    fixed_transforms_ = node.advertise<tf2_msgs::TFMessage>("/tf_static", 1, true);
+    tf2_msgs::TFMessage message;
+    message.transforms = {
+        transformMessage({}, settings_.frames.map, settings_.frames.odom, ros::Time::now())};
+    fixed_transforms_.publish(message);
+  }
   auto localiser = makeLocaliser(settings_.pose, settings_.corrections, mapping);
   slam_ = dynamic_cast<const SlamLocaliser*>(localiser.get());
   if (slam_) slam_publisher_.emplace(node, settings_.frames);
@@ -130,14 +136,6 @@ void RobotDriver::delegateDriving() {
         if (exploration_.drives()) exploration_.pause(why);
         ROS_WARN("%s: call ~pause with false to go on", why.c_str());
       });
-}
-
-void RobotDriver::publishMapToOdom(ros::NodeHandle& node) {
-  fixed_transforms_ = node.advertise<tf2_msgs::TFMessage>("/tf_static", 1, true);
-  tf2_msgs::TFMessage message;
-  message.transforms = {
-      transformMessage({}, settings_.frames.map, settings_.frames.odom, ros::Time::now())};
-  fixed_transforms_.publish(message);
 }
 
 void RobotDriver::take(const nav_msgs::Odometry& odometry) {

@@ -80,7 +80,6 @@ class RobotDriver {
   void tellIfHeld(const PlacedScan& placed);
   void delegateDriving();
   std::vector<ReconfigureServer::Number> changeable();
-  void publishMapToOdom(ros::NodeHandle& node);
 
   Settings settings_;
   Exploration& exploration_;

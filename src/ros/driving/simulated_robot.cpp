@@ -52,7 +52,11 @@ SimulatedRobot::SimulatedRobot(ros::NodeHandle& node, Simulation simulation,
   // With simulated time its source is this node: zero would mean that there is no time yet.
   start_ = keeps_clock_ ? ros::Time(1.0) : ros::Time::now();
   if (keeps_clock_) clock_ = node.advertise<rosgraph_msgs::Clock>("/clock", 10);
-  publishMount();
+  tf2_msgs::TFMessage mount;
+  mount.transforms = {transformMessage({}, frames_.base, frames_.laser, now())};
+  mount.transforms.back().transform.translation.z = kLaserHeight;
+  fixed_transforms_.publish(mount);
+  bag_.write("/tf_static", now(), mount, true);
   // The first sweep has begun before its end is now, and whoever places its beams asks for then.
   const double sweep = std::abs(simulation_.parameters().laser.sweep);
   if (sweep > 0.0) publishPose(now() - ros::Duration(sweep));
@@ -64,14 +68,6 @@ void SimulatedRobot::tick(const Velocity& command) {
   turned_ += std::abs(simulation_.velocity().angular) * tick_;
   ++ticks_;
   publishPose(now());
-}
-
-void SimulatedRobot::publishMount() {
-  tf2_msgs::TFMessage message;
-  message.transforms = {transformMessage({}, frames_.base, frames_.laser, now())};
-  message.transforms.back().transform.translation.z = kLaserHeight;
-  fixed_transforms_.publish(message);
-  bag_.write("/tf_static", now(), message, true);
 }
 
 void SimulatedRobot::publishPose(const ros::Time& stamp) {

@@ -8,7 +8,7 @@
 #include "cca_mrpt/sensing/missing_returns.hpp"
 #include "cca_mrpt/simulation/simulation.hpp"
 #include "ros/bags/bag_recorder.hpp"
-#include "ros/input/frame_names.hpp"
+#include "ros/input/transforms.hpp"
 #include "sensing/motion_compensation.hpp"
 
 namespace cca {
@@ -46,7 +46,6 @@ class SimulatedRobot {
 
  private:
   void publishPose(const ros::Time& stamp);
-  void publishMount();
 
   Simulation simulation_;
   MissingReturns missing_returns_;

@@ -41,8 +41,11 @@ ScanFeed::ScanFeed(ros::NodeHandle& node, Settings settings, Sink sink)
         settings_.topics[topic], kQueue, take, ros::VoidConstPtr(),
         ros::TransportHints().tcpNoDelay()));
   }
-  silence_timer_ =
-      node.createWallTimer(kPatience, [this](const ros::WallTimerEvent&) { tellSilence(); });
+  silence_timer_ = node.createWallTimer(kPatience, [this](const ros::WallTimerEvent&) {
+    const std::string why = whySilent();
+    if (!why.empty() && why != told_silence_) ROS_WARN_STREAM(why);
+    told_silence_ = why;
+  });
 }
 
 void ScanFeed::drop(const std::string& reason, const std::string& detail, const std::string& rule) {
@@ -69,12 +72,6 @@ std::string ScanFeed::whySilent() const {
 std::string ScanFeed::lastTrouble() const {
   const std::string silence = whySilent();
   return silence.empty() ? last_trouble_ : ": " + silence;
-}
-
-void ScanFeed::tellSilence() {
-  const std::string why = whySilent();
-  if (!why.empty() && why != told_silence_) ROS_WARN_STREAM(why);
-  told_silence_ = why;
 }
 
 void ScanFeed::startAnewIfClockWasSetBack() {

@@ -89,7 +89,6 @@ class ScanFeed {
   void startAnewIfClockWasSetBack();
   /// Why none can come; empty where they can.
   std::string whySilent() const;
-  void tellSilence();
 
   Settings settings_;
   Sink sink_;

@@ -17,6 +17,11 @@ namespace cca {
 /// The name of a frame as tf2 has it: drivers from the days of tf1 begin it with a slash.
 std::string frameName(const std::string& frame);
 
+/// The frames that a robot speaks of [REP-105].
+struct FrameNames {
+  std::string map = "map", odom = "odom", base = "base_link", laser = "laser";
+};
+
 /// What tf knows, wherever its messages come from. Frames may be named with or without a slash.
 class Transforms {
  public:

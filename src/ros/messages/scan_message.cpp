@@ -79,13 +79,14 @@ void checkUnit(const sensor_msgs::LaserScan& m) {
                "half of the returns are beyond %g, range_max %g", middle, m.range_max);
 }
 
-}  // namespace
-
+/// s, from the first beam to the last as the message tells it; 0 where it does not, or is absurd.
 double sweepDuration(const sensor_msgs::LaserScan& message) {
   const auto beams = static_cast<double>(message.ranges.size());
   const double duration = (beams - 1.0) * message.time_increment;
   return beams >= 2.0 && std::abs(duration) <= kSlowestLaser ? duration : 0.0;
 }
+
+}  // namespace
 
 Scan scanFromMessage(const sensor_msgs::LaserScan& message) {
   check(message);

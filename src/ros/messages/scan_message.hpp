@@ -57,9 +57,6 @@ struct LaserLimits {
 sensor_msgs::LaserScan scanToMessage(const Scan& scan, const LaserLimits& limits,
                                      const std_msgs::Header& header);
 
-/// s, from the first beam to the last as the message tells it; 0 where it does not, or is absurd.
-double sweepDuration(const sensor_msgs::LaserScan& message);
-
 /// When the middle beam was taken. A message is stamped with its first beam; one pose for a whole
 /// sweep of a turning laser errs least at its middle.
 ros::Time sweepMiddle(const sensor_msgs::LaserScan& message);

@@ -100,11 +100,9 @@ bool check() {
   const auto takeTransforms = [&](const ros::MessageEvent<const tf2_msgs::TFMessage>& event) {
     check.take(*event.getConstMessage(), event.getPublisherName());
   };
-  const auto takeOdometry = [&](const ros::MessageEvent<const nav_msgs::Odometry>& event) {
-    check.take(*event.getConstMessage(), event.getReceiptTime());
-  };
+  const auto takeOdometry = [&](const nav_msgs::Odometry::ConstPtr& m) { check.take(*m); };
   const auto scan = hear<topic_tools::ShapeShifter>(node, "scan", 100, takeScan);
-  const auto odometry = hear<nav_msgs::Odometry>(node, "odom", 100, takeOdometry);
+  const auto odometry = node.subscribe<nav_msgs::Odometry>("odom", 100, takeOdometry);
   const auto transforms = hear<tf2_msgs::TFMessage>(node, "/tf", 1000, takeTransforms);
   const auto fixed = hear<tf2_msgs::TFMessage>(node, "/tf_static", 1000, takeTransforms);
   const ros::Publisher commands = node.advertise<geometry_msgs::Twist>("cmd_vel", 1);

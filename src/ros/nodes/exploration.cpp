@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include <tuple>
 #include <utility>
 
 #include "cca_mrpt/sensing/range_noise.hpp"
@@ -69,13 +70,11 @@ void Exploration::begin(std::unique_ptr<Localiser> localiser, const std::string&
   if (slam_ && !resume.empty()) {
     rememberDrive(seenFrom({0.0, 0.0}, loadMemory(resume)), *slam_, session->mapping());
   }
-  if (slam_) saver_.saveMemory([this] { return memoryOf(slam_->slam()); });
+  if (slam_) saver_.saveMemory([this]() -> const Slam& { return slam_->slam(); });
   const std::lock_guard<std::mutex> lock(saver_.mutex());
   session_ = std::move(session);
   session_->explorer().pause(mode_ == Mode::kPaused);
 }
-
-void Exploration::knowPlan(const std::vector<PlanLine>& plan) { known_plan_.emplace(plan); }
 
 void Exploration::lookAtPlan(const Pose2& T_map_robot) {
   const std::vector<Scan> sights =

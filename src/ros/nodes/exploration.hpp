@@ -51,7 +51,7 @@ class Exploration {
   /// A plan of the place, in the map's frame: the robot knows the ways of it that lead on from
   /// where it is localised first, as if it had seen them. What it sees itself counts in their
   /// place.
-  void knowPlan(const std::vector<PlanLine>& plan);
+  void knowPlan(const std::vector<PlanLine>& plan) { known_plan_.emplace(plan); }
 
   /// Localises and maps a scan. Where poses are given, a scan while it is stopped or has finished
   /// is not mapped. @return  for step().

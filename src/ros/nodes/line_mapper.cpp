@@ -89,7 +89,7 @@ class LineMapper {
     begin();
     if (slam_) {
       slam_publisher_.emplace(node, parameters_.frames);
-      saver_.saveMemory([this] { return memoryOf(slam_->slam()); });
+      saver_.saveMemory([this]() -> const Slam& { return slam_->slam(); });
     }
   }
 

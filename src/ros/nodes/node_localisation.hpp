@@ -10,8 +10,8 @@
 
 #include "cca_mrpt/localisation/localiser.hpp"
 #include "cca_mrpt/slam/slam_localiser.hpp"
-#include "ros/input/frame_names.hpp"
 #include "ros/input/scan_feed.hpp"
+#include "ros/input/transforms.hpp"
 #include "slam/external_corrections.hpp"
 
 namespace cca {

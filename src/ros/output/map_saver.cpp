@@ -10,10 +10,6 @@
 
 namespace cca {
 
-MapMemory memoryOf(const Slam& slam) {
-  return {slam.memory(), slam.remembered() > 0 && !slam.isInMemory()};
-}
-
 MapSaver::MapSaver(const ros::NodeHandle& private_node, std::string folder, Snapshot snapshot)
     : folder_(std::filesystem::absolute(folder).string()),
       snapshot_(std::move(snapshot)),
@@ -32,15 +28,20 @@ MapProducts MapSaver::products() {
 
 void MapSaver::save() {
   const std::lock_guard<std::mutex> one_at_a_time(writing_);
-  std::optional<MapMemory> memory;
+  std::optional<SlamMemory> memory;
+  bool is_apart = false;
   MapProducts products = [&] {
     const std::lock_guard<std::mutex> lock(mutex_);
-    if (memory_) memory = memory_();
+    if (slam_) {
+      const Slam& slam = slam_();
+      memory = slam.memory();
+      is_apart = slam.remembered() > 0 && !slam.isInMemory();
+    }
     return snapshot_();
   }();
-  if (memory) products.memory = packedMemory({memory->drive});
+  if (memory) products.memory = packedMemory({*memory});
   const FolderLock lock = prepareMapFolder(folder_, true);
-  if (memory && memory->is_apart && !has_saved_) {
+  if (is_apart && !has_saved_) {
     const std::string kept = keepMemory(folder_);
     if (!kept.empty())
       ROS_WARN("no place of the earlier map was found, it is kept: %s", kept.c_str());
@@ -50,9 +51,9 @@ void MapSaver::save() {
   ROS_INFO("map saved to %s", folder_.c_str());
 }
 
-void MapSaver::saveMemory(std::function<MapMemory()> memory) {
+void MapSaver::saveMemory(std::function<const Slam&()> slam) {
   const std::lock_guard<std::mutex> lock(mutex_);
-  memory_ = std::move(memory);
+  slam_ = std::move(slam);
 }
 
 void MapSaver::tellIfNothingCanBeWritten() const try {

@@ -14,15 +14,6 @@
 
 namespace cca {
 
-/// What goes with a map as map.slam.
-struct MapMemory {
-  SlamMemory drive;
-  /// It is not that of the earlier map that it should have gone on with: no place was found of that
-  /// yet, so a map.slam that is there is kept.
-  bool is_apart = false;
-};
-MapMemory memoryOf(const Slam& slam);
-
 /// Writes the map's folder on `~save` and when asked to, in a thread of its own: pictures and
 /// scenes take a second, and for that long a robot must not be left alone with its last command.
 class MapSaver {
@@ -34,8 +25,10 @@ class MapSaver {
   /// Tells on the console, before the work, where the folder cannot be written.
   MapSaver(const ros::NodeHandle& private_node, std::string folder, Snapshot snapshot);
 
-  /// Called under the mutex, like the snapshot.
-  void saveMemory(std::function<MapMemory()> memory);
+  /// The memory of a SLAM goes with the map as map.slam. As long as it has found no place of the
+  /// earlier map that it should have gone on with, a map.slam that is there is kept.
+  /// @param slam  called under the mutex, like the snapshot.
+  void saveMemory(std::function<const Slam&()> slam);
 
   /// To be held wherever what the snapshot reads is changed.
   std::mutex& mutex() { return mutex_; }
@@ -54,7 +47,7 @@ class MapSaver {
 
   std::string folder_;
   Snapshot snapshot_;
-  std::function<MapMemory()> memory_;
+  std::function<const Slam&()> slam_;
   bool has_saved_ = false;  ///< what is there is ours
   std::mutex mutex_, writing_;
   ros::NodeHandle node_;

@@ -3,7 +3,6 @@
 
 #include <geometry_msgs/PoseWithCovarianceStamped.h>
 
-#include "ros/input/transforms.hpp"
 #include "ros/messages/pose_message.hpp"
 
 namespace cca {

@@ -7,7 +7,7 @@
 #include <string>
 
 #include "cca_mrpt/localisation/localiser.hpp"
-#include "ros/input/frame_names.hpp"
+#include "ros/input/transforms.hpp"
 
 namespace cca {
 

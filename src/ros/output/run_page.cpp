@@ -28,12 +28,10 @@ RunPage::RunPage(const ros::NodeHandle& node, const Settings& settings,
     : heed_(std::move(heed)) {
   if (!settings.serve) return;
   page_ = openLivePage(settings);
-  timer_ = node.createWallTimer(kHeedPeriod, [this](const ros::WallTimerEvent&) { heedAll(); });
+  timer_ = node.createWallTimer(kHeedPeriod, [this](const ros::WallTimerEvent&) {
+    while (const std::optional<RunCommand> command = page_->nextCommand()) heed_(*command);
+  });
   ROS_INFO("the run can be seen at %s", page_->url().c_str());
-}
-
-void RunPage::heedAll() {
-  while (const std::optional<RunCommand> command = page_->nextCommand()) heed_(*command);
 }
 
 void RunPage::show(ReplayMoment moment, const Scan& scan, const LineMap& map,

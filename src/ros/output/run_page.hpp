@@ -43,8 +43,6 @@ class RunPage {
   void finish(const std::vector<MapLine>& lines, const std::string& reason);
 
  private:
-  void heedAll();
-
   std::unique_ptr<LivePage> page_;
   std::function<void(const RunCommand&)> heed_;
   ros::WallTimer timer_;

@@ -5,7 +5,7 @@
 
 #include "cca_mrpt/slam/slam_localiser.hpp"
 #include "pose_publisher.hpp"
-#include "ros/input/frame_names.hpp"
+#include "ros/input/transforms.hpp"
 #include "ros/nodes/node_diagnostics.hpp"
 
 namespace cca {

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <set>
 #include <sstream>
 #include <stdexcept>
 #include <type_traits>
@@ -146,15 +147,12 @@ void PrivateParameters::names(const std::string& name, std::vector<std::string>&
   } else {
     chosen = namesIn(*told);
   }
-  auto sorted = chosen;
-  std::sort(sorted.begin(), sorted.end());
-  const bool is_sound = !chosen.empty() &&
+  const std::set<std::string> different(chosen.begin(), chosen.end());
+  const bool is_sound = !chosen.empty() && different.size() == chosen.size() &&
                         std::all_of(chosen.begin(), chosen.end(),
-                                    [](const std::string& word) {
-                                      std::string why;
+                                    [why = std::string()](const std::string& word) mutable {
                                       return !word.empty() && ros::names::validate(word, why);
-                                    }) &&
-                        std::adjacent_find(sorted.begin(), sorted.end()) == sorted.end();
+                                    });
   if (!is_sound) refuse(name, *told, "a list of different topics, [a, b]");
   value = chosen;
 }
