@@ -30,10 +30,10 @@ PATH="$(dirname "$python"):$PATH" "$python" python/run_page.py docs/python.md "$
 
 # The package's commands come first, then the programs, where they were built before.
 export PATH="$copy/venv/bin:$PWD/build/devel/lib/cca_mrpt:$PWD/build/src/apps:$PWD/build/benchmarks:$PATH"
-pip install pytest mypy ruff distributed gymnasium rosbags mcap
+pip install pytest pytest-xdist mypy ruff distributed gymnasium rosbags mcap
 mkdir "$where/examples" 2>/dev/null || rm -rf "$where"/examples/*
 python python/tests/room_log.py "$where/examples/intel.log.gz"
 python python/run_page.py docs/python.md "$where/examples" examples
 python python/run_page.py docs/python_batch.md "$where/examples" examples
 ruff check --no-cache python test benchmarks launch_scripts
-python -m pytest -q -p no:cacheprovider python/tests
+python -m pytest -q -n "$CMAKE_BUILD_PARALLEL_LEVEL" -p no:cacheprovider python/tests

@@ -16,7 +16,7 @@ from cca_mrpt.__main__ import main
 
 pytest.importorskip("distributed", reason="needs dask.distributed")
 
-LOGS, PATIENCE = 24, 120  # s
+LOGS, PATIENCE = 12, 120  # s
 
 
 @pytest.fixture
