@@ -42,13 +42,15 @@ std::vector<Eigen::Vector2d> HazardFeed::around(const Eigen::Vector2d& robot_fix
   std::deque<Waiting> waiting;
   std::swap(waiting, waiting_);
   for (Waiting& w : waiting) {
-    const bool is_known = tf.has(fixed_frame_, w.frame, w.stamp);
-    if (!is_known && now - w.stamp < kTransformDue) {
-      waiting_.push_back(std::move(w));
+    if (!tf.has(fixed_frame_, w.frame, w.stamp)) {
+      if (now - w.stamp < kTransformDue) {
+        waiting_.push_back(std::move(w));
+      } else {
+        ROS_WARN_STREAM_THROTTLE(5.0, "hazard dropped: " << tf.whyNot(fixed_frame_, w.frame));
+      }
       continue;
     }
     try {
-      if (!is_known) throw std::runtime_error(tf.whyNot(fixed_frame_, w.frame));
       const Eigen::Isometry3d T = tf.lookupInSpace(fixed_frame_, w.frame, w.stamp);
       std::vector<Eigen::Vector2d> points;
       for (const Eigen::Vector3d& p : w.points) points.push_back((T * p).head<2>());

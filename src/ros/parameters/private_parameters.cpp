@@ -100,9 +100,10 @@ void PrivateParameters::topic(const std::string& name, std::string& value) {
 }
 
 void PrivateParameters::flag(const std::string& name, bool& value) {
-  const std::string text = given(name).value_or(value ? "true" : "false");
-  if (text != "true" && text != "false") refuse(name, text, "true or false");
-  value = text == "true";
+  const std::optional<std::string> told = given(name);
+  if (!told) return;
+  if (*told != "true" && *told != "false") refuse(name, *told, "true or false");
+  value = *told == "true";
 }
 
 template <class Number>
@@ -137,23 +138,22 @@ void PrivateParameters::choice(const std::string& name, std::string& value,
 }
 
 void PrivateParameters::names(const std::string& name, std::vector<std::string>& value) {
-  const std::optional<std::string> told = given(name);
-  if (!told) return;
+  known_.push_back(name);
   XmlRpc::XmlRpcValue parameter;
-  node_.getParam(name, parameter);
+  if (!node_.getParam(name, parameter)) return;
   std::vector<std::string> chosen;
   if (parameter.getType() == XmlRpc::XmlRpcValue::TypeArray) {
     for (int k = 0; k < parameter.size(); ++k) chosen.push_back(textOf(parameter[k]));
   } else {
-    chosen = namesIn(*told);
+    chosen = namesIn(textOf(parameter));
   }
+  std::string why;
   const std::set<std::string> different(chosen.begin(), chosen.end());
   const bool is_sound = !chosen.empty() && different.size() == chosen.size() &&
-                        std::all_of(chosen.begin(), chosen.end(),
-                                    [why = std::string()](const std::string& word) mutable {
-                                      return !word.empty() && ros::names::validate(word, why);
-                                    });
-  if (!is_sound) refuse(name, *told, "a list of different topics, [a, b]");
+                        std::all_of(chosen.begin(), chosen.end(), [&why](const std::string& word) {
+                          return !word.empty() && ros::names::validate(word, why);
+                        });
+  if (!is_sound) refuse(name, textOf(parameter), "a list of different topics, [a, b]");
   value = chosen;
 }
 
