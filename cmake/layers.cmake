@@ -64,8 +64,8 @@ function(cca_join_sources target)
   endif()
 endfunction()
 
-# Warnings, of tests too.
-function(cca_warnings target)
+# What all is compiled with, tests too.
+function(cca_common_options target)
   target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Wshadow)
   # Calls inside a shared library stay inside it, and so can be inlined: 5 % fewer instructions.
   target_compile_options(${target} PRIVATE -fno-semantic-interposition)
@@ -74,10 +74,10 @@ function(cca_warnings target)
   endif()
 endfunction()
 
-# Warnings and sanitizers, of libraries and programs. Tests go without the latter: they take as long to compile with
-# them as all that they test.
+# The same and sanitizers, of libraries and programs. Sanitized tests would take as long to compile as all that they
+# test.
 function(cca_options target)
-  cca_warnings(${target})
+  cca_common_options(${target})
   if(CCA_SANITIZE)
     # Checks of the value of each pointer take a third of the time to compile, and find what the address sanitizer
     # reports where the pointer is used. Alignment is asked for by Eigen alone, which asserts it.

@@ -36,4 +36,4 @@ python python/tests/room_log.py "$where/examples/intel.log.gz"
 python python/run_page.py docs/python.md "$where/examples" examples
 python python/run_page.py docs/python_batch.md "$where/examples" examples
 ruff check --no-cache python test benchmarks launch_scripts
-python -m pytest -q -n "$CMAKE_BUILD_PARALLEL_LEVEL" -p no:cacheprovider python/tests
+python -m pytest -q -n "$(nproc)" -p no:cacheprovider python/tests
