@@ -7,6 +7,7 @@
 #include "floor_plan/distance_transform.hpp"
 #include "floor_plan/furniture.hpp"
 #include "floor_plan/jambs.hpp"
+#include "floor_plan/main_directions.hpp"
 #include "floor_plan/passages.hpp"
 #include "floor_plan/polygon_measures.hpp"
 #include "floor_plan/region_outline.hpp"
@@ -260,6 +261,8 @@ FloorPlan floorPlan(const OccupancyRaster& whole, const std::vector<MapLine>& ma
       linesWithin({grid.origin - beyond, grid.origin + size + beyond}, map_lines);
   const Structure structure = tellStructure(grid, all_lines);
   const std::vector<MapLine> lines = facesOf(structure.solid, all_lines);
+  // Drawn by; where rooms part, cells and lines are to agree.
+  const std::vector<MapLine> straight = alongMainDirections(lines, mainDirections(lines));
   const Raster<float> clearance = distanceTransform(structure.solid);
   RoomRegions regions = partitionIntoRooms(spaceForRooms(structure, clearance), clearance,
                                            hiddenFloor(grid, all_lines),
@@ -278,13 +281,13 @@ FloorPlan floorPlan(const OccupancyRaster& whole, const std::vector<MapLine>& ma
     PlanRoom& room = plan.rooms[k];
     room.id = static_cast<int>(k) + 1;
     const std::vector<Passage> openings = passagesOf(regions, static_cast<int>(k));
-    drawRoom(regions.labels, borders[k], lines, openings, room);
+    drawRoom(regions.labels, borders[k], straight, openings, room);
     takeLeaning(openings, room, plan);
     room.area = areaOf(room.outline, room.holes);
     room.perimeter = perimeterOf(room.outline, room.holes);
     room.open_border = openBorder(obstacles, regions.labels, borders[k]);
   }
-  std::vector<PlanWall> walls = wallsOfLines(structure.solid, withoutLeaning(lines, plan));
+  std::vector<PlanWall> walls = wallsOfLines(structure.solid, withoutLeaning(straight, plan));
   plan.walls.insert(plan.walls.begin(), walls.begin(), walls.end());
   numberAll(plan);
   return plan;

@@ -8,6 +8,7 @@
 #include "floor_plan/distance_transform.hpp"
 #include "floor_plan/furniture.hpp"
 #include "floor_plan/jambs.hpp"
+#include "floor_plan/main_directions.hpp"
 #include "floor_plan/passages.hpp"
 #include "floor_plan/polygon_measures.hpp"
 #include "floor_plan/region_outline.hpp"
@@ -343,6 +344,53 @@ TEST(RoomRegions, ArePartedAtANarrowingInAWallByTheirAreas) {
   EXPECT_EQ(count(), 2);
 }
 
+MapLine lineAt(double degrees, double sigma_deg, double length = 4.0) {
+  MapLine line;
+  const double angle = degrees * kRadiansPerDegree;
+  line.segment.start = {1.0, 2.0};
+  line.segment.end =
+      line.segment.start + length * Eigen::Vector2d(std::cos(angle), std::sin(angle));
+  line.segment.covariance(1, 1) = std::pow(sigma_deg * kRadiansPerDegree, 2);
+  return line;
+}
+
+double degreesOf(const MapLine& line) {
+  const Eigen::Vector2d along = line.segment.direction();
+  return std::atan2(along.y(), along.x()) / kRadiansPerDegree;
+}
+
+TEST(MainDirections, AreThoseThatWallsShareOrStandSquareTo) {
+  const std::vector<MainDirection> found =
+      mainDirections({lineAt(89.95, 0.1), lineAt(30.0, 0.1), lineAt(-59.9, 0.1), lineAt(0.05, 0.1),
+                      lineAt(-150.0, 0.1), lineAt(180.0, 0.1), lineAt(45.0, 0.0)});
+  ASSERT_EQ(found.size(), 2u) << "what is told no deviation says nothing";
+  EXPECT_NEAR(found[0].angle / kRadiansPerDegree, 0.0, 1e-9) << "89.95, .05 and 180";
+  EXPECT_NEAR(found[1].angle / kRadiansPerDegree, 30.0 + 0.1 / 3.0, 1e-9);
+  EXPECT_NEAR(std::sqrt(found[0].variance) / kRadiansPerDegree, 0.1 / std::sqrt(3.0), 1e-9);
+}
+
+TEST(MainDirections, AreAsManyAsTheDeviationsOfWallsSay) {
+  EXPECT_EQ(mainDirections({lineAt(10.0, 0.1), lineAt(10.25, 0.1)}).size(), 1u);
+  EXPECT_EQ(mainDirections({lineAt(10.0, 0.05), lineAt(10.25, 0.05)}).size(), 2u);
+  EXPECT_TRUE(mainDirections({}).empty());
+}
+
+TEST(MainDirections, TurnAWallAboutItsMiddleAsFarAsItsDeviationsAllow) {
+  const std::vector<MapLine> lines{lineAt(20.0, 0.01), lineAt(110.3, 0.2), lineAt(20.5, 0.2),
+                                   lineAt(20.3, 0.0)};
+  const std::vector<MapLine> turned =
+      alongMainDirections(lines, {{20.0 * kRadiansPerDegree, 1e-8}});
+  EXPECT_NEAR(degreesOf(turned[1]), 110.0, 1e-9);
+  EXPECT_LT((0.5 * (turned[1].segment.start + turned[1].segment.end) -
+             0.5 * (lines[1].segment.start + lines[1].segment.end))
+                .norm(),
+            1e-12);
+  EXPECT_NEAR(turned[1].segment.length(), 4.0, 1e-12);
+  EXPECT_EQ(turned[2].segment.end, lines[2].segment.end) << "2.5 deviations off";
+  EXPECT_EQ(turned[3].segment.end, lines[3].segment.end) << "it is told to be exact";
+  EXPECT_EQ(alongMainDirections(lines, {})[1].segment.end, lines[1].segment.end);
+}
+
 TEST(Walls, OfOneFaceHaveNoThickness) {
   const DrawnMap map = drawMap({{{0, 0}, {5, 0}, {5, 4}, {0, 4}}}, {0.0, 0.0, 0.0});
   const Structure found = tellStructure(cropToKnown(map.grid, 2), map.lines);
@@ -387,6 +435,29 @@ TEST(Furniture, IsNotTheWallBetweenTwoDoors) {
   EXPECT_TRUE(cutLeaning(outline, rooms, doors).empty());
   EXPECT_EQ(outline.size(), corridor.size());
   EXPECT_EQ(cutLeaning(outline, rooms, {}).size(), 1u);
+}
+
+TEST(RoomOutline, IsSquareWhereItsLinesAreByTheirDeviations) {
+  for (const double sigma_deg : {0.5, 0.01}) {
+    DrawnMap map = drawMap({{{0, 0}, {5, 0}, {5, 4}, {0, 4}}}, {0.4, 0.7, 0.3}, 0.25, 0.004);
+    for (MapLine& line : map.lines)
+      line.segment.covariance(1, 1) = std::pow(sigma_deg * kRadiansPerDegree, 2);
+    const FloorPlan plan = floorPlan(map.grid, map.lines);
+    ASSERT_EQ(plan.rooms.size(), 1u);
+    const Polygon& outline = plan.rooms[0].outline;
+    ASSERT_EQ(outline.size(), 4u);
+    double worst = 0.0;
+    for (std::size_t k = 0; k < 4; ++k) {
+      const Eigen::Vector2d side = outline[(k + 1) % 4] - outline[k],
+                            next = outline[(k + 2) % 4] - outline[(k + 1) % 4];
+      worst = std::max(worst, std::abs(side.normalized().dot(next.normalized())));
+    }
+    if (sigma_deg > 0.1) {
+      EXPECT_LT(worst, 1e-9);
+    } else {
+      EXPECT_GT(worst, 1e-4) << "nothing is made square that is not";
+    }
+  }
 }
 
 TEST(RoomOutline, FollowsTheLinesAndNotTheCells) {
