@@ -12,7 +12,8 @@ usage: floor_plan_table.py PROGRAM --plans FOLDER --bench FOLDER [--maps FOLDER]
            each is mapped by its own poses (`map LOG --pose log`), whose frame the drawings are in; by --pose slam in
            a frame that is off by as much as SLAM and who corrected the log disagree
 --bench    the scorer of rooms (score_rooms.py, rooms_lib.py)
---worlds   worlds with NAME.yaml and NAME.truth.csv, the faces of their walls: door widths, sides, thickness
+--worlds   worlds with NAME.yaml and NAME.truth.csv, the faces of their walls: door widths, sides, thickness; beside the
+           errors what the lines tell of theirs, sigma times .674, which is the median of the errors of such a sigma
 --elsewhere  explores from another start each, with this seed, walls shifted off the grid's lines: a second set
 --maps     where the explored maps are kept, and found again
 --require  ends with status 1 where a mean falls short (pq, f50, iou75, door_recall, door_precision) or is
@@ -31,6 +32,7 @@ import tempfile
 import time
 
 SHIFT = (0.023, 0.031)  # m, of --elsewhere
+MEDIAN_OF_SIGMA = 0.6745  # of the magnitude of a normal variable
 TRUTH = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "test", "floor_plan", "truth")
 COLUMNS = ("pq", "f50", "iou75", "iou", "door_recall", "door_precision", "count_off", "seconds")
 # A start from which the robot gets out: that of the plan stands in a ring of chairs.
@@ -183,14 +185,40 @@ def true_width(a, b, faces):
     return stands[1] - stands[0]
 
 
+class Lines:
+    """What the map tells of its lines, by id: ends and deviation of the offset."""
+
+    def __init__(self, path):
+        with open(path) as file:
+            rows = list(csv.DictReader(file))
+        self.ends = {int(r["id"]): ((float(r["x1"]), float(r["y1"])), (float(r["x2"]), float(r["y2"]))) for r in rows}
+        self.sigma = {int(r["id"]): float(r["sigma_offset"]) for r in rows}
+
+    def of_side(self, a, b):
+        """The sigma of the line that a side of a room was drawn along; None where it was none."""
+        middle = ((a[0] + b[0]) / 2, (a[1] + b[1]) / 2)
+        way = [(b[k] - a[k]) / math.dist(a, b) for k in (0, 1)]
+        near = [(distance(middle, line), number) for number, line in self.ends.items()
+                if abs((line[1][0] - line[0][0]) * way[1] - (line[1][1] - line[0][1]) * way[0]) < 0.1 * math.dist(*line)]
+        off, number = min(near, default=(math.inf, None))
+        return self.sigma[number] if off < 0.03 else None
+
+
+def told(*sigmas):
+    """cm, the median error of what lies between two lines of these sigmas."""
+    return [] if None in sigmas else [100 * MEDIAN_OF_SIGMA * math.hypot(*sigmas)]
+
+
 def area_of(ring):
     return sum(a[0] * b[1] - b[0] * a[1] for a, b in zip(ring, ring[1:] + ring[:1])) / 2
 
 
 def measure_worlds(options, work):
     """Errors of doors, sides, walls and areas where the true faces are known to the last digit."""
-    errors = {"door_cm": [], "side_cm": [], "thickness_cm": [], "area_percent": []}
-    print("| world | doors | door, cm | sides | side, cm | walls | thickness, cm | rooms | area, % |\n" + "|---" * 9 + "|")
+    errors = {"door_cm": [], "side_cm": [], "side_told_cm": [], "thickness_cm": [], "thickness_told_cm": [],
+              "area_percent": []}
+    print("| world | doors | door, cm | sides | side, cm | of lines | told, cm | walls | thickness, cm | of lines | told, cm "
+          "| rooms | area, % |\n" + "|---" * 13 + "|")
     for name in sorted(options.only or [f[: -len(".truth.csv")] for f in os.listdir(options.worlds)
                                         if f.endswith(".truth.csv")]):
         with open(os.path.join(options.worlds, name + ".truth.csv")) as file:
@@ -199,7 +227,7 @@ def measure_worlds(options, work):
         corners = [p for f in faces for p in f]
         folder = explored(options.program, os.path.join(options.worlds, name + ".yaml"), name, options.maps)
         features, _ = planned(options.program, folder, os.path.join(work, name))
-        row = {key: [] for key in errors}
+        row, lines = {key: [] for key in errors}, Lines(os.path.join(folder, "lines.csv"))
         openings = [f["geometry"]["coordinates"] for f in features if f["properties"]["kind"] in ("door", "opening")]
         for feature in features:
             p, shape = feature["properties"], feature["geometry"]["coordinates"]
@@ -210,6 +238,7 @@ def measure_worlds(options, work):
             elif p["kind"] == "wall" and p["faces"] == 2:
                 # The generator's walls are 10 or 20 cm thick.
                 row["thickness_cm"].append(100 * min(abs(p["thickness_m"] - t) for t in (0.1, 0.2)))
+                row["thickness_told_cm"] += told(*(lines.sigma[p[face][0]] for face in ("left_line_ids", "right_line_ids")))
             elif p["kind"] == "room":
                 ring = [tuple(c) for c in shape[0][:-1]]
                 true = [min(corners, key=lambda c: math.dist(c, v)) for v in ring]
@@ -220,6 +249,8 @@ def measure_worlds(options, work):
                     after = (k + 1) % len(ring)
                     if true[k] and true[after] and math.dist(true[k], true[after]) > 0.5:
                         row["side_cm"].append(100 * abs(math.dist(vertex, ring[after]) - math.dist(true[k], true[after])))
+                        row["side_told_cm"] += told(lines.of_side(ring[k - 1], vertex),
+                                                    lines.of_side(ring[after], ring[(after + 1) % len(ring)]))
                 where = [c or v for c, v in zip(true, ring)]
                 if len(shape) == 1 and sum(c is None for c in true) <= 0.25 * len(true):
                     row["area_percent"].append(100 * abs(area_of(ring) / area_of(where) - 1))
