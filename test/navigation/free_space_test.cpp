@@ -177,14 +177,14 @@ TEST(FreeSpace, WhereTheRobotHasBeenShutsWhileSomebodyStandsWhereItsHullWas) {
   const FreeSpace& space = cells.space;
   cells.set({0, 0}, CellState::kFree);
   cells.space.pass({0, 0});
-  for (int y = 0; y < 3; ++y) {
-    cells.set({2, y}, CellState::kOccupied);
-    EXPECT_TRUE(space.isTraversable({0, 0})) << "may be noise";
+  for (int k = 0; k < 8; ++k) {
+    cells.set({2 + k % 3, k / 3 - 1}, CellState::kOccupied);
+    EXPECT_TRUE(space.isTraversable({0, 0})) << "may be a wall that is drawn beside its place";
   }
-  cells.set({2, -1}, CellState::kOccupied);
+  cells.set({4, 1}, CellState::kOccupied);
   EXPECT_FALSE(space.isTraversable({0, 0}));
   EXPECT_EQ(space.passedCells({0, 0}), 0u);
-  cells.set({2, -1}, CellState::kFree);
+  cells.set({4, 1}, CellState::kFree);
   EXPECT_TRUE(space.isTraversable({0, 0}));
 }
 

@@ -175,9 +175,8 @@ class ExploreOwnRobot(OwnMaster):
     @unittest.skipUnless(os.path.exists(FURNISHED), "no shared data: " + FURNISHED)
     def test_furnished_flat_by_a_turning_laser(self):
         """Of 5.7 Hz, on wheels that are 3 % too long and turn 2 degrees a metre. The frame is the first pose of its own,
-        and no loop is closed: lines lie 8 to 17 cm off at the other end. One drive in thirteen tries a passage of 55 cm
-        for minutes, gives up and sees .98 (docs/exploration.md): of two drives one sees .99, and all else holds in
-        each."""
+        and no loop is closed: lines lie 8 to 17 cm off at the other end. A drive that tries a gap of 55 cm for minutes
+        may see .98 (docs/log/exploration.md): of two drives one sees .99, and all else holds in each."""
         first, seen = self.out, []
         for self.out in (first, first + "_2"):
             seen.append(self.with_nobody_who_tells_where_it_is(

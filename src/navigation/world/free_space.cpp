@@ -7,10 +7,13 @@
 namespace cca {
 namespace {
 
-// Beside an open cell, or one that the robot has been in. With 1 to 2 more passages of the robot's
-// width shut, 4 and 6 gain nothing; without end ways lead nearer to walls than the robot needs,
-// where what is free is seen first.
+// Beside an open cell. With 1 to 2 more passages of the robot's width shut, 4 and 6 gain nothing;
+// without end ways lead nearer to walls than the robot needs, where what is free is seen first.
 constexpr int kNoisyCells = 3;
+// Beside a cell that the robot has been in. Walls that are drawn 10 cm off, by poses that drift,
+// are up to six, and shut the robot in; with twelve ways lead through the flank of who stands
+// there.
+constexpr int kDriftedCells = 8;
 
 /// Cells, from the centre of the cell at an offset to the nearest point of the one at the origin.
 double distanceTo(Cell offset) {
@@ -21,7 +24,7 @@ double distanceTo(Cell offset) {
 }  // namespace
 
 bool FreeSpace::Place::isPassed() const {
-  return is_passed && state != CellState::kOccupied && close <= kNoisyCells;
+  return is_passed && state != CellState::kOccupied && close <= kDriftedCells;
 }
 
 FreeSpace::FreeSpace(double clearance, double resolution) : clearance_(clearance) {

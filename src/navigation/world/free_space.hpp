@@ -15,8 +15,9 @@ namespace cca {
 ///
 /// A cell that was open stays so while at most three obstacles come nearer, none by more than a
 /// cell: as much does one noisy cell take of a passage, and noise must not open and shut it scan by
-/// scan. Of a wall it would be more. Where the robot has been it may be as many that come nearer by
-/// a cell: more stand where its hull was, and have come since then.
+/// scan. Of a wall it would be more. Where the robot has been it may be eight that come nearer by a
+/// cell, for walls are drawn where the poses of scans say: more stand where its hull was, and have
+/// come since then.
 ///
 /// Unknown cells are not grown: what they hold is for the local planner to see in time.
 class FreeSpace {
