@@ -4,6 +4,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace cca {
 namespace {
@@ -40,7 +41,7 @@ std::vector<MainDirection> mainDirections(const std::vector<MapLine>& lines,
   std::vector<MainDirection> all;
   for (const MapLine& line : lines) {
     const double variance = line.segment.covariance(1, 1);
-    if (variance > 0.0) all.push_back({angleOf(line.segment), variance});
+    if (variance > 0.0 && std::isfinite(variance)) all.push_back({angleOf(line.segment), variance});
   }
   const auto byAngle = [](const MainDirection& a, const MainDirection& b) {
     return a.angle < b.angle;
@@ -70,13 +71,13 @@ std::vector<MapLine> alongMainDirections(std::vector<MapLine> lines,
   for (MapLine& line : lines) {
     LineSegment& segment = line.segment;
     const double angle = angleOf(segment);
-    double turn = kQuarter;
+    double turn = std::numeric_limits<double>::infinity();
     for (const MainDirection& direction : directions) {
       const double to = turnTo(angle, direction.angle);
       if (std::abs(to) < std::abs(turn)) turn = to;
     }
     const double sigma = std::sqrt(segment.covariance(1, 1));
-    if (std::abs(turn) > tuning.deviations * sigma) continue;
+    if (!(std::abs(turn) <= tuning.deviations * sigma)) continue;
     const Eigen::Vector2d middle = 0.5 * (segment.start + segment.end);
     const Eigen::Rotation2Dd rotation(turn);
     segment.start = middle + rotation * (segment.start - middle);

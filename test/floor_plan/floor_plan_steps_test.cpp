@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <limits>
 #include <random>
 
 #include "drawn_map.hpp"
@@ -389,6 +391,21 @@ TEST(MainDirections, TurnAWallAboutItsMiddleAsFarAsItsDeviationsAllow) {
   EXPECT_EQ(turned[2].segment.end, lines[2].segment.end) << "2.5 deviations off";
   EXPECT_EQ(turned[3].segment.end, lines[3].segment.end) << "it is told to be exact";
   EXPECT_EQ(alongMainDirections(lines, {})[1].segment.end, lines[1].segment.end);
+}
+
+TEST(MainDirections, AreNotMadeByDeviationsThatAreNoNumbers) {
+  for (const double odd :
+       {std::numeric_limits<double>::quiet_NaN(), -1.0, std::numeric_limits<double>::infinity()}) {
+    std::vector<MapLine> lines{lineAt(20.0, 0.1), lineAt(20.1, 0.1)};
+    lines[1].segment.covariance(1, 1) = odd;
+    const std::vector<MainDirection> found = mainDirections(lines);
+    ASSERT_EQ(found.size(), 1u);
+    EXPECT_NEAR(found[0].angle, 20.0 * kRadiansPerDegree, 1e-12);
+    EXPECT_TRUE(alongMainDirections(lines, found)[1].segment.end.allFinite());
+  }
+  EXPECT_EQ(alongMainDirections({lineAt(20.0, 1000.0)}, {})[0].segment.end,
+            lineAt(20.0, 1000.0).segment.end)
+      << "there is no direction";
 }
 
 TEST(Walls, OfOneFaceHaveNoThickness) {
