@@ -81,18 +81,21 @@ std::vector<Passage> passagesOf(const RoomRegions& regions, int label) {
   return passages;
 }
 
-/// The outline and the holes of a room: along lines, or else straightened, or else along cells.
+/// The outline and the holes of a room: along lines in main directions, or else as they are, or
+/// else straightened, or else along cells.
 void drawRoom(const Raster<int>& labels, const RegionOutline& border,
-              const std::vector<MapLine>& lines, const std::vector<Passage>& openings,
-              PlanRoom& room) {
+              const std::vector<MapLine>& straight, const std::vector<MapLine>& lines,
+              const std::vector<Passage>& openings, PlanRoom& room) {
   const auto largest = std::max_element(
       border.outlines.begin(), border.outlines.end(),
       [](const Polygon& a, const Polygon& b) { return signedArea(a) < signedArea(b); });
   if (largest == border.outlines.end()) return;
-  for (const int attempt : {0, 1, 2}) {
+  for (const int attempt : {0, 1, 2, 3}) {
     const auto drawn = [&](const Polygon& chain) {
-      if (attempt == 0) return withoutSmallLoops(outlineAlongLines(labels, chain, lines, openings));
-      return straightened(labels, chain, attempt == 1 ? OutlineTuning{}.tolerance : 0.0);
+      if (attempt > 1)
+        return straightened(labels, chain, attempt == 2 ? OutlineTuning{}.tolerance : 0.0);
+      return withoutSmallLoops(
+          outlineAlongLines(labels, chain, attempt == 0 ? straight : lines, openings));
     };
     room.outline = drawn(*largest);
     room.holes.clear();
@@ -281,7 +284,7 @@ FloorPlan floorPlan(const OccupancyRaster& whole, const std::vector<MapLine>& ma
     PlanRoom& room = plan.rooms[k];
     room.id = static_cast<int>(k) + 1;
     const std::vector<Passage> openings = passagesOf(regions, static_cast<int>(k));
-    drawRoom(regions.labels, borders[k], straight, openings, room);
+    drawRoom(regions.labels, borders[k], straight, lines, openings, room);
     takeLeaning(openings, room, plan);
     room.area = areaOf(room.outline, room.holes);
     room.perimeter = perimeterOf(room.outline, room.holes);

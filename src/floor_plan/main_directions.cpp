@@ -71,13 +71,15 @@ std::vector<MapLine> alongMainDirections(std::vector<MapLine> lines,
   for (MapLine& line : lines) {
     LineSegment& segment = line.segment;
     const double angle = angleOf(segment);
-    double turn = std::numeric_limits<double>::infinity();
+    const double most = tuning.deviations * std::sqrt(segment.covariance(1, 1));
+    double turn = 0.0, least = std::numeric_limits<double>::infinity();
     for (const MainDirection& direction : directions) {
       const double to = turnTo(angle, direction.angle);
-      if (std::abs(to) < std::abs(turn)) turn = to;
+      if (!(std::abs(to) <= most) || direction.variance >= least) continue;
+      least = direction.variance;
+      turn = to;
     }
-    const double sigma = std::sqrt(segment.covariance(1, 1));
-    if (!(std::abs(turn) <= tuning.deviations * sigma)) continue;
+    if (turn == 0.0) continue;
     const Eigen::Vector2d middle = 0.5 * (segment.start + segment.end);
     const Eigen::Rotation2Dd rotation(turn);
     segment.start = middle + rotation * (segment.start - middle);

@@ -26,8 +26,9 @@ struct DirectionTuning {
 std::vector<MainDirection> mainDirections(const std::vector<MapLine>& lines,
                                           const DirectionTuning& tuning = {});
 
-/// The lines, each turned about its middle into the nearest main direction, where that is no
-/// farther than its own deviations allow. Ends move by no more than what is not known of them.
+/// The lines, each turned about its middle into the best known main direction that its own
+/// deviations allow, if any: lines that are hardly known make directions, too, and no line is to
+/// follow those. Ends move by no more than what is not known of them.
 std::vector<MapLine> alongMainDirections(std::vector<MapLine> lines,
                                          const std::vector<MainDirection>& directions,
                                          const DirectionTuning& tuning = {});

@@ -393,6 +393,15 @@ TEST(MainDirections, TurnAWallAboutItsMiddleAsFarAsItsDeviationsAllow) {
   EXPECT_EQ(alongMainDirections(lines, {})[1].segment.end, lines[1].segment.end);
 }
 
+TEST(MainDirections, TurnAWallIntoTheBestKnownOneNotTheNearest) {
+  const std::vector<MainDirection> directions{{0.0, 1e-8}, {1.3 * kRadiansPerDegree, 1e-4}};
+  const auto turned = [&](double sigma_deg) {
+    return degreesOf(alongMainDirections({lineAt(1.0, sigma_deg)}, directions)[0]);
+  };
+  EXPECT_NEAR(turned(0.6), 0.0, 1e-9);
+  EXPECT_NEAR(turned(0.3), 1.3, 1e-9) << "the other is too far off";
+}
+
 TEST(MainDirections, AreNotMadeByDeviationsThatAreNoNumbers) {
   for (const double odd :
        {std::numeric_limits<double>::quiet_NaN(), -1.0, std::numeric_limits<double>::infinity()}) {
