@@ -196,6 +196,8 @@ class Lines:
 
     def of_side(self, a, b):
         """The sigma of the line that a side of a room was drawn along; None where it was none."""
+        if a == b:
+            return None
         middle = ((a[0] + b[0]) / 2, (a[1] + b[1]) / 2)
         way = [(b[k] - a[k]) / math.dist(a, b) for k in (0, 1)]
         near = [(distance(middle, line), number) for number, line in self.ends.items()

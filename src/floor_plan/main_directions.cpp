@@ -16,8 +16,7 @@ double turnTo(double from, double to) { return std::remainder(to - from, kQuarte
 
 double angleOf(const LineSegment& segment) {
   const Eigen::Vector2d along = segment.direction();
-  const double angle = std::fmod(std::atan2(along.y(), along.x()) + 2.0 * M_PI, kQuarter);
-  return angle < kQuarter ? angle : 0.0;
+  return std::fmod(std::atan2(along.y(), along.x()) + 2.0 * M_PI, kQuarter);
 }
 
 /// How many of their deviations two directions differ by.
